@@ -72,7 +72,20 @@ const std::vector<char>& FaceFinder::faces_of(std::size_t rule) {
     keep_common(faces, others);
   }
   _busy[rule] = 0;
+  // The far field and the plane of symmetry are no faces of the file: a group has them that names them.
+  for (cad::FaceId f = 0; f < _model.face_count(); ++f)
+    if (faces[f] && _model.is_far_field(f) && !names(r, f)) faces[f] = 0;
   return _selected[rule] = std::move(faces);
+}
+
+bool FaceFinder::names(const GroupRule& rule, cad::FaceId face) const {
+  const auto is_named = [&](const std::string& text) {
+    return text == _model.face(face).name || text == _model.patches()[_model.face(face).patch];
+  };
+  const auto name = [&](const FaceConditions& c) {
+    return std::any_of(c.faces.begin(), c.faces.end(), is_named);
+  };
+  return is_named(rule.name) || name(rule.all) || std::any_of(rule.any.begin(), rule.any.end(), name);
 }
 
 std::vector<FoundFaces> FaceFinder::explain(std::size_t rule) {
@@ -152,10 +165,10 @@ void FaceFinder::refuse(const GroupRule& rule, const char* what, const std::stri
   const std::string nearest =
       near.empty() ? fmt::format("the geometry gives no face a {}", what)
                    : fmt::format("the nearest that faces have are '{}'", fmt::join(near, "', '"));
-  throw std::invalid_argument(fmt::format(
-      "{}: no face has a {} like '{}'; {}. Remedy: `aeroloom info FILE` and `aeroloom check` list "
-      "them; `optional: true` where the group may be empty",
-      origin_of(rule), what, text, nearest));
+  throw std::invalid_argument(
+      fmt::format("{}: no face has a {} like '{}'; {}. Remedy: `aeroloom info FILE` lists "
+                  "them; `optional: true` where the group may be empty",
+                  origin_of(rule), what, text, nearest));
 }
 
 std::vector<char> FaceFinder::with_names(const std::vector<std::string>& patterns, const GroupRule& rule,
@@ -197,8 +210,8 @@ std::vector<char> FaceFinder::with_numbers(const std::vector<std::string>& ids, 
       for (cad::FaceId f = 0; f < _model.face_count(); ++f)
         largest = std::max(largest, _model.face(f).number);
       throw std::invalid_argument(
-          fmt::format("{}: no face has the id {}; the largest is {}. Remedy: `aeroloom check` writes the ids "
-                      "of all faces to check.json",
+          fmt::format("{}: no face has the id {}; the largest is {}. Remedy: `aeroloom check` of the case "
+                      "without this group writes the ids of all faces to check.json",
                       origin_of(rule), text, largest));
     }
     add_all(faces, more);

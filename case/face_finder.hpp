@@ -27,7 +27,8 @@ public:
   FaceFinder(const cad::Model& model, const std::vector<GroupRule>& rules)
       : _model(model), _rules(rules), _selected(rules.size()), _busy(rules.size(), 0) {}
 
-  /// The faces that a rule selects, whatever others do.
+  /// The faces that a rule selects, whatever others do. Far field and plane of symmetry only where it names
+  /// them.
   const std::vector<char>& faces_of(std::size_t rule);
   /// What each of its conditions finds by itself.
   std::vector<FoundFaces> explain(std::size_t rule);
@@ -45,6 +46,8 @@ private:
   std::vector<char> within_box(const geometry::Box& box) const;
   std::vector<char> beside(const std::vector<std::string>& others, const GroupRule& rule);
   std::vector<char> where(const std::function<bool(cad::FaceId)>& holds) const;
+  /// Whether the rule has the face's name, or that of its patch, word for word.
+  bool names(const GroupRule& rule, cad::FaceId face) const;
   [[noreturn]] void refuse(const GroupRule& rule, const char* what, const std::string& text,
                            const Names& names) const;
 

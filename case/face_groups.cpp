@@ -80,8 +80,9 @@ std::vector<std::int32_t> find_groups(const cad::Model& model, const std::vector
           fmt::format("{}: all faces that it selects ({}) belong to groups before it. Remedy: put it first",
                       origin_of(rules[r]), all));
     throw std::invalid_argument(fmt::format(
-        "{}: no face meets all that it asks for; of {} faces: {}. Remedy: `aeroloom check` writes names, "
-        "layers, colours, areas and boxes of all faces to check.json; `optional: true` where it may be empty",
+        "{}: no face meets all that it asks for; of {} faces: {}. Remedy: `aeroloom check` of the case "
+        "without this group writes names, layers, colours, areas and boxes of all faces to check.json; "
+        "`optional: true` where it may be empty",
         origin_of(rules[r]), selected.size(), describe_found(finder.explain(r))));
   }
   return group_of_face;

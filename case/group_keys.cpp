@@ -144,6 +144,11 @@ void check_groups(const KeyTable& keys, const std::deque<GroupRule>& rules,
     } catch (const std::invalid_argument& error) {
       throw CaseError(where + error.what());
     }
+    for (const auto* list : {&rule.any, &rule.except}) {
+      if (std::any_of(list->begin(), list->end(), [](const FaceConditions& each) { return each.empty(); }))
+        throw CaseError(fmt::format("{}'{}.{}': a selection without a condition has all faces", where, path,
+                                    list == &rule.any ? "any" : "except"));
+    }
     const bool is_patch = std::any_of(patches.begin(), patches.end(),
                                       [&](const PatchRule& patch) { return patch.name == rule.name; });
     if (is_patch)

@@ -27,8 +27,15 @@ cases::SizingRequest with_bounds(const cases::SizingRequest& request, const sizi
                            &sizing::GivenSizes::growth, &sizing::GivenSizes::curvature_angle})
     fill(bound);
   // What a user gives binds what follows from the level.
-  result.minimum = std::min(*result.minimum, *result.surface_maximum);
-  result.maximum = std::max(*result.maximum, *result.minimum);
+  if (!request.surface_maximum) {
+    if (request.maximum) result.surface_maximum = std::min(*result.surface_maximum, *request.maximum);
+    if (request.minimum) result.surface_maximum = std::max(*result.surface_maximum, *request.minimum);
+  }
+  if (!request.minimum)
+    result.minimum = std::min({*result.minimum, *result.surface_maximum, *result.maximum});
+  if (!request.maximum)
+    result.maximum = std::max({*result.maximum, *result.surface_maximum, *result.minimum});
+  if (!request.feature_minimum) result.feature_minimum = result.minimum;
   result.level.reset();
   return result;
 }
@@ -75,7 +82,14 @@ public:
     auto found = std::find(all.begin(), all.end(), *_request.level);
     const double factor = sizes(all.front()).factor;
     while (found != all.begin() && coarsest * std::pow(factor / sizes(*found).factor, 3) > budget) --found;
-    while (found != all.begin() && count(*found) > budget) --found;
+    const auto asked = std::find(all.begin(), all.end(), *_request.level);
+    if (found == all.begin() || count(*found) <= budget) {
+      // Counts may grow by less than the cube, above all where sizes are given that do not follow the level.
+      while (found != asked && count(*(found + 1)) <= budget) ++found;
+      return *found;
+    }
+    do --found;
+    while (found != all.begin() && count(*found) > budget);
     return *found;
   }
 

@@ -217,6 +217,7 @@ Json domain_json(const cases::Case& input, const cad::Domain& domain,
     Json row = report::face_row(face.name, domain.model.face_place(f));
     const std::string& patch = domain.model.patches()[static_cast<std::size_t>(face.patch)];
     row["id"] = face.number >= 0 ? Json(face.number) : Json();
+    row["area"] = domain.model.face_area(f);  // as the condition `area` of a group has it
     row["patch"] = patch;
     row["group"] = groups.count(patch) > 0 ? Json(patch) : Json();
     for (const auto& [key, text] :

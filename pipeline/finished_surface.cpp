@@ -80,6 +80,10 @@ void inspect_surface(const Communicator& communicator, const cad::Model& model, 
   require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
   record.face_table = table_of_faces(communicator, model, surface.mesh);
+  // A patch whose faces were all closed is gone from the model, and those after it have other numbers.
+  record.patch_types.clear();
+  for (const std::string& patch : model.patches())
+    record.patch_types.push_back(record.type_of_patch.at(patch));
   record.patches = table_of_patches(model, record.face_table, record.patch_types);
 }
 

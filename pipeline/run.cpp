@@ -102,7 +102,8 @@ private:
     }
     cases::TypedPatches patches =
         domain::find_patches(_communicator, find_or_load_domain(), _input, _record.clock);
-    _record.patch_types = std::move(patches.types);
+    for (std::size_t p = 0; p < patches.types.size(); ++p)
+      _record.type_of_patch[patches.model.patches()[p]] = patches.types[p];
     if (_communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     describe(patches.model);

@@ -101,6 +101,8 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   if (!split_where_coarse(SeedTree(_communicator, {&at_sources}, _slope), most_leaves / growth_by_division))
     return std::nullopt;
   _cells.balance();
+  if (_cells.leaf_count() > std::numeric_limits<std::int32_t>::max())
+    throw std::invalid_argument("sizing: the field would have more than 2^31 leaves. Remedy: larger sizes");
   const Octree octree = grow_octree();
   const SeedTree seeds = plant_seeds(octree, at_sources);
   std::vector<float> mine;

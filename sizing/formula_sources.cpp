@@ -79,7 +79,11 @@ std::vector<SizeSource> sources_of_formula(const RootCube& root, const FormulaSi
     for (const Vec3 to : corner_directions())
       asked.least = std::min(asked.least, size_at(middle + 0.5 * half * to));
     asked.resolution = meets(space.body, middle, half) ? std::min(in_domain, at_body) : in_domain;
-    if (2 * half > asked.least) return asked;  // it will be divided
+    // It will be divided, unless it is as small as cells can be.
+    if (2 * half > asked.least) {
+      asked.size = asked.least;
+      return asked;
+    }
     // A corner gets the least that cells around it ask for: were that the size in their middles, the field
     // would lie below the formula by its slope times half a diagonal.
     asked.size = at_middle;

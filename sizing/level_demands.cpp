@@ -14,6 +14,10 @@ constexpr int intervals_of_edges = 128;
 /// The diagonal of everything over the largest size, at B and at coarse: as where sizes are chosen.
 constexpr double domain_over_maximum = 20;
 
+/// Of the local chord, and of the widest place of a strip: where it is thinner, as where it runs out to a
+/// point, it counts as sharp. Chosen, not measured.
+constexpr double thinnest = 1e-4, thinnest_of_widest = 0.05;
+
 SizeLine along(const EdgeLine& edge, double share) {
   SizeLine line{edge.points, {}};
   for (const double chord : edge.chords) line.sizes.push_back(share * chord);
@@ -25,10 +29,15 @@ SizeLine along(const EdgeLine& edge, double share) {
 void add_trailing(const LiftingElement& element, const LevelSizes& level, std::vector<SizeLine>& lines) {
   SizeLine border = along(element.trailing, level.edge);
   if (element.opposite.empty()) return lines.push_back(std::move(border));
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < border.points.size(); ++i)
+    widths.push_back(distance(border.points[i], element.opposite[i]));
+  const double widest = *std::max_element(widths.begin(), widths.end());
   double most_across = 1;
   for (std::size_t i = 0; i < border.points.size(); ++i) {
-    const double width = distance(border.points[i], element.opposite[i]);
-    if (width > 0) border.sizes[i] = std::min(border.sizes[i], width / level.trailing_cells);
+    const double width = widths[i];
+    if (width > std::max(thinnest * element.trailing.chords[i], thinnest_of_widest * widest))
+      border.sizes[i] = std::min(border.sizes[i], width / level.trailing_cells);
     most_across = std::max(most_across, width / border.sizes[i]);
   }
   const int across = static_cast<int>(std::ceil(most_across));

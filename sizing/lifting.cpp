@@ -204,10 +204,9 @@ private:
 struct Planform {
   double area = 0, square = 0;
   geometry::Box box;
-  bool touches_far_field = false;
 };
 
-Planform planform_of(const cad::Model& model, const LiftingElement& element, Vec3 flow) {
+Planform planform_of(const LiftingElement& element, Vec3 flow) {
   Planform form;
   for (std::size_t i = 0; i < element.stations.size(); ++i) {
     const LiftingStation& b = element.stations[i];
@@ -219,18 +218,11 @@ Planform planform_of(const cad::Model& model, const LiftingElement& element, Vec
     form.area += 0.5 * span * (a.chord + b.chord);
     form.square += span / 3 * (a.chord * a.chord + a.chord * b.chord + b.chord * b.chord);
   }
-  for (const cad::EdgeId id : element.ends) {
-    const auto& faces = model.edge(id).faces;
-    form.touches_far_field = form.touches_far_field || std::any_of(faces.begin(), faces.end(), [&](FaceId f) {
-                               return model.is_far_field(f);
-                             });
-  }
   return form;
 }
 
 /// Elements one after the other, by the vertices in which their trailing edges end.
-std::vector<Planform> planforms(const cad::Model& model, const std::vector<LiftingElement>& elements,
-                                Vec3 flow) {
+std::vector<Planform> planforms(const std::vector<LiftingElement>& elements, Vec3 flow) {
   geometry::DisjointSets<std::int32_t> sets(elements.size());
   const auto count = static_cast<std::int32_t>(elements.size());
   std::map<cad::VertexId, std::int32_t> user;
@@ -240,21 +232,31 @@ std::vector<Planform> planforms(const cad::Model& model, const std::vector<Lifti
   }
   std::map<std::int32_t, Planform> groups;
   for (std::int32_t i = 0; i < count; ++i) {
-    const Planform form = planform_of(model, elements[i], flow);
+    const Planform form = planform_of(elements[i], flow);
     Planform& group = groups[sets.root(i)];
     group.area += form.area, group.square += form.square;
     group.box.add(form.box.low), group.box.add(form.box.high);
-    group.touches_far_field = group.touches_far_field || form.touches_far_field;
   }
   std::vector<Planform> all;
   for (const auto& [first, group] : groups) all.push_back(group);
   return all;
 }
 
+/// Whether a body ends in the plane of symmetry.
+bool is_half_model(const cad::Model& model) {
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
+    const auto& faces = model.edge(e).faces;
+    const auto outer =
+        std::count_if(faces.begin(), faces.end(), [&](FaceId f) { return model.is_far_field(f); });
+    if (outer > 0 && outer < static_cast<std::ptrdiff_t>(faces.size())) return true;
+  }
+  return false;
+}
+
 void add_reference(const cad::Model& model, const geometry::Box& body, Vec3 flow, LiftingBodies& bodies) {
   constexpr double alike = 0.01;  // areas of a left and a right wing
   constexpr double whole = 0.95;  // of the body's extent: a wing alone, from tip to tip
-  const std::vector<Planform> all = planforms(model, bodies.elements, flow);
+  const std::vector<Planform> all = planforms(bodies.elements, flow);
   const Planform* largest = &all.front();
   for (const Planform& each : all)
     if (each.area > largest->area) largest = &each;
@@ -267,8 +269,9 @@ void add_reference(const cad::Model& model, const geometry::Box& body, Vec3 flow
   const bool has_partner = std::any_of(all.begin(), all.end(), [&](const Planform& each) {
     return &each != largest && std::abs(each.area - largest->area) < alike * largest->area;
   });
-  const bool is_alone = !largest->touches_far_field && largest->box.size()[axis] > whole * body.size()[axis];
-  bodies.semispan = (has_partner || is_alone ? 0.5 : 1) * body.size()[axis];
+  const bool is_alone = largest->box.size()[axis] > whole * body.size()[axis];
+  bodies.semispan =
+      !is_half_model(model) && (has_partner || is_alone) ? 0.5 * body.size()[axis] : body.size()[axis];
 }
 
 }  // namespace

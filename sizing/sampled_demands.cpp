@@ -145,9 +145,11 @@ void ModelSampler::lay_surfaces() {
   });
   for (const SizedSurface& each : surfaces) {
     if (each.empty())
-      throw std::invalid_argument(each.key() +
-                                  ": the model has no edges there. Remedy: other patterns, or another "
-                                  "direction or box");
+      throw std::invalid_argument(
+          each.key() +
+          ": the model has no edges there. Remedy: other patterns, or another "
+          "direction or box; geometry.trailing_edges: keep, where a trailing edge is named "
+          "that would be closed");
   }
   _surfaces = std::make_shared<const std::vector<SizedSurface>>(std::move(surfaces));
 }

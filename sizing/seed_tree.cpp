@@ -103,8 +103,6 @@ SeedTree::Layer SeedTree::layer_above(const Layer& below) {
 struct SeedTree::PartOfRank {
   std::vector<double> sizes;
   std::vector<Layer> layers;
-  std::size_t below =
-      0;  ///< the number among all of the first seed, or group, that the next level is made of
 
   PartOfRank() = default;
   PartOfRank(std::span<const SharedSeeds* const> lists, parallel::Rank rank) {
@@ -115,12 +113,11 @@ struct SeedTree::PartOfRank {
     layers.push_back(lowest_layer(seeds));
     while (layers.size() < levels_of_ranks) layers.push_back(layer_above(layers.back()));
   }
-  /// The groups of a level, numbers of their members counted among all; the first has this number itself.
-  /// Level by level from the lowest on.
-  std::vector<Group>& numbered(std::size_t level, std::size_t first) {
-    for (Group& each : layers[level].groups) each.first += static_cast<std::uint32_t>(below);
-    below = first;
-    return layers[level].groups;
+  /// The groups of a level, where the first of their members has this number among all.
+  std::vector<Group> numbered(std::size_t level, std::size_t first_below) const {
+    std::vector<Group> groups = layers[level].groups;
+    for (Group& each : groups) each.first += static_cast<std::uint32_t>(first_below);
+    return groups;
   }
 };
 
@@ -128,31 +125,40 @@ struct SeedTree::PartOfRank {
 SeedTree::SeedTree(const parallel::Communicator& communicator,
                    std::initializer_list<const SharedSeeds*> lists, double slope)
     : _slope(slope), _steps_per_size(1 / slope) {
-  PartOfRank mine;
-  parallel::agree(communicator, [&] { mine = PartOfRank(lists, communicator.rank()); });
-  std::map<parallel::Rank, PartOfRank> others;
-  const auto before = [&](std::size_t count) {
-    return static_cast<std::size_t>(communicator.exclusive_scan(static_cast<std::int64_t>(count)));
+  std::map<parallel::Rank, PartOfRank> parts;
+  const auto part_of = [&](parallel::Rank rank) -> const PartOfRank& {
+    const auto known = parts.find(rank);
+    return known != parts.end() ? known->second : parts.emplace(rank, PartOfRank(lists, rank)).first->second;
   };
-  mine.below = before(mine.sizes.size());
-  const auto write_sizes = [&](parallel::Rank rank, std::size_t first, std::span<double> to) {
-    PartOfRank& part = others[rank] = PartOfRank(lists, rank);
-    part.below = first;
-    std::copy(part.sizes.begin(), part.sizes.end(), to.begin());
+  const parallel::Rank me = communicator.rank();
+  parallel::agree(communicator, [&] { part_of(me); });
+  // Of each rank the first number among the items that the level being made is made of.
+  std::vector<std::size_t> firsts;
+  const auto note_firsts = [&](std::size_t own) {
+    std::size_t before = 0;
+    firsts.clear();
+    for (const auto count : communicator.all_gather_values(static_cast<std::uint64_t>(own)))
+      firsts.push_back(std::exchange(before, before + count));
   };
-  _sizes = parallel::NodeArray<double>::composed(communicator, std::move(mine.sizes), write_sizes);
+  const auto write_sizes = [&](parallel::Rank rank, std::size_t, std::span<double> to) {
+    std::copy(part_of(rank).sizes.begin(), part_of(rank).sizes.end(), to.begin());
+  };
+  note_firsts(part_of(me).sizes.size());
+  _sizes = parallel::NodeArray<double>::composed(communicator, part_of(me).sizes, write_sizes);
   for (std::size_t level = 0; level < levels_of_ranks; ++level) {
-    std::vector<Group>& groups = mine.numbered(level, before(mine.layers[level].groups.size()));
-    const auto write = [&](parallel::Rank rank, std::size_t first, std::span<Group> to) {
-      const std::vector<Group>& theirs = others.at(rank).numbered(level, first);
+    const auto write = [&](parallel::Rank rank, std::size_t, std::span<Group> to) {
+      const std::vector<Group> theirs = part_of(rank).numbered(level, firsts[static_cast<std::size_t>(rank)]);
       std::copy(theirs.begin(), theirs.end(), to.begin());
     };
-    _levels.push_back(parallel::NodeArray<Group>::composed(communicator, std::move(groups), write));
+    std::vector<Group> mine = part_of(me).numbered(level, firsts[static_cast<std::size_t>(me)]);
+    const std::size_t count = mine.size();
+    _levels.push_back(parallel::NodeArray<Group>::composed(communicator, std::move(mine), write));
+    note_firsts(count);
   }
   // The levels above are small, and every rank makes them.
   const std::span<const Group> last = _levels.back().items();
   Layer above{{last.begin(), last.end()},
-              communicator.all_gather_items<std::uint64_t>(mine.layers.back().keys)};
+              communicator.all_gather_items<std::uint64_t>(part_of(me).layers.back().keys)};
   while (above.groups.size() > 1) {
     above = layer_above(above);
     _levels.emplace_back(above.groups);

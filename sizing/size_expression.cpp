@@ -15,6 +15,23 @@ struct SizeExpression::Parsed {
   mu::Parser parser;
 };
 
+namespace {
+
+/// muparser takes `x = 1` for an assignment.
+bool assigns(const std::string& text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '=') continue;
+    if (i + 1 < text.size() && text[i + 1] == '=') {
+      ++i;
+    } else if (i == 0 || std::string("<>!").find(text[i - 1]) == std::string::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 SizeExpression::SizeExpression(const std::string& text) : _parsed(std::make_shared<Parsed>()) {
   mu::Parser& parser = _parsed->parser;
   _parsed->text = text;
@@ -32,8 +49,7 @@ SizeExpression::SizeExpression(const std::string& text) : _parsed(std::make_shar
     if (!message.empty() && message.back() == '.') message.pop_back();
     throw std::invalid_argument(message);
   }
-  // muparser takes `x = 1` for an assignment.
-  if (norm(_parsed->place) != 0) throw std::invalid_argument("x, y and z cannot be assigned to; == compares");
+  if (assigns(text)) throw std::invalid_argument("x, y and z cannot be assigned to; == compares");
 }
 
 double SizeExpression::operator()(geometry::Vec3 place) const {

@@ -36,8 +36,15 @@ bool matches_glob(const std::string& name, const std::string& pattern) {
 
 NamePattern::NamePattern(const std::string& text) : _text(text) {
   if (!text.starts_with(expression_mark)) return;
+  if (text == expression_mark)
+    throw std::invalid_argument(fmt::format("'{}' has no regular expression, and would match all", text));
+  auto options = std::regex::ECMAScript | std::regex::optimize;
+#ifdef __GLIBCXX__
+  // In time that grows with the name alone; refuses back references.
+  options |= std::regex_constants::__polynomial;
+#endif
   try {
-    _expression.emplace(text.substr(expression_mark.size()), std::regex::ECMAScript | std::regex::optimize);
+    _expression.emplace(text.substr(expression_mark.size()), options);
   } catch (const std::regex_error& error) {
     throw std::invalid_argument(fmt::format("'{}' is no regular expression: {}", text, error.what()));
   }

@@ -201,6 +201,16 @@ TEST(FaceGroups, StrictGroupsLeaveNoFaceOut) {
   const cad::Model half = cad::prepare_domain(options).model;
   groups.rules = {group("aircraft", {.parts = {"transport"}})};
   EXPECT_NO_THROW(apply_patch_rules(half, {}, groups));
+  // Nor does a group get it that does not name it.
+  const auto has_far_field = [&](const GroupRule& rule) {
+    const std::vector<std::int32_t> found = find_groups(half, {rule});
+    for (cad::FaceId f = 0; f < half.face_count(); ++f)
+      if (half.is_far_field(f) && found[f] != no_group) return true;
+    return false;
+  };
+  EXPECT_FALSE(has_far_field(group("rest", {.faces = {"*"}})));
+  EXPECT_TRUE(has_far_field(group("outer", {.faces = {"farfield"}})));
+  EXPECT_TRUE(has_far_field(group("symmetry", {})));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ import tempfile
 CASE = """
 geometry: {builtin: transport}
 farfield: {extent: 3}
-sizing: {level: C, growth: 2, curvature_angle: 40, surface_maximum: 0.8, maximum: 20}
+sizing: {level: B, solver: cell, growth: 3, curvature_angle: 60, surface_maximum: 1.5, maximum: 30}
 """
 FACTORS = {"A": 1.5, "B": 1, "C": 2 / 3, "D": 0.5, "E": 1 / 3, "F": 2 / 9}
 
@@ -32,12 +32,12 @@ def main():
     program = sys.argv[1]
     done, forecast = check(program)
     assert done.returncode == 0, done.stderr
-    assert "sizing: level C:" in done.stdout + done.stderr, done.stdout + done.stderr
+    assert "sizing: level B:" in done.stdout + done.stderr, done.stdout + done.stderr
     levels = {row["level"]: row for row in forecast["levels"]}
     assert list(levels) == list(FACTORS), levels
-    assert levels["C"]["tetrahedra"] == forecast["tetrahedra"] and levels["C"]["triangles"] == forecast["triangles"]
+    assert levels["B"]["tetrahedra"] == forecast["tetrahedra"] and levels["B"]["triangles"] == forecast["triangles"]
     for name, factor in FACTORS.items():
-        finer = FACTORS["C"] / factor
+        finer = FACTORS["B"] / factor
         assert abs(levels[name]["tetrahedra"] / (forecast["tetrahedra"] * finer ** 3) - 1) < 0.02, levels
         assert abs(levels[name]["triangles"] / (forecast["triangles"] * finer ** 2) - 1) < 0.02, levels
 

@@ -19,6 +19,7 @@
 #include "aeroloom/surface/surface_mesher.hpp"
 #include "aeroloom/volume/volume_mesher.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,10 +66,11 @@ struct RunRecord {
   double unit_in_metres = 0;
   geometry::Box bounds;
   std::int32_t regions = 0, faces = 0, edges = 0;
-  std::vector<std::string> face_names;        ///< by face id
-  std::vector<mesh::PatchType> patch_types;   ///< by patch of the model
-  domain::TrailingEdgeReport trailing_edges;  ///< what became of blunt ones
-  cad::Changes joined_faces;                  ///< narrow faces that vanished in their neighbours
+  std::vector<std::string> face_names;                   ///< by face id
+  std::map<std::string, mesh::PatchType> type_of_patch;  ///< by its name
+  std::vector<mesh::PatchType> patch_types;              ///< by patch of the model
+  domain::TrailingEdgeReport trailing_edges;             ///< what became of blunt ones
+  cad::Changes joined_faces;                             ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
   std::optional<domain::FeatureReport> features;
   std::vector<domain::NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
