@@ -117,7 +117,8 @@ CornerSizes CornerSizes::unpacked(const parallel::Communicator& communicator, Ce
   if (write_places(leaves, {0, leaves.size()}, 0, places) != packed.size())
     throw std::logic_error("corner sizes of an octree with other leaves");
   CornerSizes sizes;
-  sizes._packed = packed.shared(communicator);
+  sizes._packed = std::move(packed);
+  sizes._packed = sizes._packed.shared(communicator);
   sizes._places = parallel::NodeArray<std::uint64_t>(communicator, std::move(places));
   return sizes;
 }

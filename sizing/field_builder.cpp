@@ -214,6 +214,7 @@ SeedTree FieldBuilder::plant_seeds(const Octree& octree, const SharedSeeds& at_s
   at_masters = parallel::deliver(_communicator, std::move(at_masters), owner);
   keep_smallest(at_masters);
   std::vector<SizeSeed> seeds;
+  seeds.reserve(at_masters.size());
   for (const PointSize& at : at_masters) seeds.push_back({grid_point(at.key), 0, at.size});
   const SharedSeeds shared(_communicator, seeds);
   return SeedTree(_communicator, {&at_sources, &shared}, _slope);

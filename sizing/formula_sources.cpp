@@ -57,8 +57,9 @@ double cells_of_formula(const FormulaSize& formula, const FormulaSpace& space) {
   const double volume = step.x * step.y * step.z;
   double cells = 0;
   for (int i = 0; i < places * places * places; ++i) {
-    const Vec3 p = space.domain.low + Vec3{(i % places + 0.5) * step.x, (i / places % places + 0.5) * step.y,
-                                           (i / places / places + 0.5) * step.z};
+    const int row = i / places, layer = row / places;
+    const Vec3 p = space.domain.low +
+                   Vec3{(i % places + 0.5) * step.x, (row % places + 0.5) * step.y, (layer + 0.5) * step.z};
     const double size = size_of_formula(formula, space, p);
     if (size < space.limit) cells += volume / std::pow(mean_edge * size, 3);
   }

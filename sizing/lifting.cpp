@@ -238,6 +238,7 @@ std::vector<Planform> planforms(const std::vector<LiftingElement>& elements, Vec
     group.box.add(form.box.low), group.box.add(form.box.high);
   }
   std::vector<Planform> all;
+  all.reserve(groups.size());
   for (const auto& [first, group] : groups) all.push_back(group);
   return all;
 }
@@ -293,6 +294,7 @@ LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow) {
   LiftingBodies bodies;
   parallel::agree(communicator, [&] {
     std::vector<TrailingSeed> seeds;
+    seeds.reserve(all_strips.size() + all_edges.size());
     for (const FaceId f : all_strips) seeds.push_back(*blunt_seed(model, f, flow));
     for (const cad::EdgeId e : all_edges) seeds.push_back(*sharp_seed(model, e, flow));
     std::map<cad::VertexId, int> users;

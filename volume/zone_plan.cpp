@@ -1,5 +1,6 @@
 #include "volume/zone_plan.hpp"
 
+#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "volume/halo.hpp"
 
@@ -21,7 +22,9 @@ public:
     blocks.reserve(store.triangles.size());
     for (const SurfaceTriangle& t : store.triangles) {
       const geometry::Vec3 centre = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
-      blocks.push_back(store.finder.leaf_of_place(centre).block);
+      // Of a large triangle beside small blocks the centre may lie in one that is not known, so not own.
+      blocks.push_back(
+          store.lattice.tree.any_at(store.lattice.frame.cell_at(store.lattice.frame.to_grid(centre))));
       if (is_own(blocks.back())) ++_starts[blocks.back() - _first + 1];
     }
     std::partial_sum(_starts.begin(), _starts.end(), _starts.begin());
@@ -144,10 +147,10 @@ ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore&
                     std::span<const ZoneIndex> zones, std::span<const double> widths,
                     parallel::StageClock& clock) {
   ZoneShipment mine;
-  {
+  parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
     mine = std::move(Finding(store, zones, widths).found);
-  }
+  });
   ZonePlan plan;
   plan.loads = add_up(communicator, mine, zones, widths.size());
   const std::vector<Assignment> assignments = schedule_zones(plan.loads, communicator.size(), widths.size());
