@@ -77,6 +77,12 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   for (const PatchRule& rule : draft.patches)
     check_patterns(keys, "patches." + rule.name + ".faces", rule.faces);
   check_patterns(keys, "geometry.sharpen_faces", draft.result.domain.trailing_edges.faces);
+  for (const SourceRule& rule : draft.sources)
+    check_patterns(keys, "sizing.sources." + rule.name + ".behind", rule.behind);
+  for (const WallRule& rule : draft.walls)
+    check_patterns(keys, "sizing.walls." + rule.name + ".faces", rule.faces);
+  for (const EdgeRule& rule : draft.edges)
+    check_patterns(keys, "sizing.edges." + rule.name + ".between", rule.between);
   check_walls(keys, draft.walls);
   check_edges(keys, draft.edges);
   Case result = draft.result;

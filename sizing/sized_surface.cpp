@@ -193,12 +193,12 @@ double SizedSurface::cells(const RootCube& root, double coarser) const {
 }
 
 std::vector<bool> faces_like(const cad::Model& model, const std::vector<std::string>& patterns) {
+  const std::vector<cad::NamePattern> compiled(patterns.begin(), patterns.end());
   std::vector<bool> like(model.face_count());
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Face& face = model.face(f);
-    like[f] = std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
-      return cad::matches_pattern(face.name, pattern) ||
-             cad::matches_pattern(model.patches()[face.patch], pattern);
+    like[f] = std::any_of(compiled.begin(), compiled.end(), [&](const cad::NamePattern& pattern) {
+      return pattern.matches(face.name) || pattern.matches(model.patches()[face.patch]);
     });
   }
   return like;

@@ -38,6 +38,10 @@ TEST_F(CaseTest, WallsWakesAndEdgesHaveWhatTheyNeed) {
     return error_of("geometry: {file: a.step}\nsizing: {" + sizing + "}\n");
   };
   EXPECT_NE(refused("walls: {a: {size: 1}}").find("'sizing.walls.a' needs 'distance'"), std::string::npos);
+  EXPECT_NE(refused("walls: {a: {faces: ['re:('], size: 1, distance: 1}}").find("no regular expression"),
+            std::string::npos);
+  EXPECT_NE(refused("walls: {a: {faces: ['re:'], size: 1, distance: 1}}").find("would match all"),
+            std::string::npos);
   EXPECT_NE(refused("edges: {a: {size: 1}}").find("needs 'between'"), std::string::npos);
   EXPECT_NE(refused("edges: {a: {size: 1, low: [0, 0, 0]}}").find("needs both"), std::string::npos);
   const std::string wake = "sources: {a: {shape: wake, size: 1, length: 1, direction: ";

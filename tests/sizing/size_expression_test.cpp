@@ -13,8 +13,6 @@
 namespace aeroloom::sizing {
 namespace {
 
-using geometry::Vec3;
-
 std::string refusal(const std::string& text) {
   try {
     const SizeExpression parsed(text);
@@ -36,7 +34,9 @@ TEST(SizeExpression, NamesWhatIsNoPartOfAFormula) {
   EXPECT_NE(refusal("0.1*foo").find("\"foo\""), std::string::npos);
   EXPECT_NE(refusal("sqrt(x").find("parenthesis"), std::string::npos);
   EXPECT_NE(refusal("1, 2").find("one value"), std::string::npos);
-  EXPECT_NE(refusal("x = 1").find("assigned"), std::string::npos);
+  for (const char* assignment : {"x = 1", "y = x", "x > 1 ? (y = 2) : 3"})
+    EXPECT_NE(refusal(assignment).find("assigned"), std::string::npos) << assignment;
+  EXPECT_EQ(refusal("x == 1 ? 2 : x >= 1 ? 3 : 4"), "");
 }
 
 TEST(SizeExpression, NamesThePlaceWhereItIsNoSize) {
