@@ -35,6 +35,10 @@ void check_geometry(const KeyTable& keys, const CaseDraft& draft, const std::str
     throw CaseError(at(needless) +
                     fmt::format("'geometry.{}' needs 'geometry.trailing_edges: sharpen'", needless));
   }
+  if (draft.extent_unit == cad::ExtentUnit::reference && !draft.result.sizing.reference_length) {
+    throw CaseError(keys.where("farfield.unit") +
+                    ": 'farfield.unit: reference_length' needs 'sizing.reference_length', such as a chord");
+  }
   if (draft.result.domain.kind != cad::DomainKind::fluid) return;
   if (built_in)
     throw CaseError(at("domain") + "the built-in geometry is a body, 'geometry.domain' cannot be fluid");
@@ -83,6 +87,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
     check_patterns(keys, "sizing.walls." + rule.name + ".faces", rule.faces);
   for (const EdgeRule& rule : draft.edges)
     check_patterns(keys, "sizing.edges." + rule.name + ".between", rule.between);
+  check_patterns(keys, "sizing.lifting", draft.result.sizing.lifting);
   check_walls(keys, draft.walls);
   check_edges(keys, draft.edges);
   Case result = draft.result;

@@ -54,6 +54,10 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
       "proximity", sizing.proximity, Range::between(0, 20, "elements"),
       {"How many elements lie across a thin part of the body and across a gap, at least; 0: any number.",
        shortest(preset.proximity), shortest(preset.proximity)});
+  keys.number("gap_proximity", sizing.gap_proximity, Range::between(0, 20, "elements"),
+              {"The same across gaps alone, between walls with fluid between them: slat and wing, wing and "
+               "nacelle.",
+               "`proximity`", "4"});
   keys.number(
       "target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
       common({"How many tetrahedra the sizes chosen from the model aim at, features finer than the "

@@ -80,11 +80,11 @@ void declare_trailing_edges(KeyTable& keys, CaseDraft& draft) {
 
 void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   using cad::DomainKind;
-  keys.text(
+  keys.path(
       "file", draft.result.domain.file,
       common({"The CAD file: STEP, IGES or BREP. Its path is relative to the case's folder, or else to the "
-              "working directory; on the command line to the working directory. Needed, unless `builtin` is "
-              "given.",
+              "working directory; on the command line to the working directory. `${NAME}` in the path is an "
+              "environment variable. Needed, unless `builtin` is given.",
               "", "aircraft.step"}));
   keys.choice<Builtin>(
       "builtin", draft.builtin, {{"transport", Builtin::transport}},
@@ -122,14 +122,19 @@ void declare_far_field(KeyTable& keys, CaseDraft& draft) {
                              common("Shape of the far field, around the body's centre. `hemisphere` makes a "
                                     "half model."));
   keys.number(
-      "extent", draft.extent, Range::above(0, "reference lengths"),
+      "extent", draft.extent, Range::above(0, "times `unit`"),
       sets("FarFieldOptions::extent",
            common({"How far away the far field is: radius, half side of the box, radius and half length of "
-                   "the cylinder. The reference length is the largest extent of the body.",
+                   "the cylinder. `unit` says what it counts: the largest extent of the body, if left out.",
                    "10; 100 semispans with a level of sizes", "10"})));
   keys.choice<std::optional<cad::ExtentUnit>>(
-      "unit", draft.extent_unit, {{"body", cad::ExtentUnit::body}, {"semispan", cad::ExtentUnit::semispan}},
-      {"What `extent` counts: lengths of the body, or semispans. A semispan is half of what the body extends "
+      "unit", draft.extent_unit,
+      {{"body", cad::ExtentUnit::body},
+       {"semispan", cad::ExtentUnit::semispan},
+       {"length", cad::ExtentUnit::model},
+       {"reference_length", cad::ExtentUnit::reference}},
+      {"What `extent` counts: lengths of the body, semispans, the length unit of the geometry, or "
+       "`sizing.reference_length`, such as a chord. A semispan is half of what the body extends "
        "across the flow, of half models all from the plane of symmetry on.",
        "body", "body"});
   keys.choice<Axis>("axis", draft.far_field.axis, {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}},

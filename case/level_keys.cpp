@@ -44,6 +44,10 @@ void declare_levels(KeyTable& keys, SizingRequest& request) {
   keys.point("flow", request.flow,
              {"Direction of the flow, of any length: leading edges lie against it, wakes along it.",
               "along x: [1, 0, 0]", "[0, 0, 1]"});
+  keys.texts("lifting", request.lifting,
+             {"Patterns of faces' or patches' names: a level looks for trailing edges on these alone. Name "
+              "wings, tails and nacelles where it takes other edges for trailing edges.",
+              "all faces", "['wing_*', 'tail*']"});
 }
 
 void check_levels(const KeyTable& keys, const SizingRequest& request) {
@@ -54,6 +58,7 @@ void check_levels(const KeyTable& keys, const SizingRequest& request) {
     refuse("flow", "'sizing.flow' is a direction, and must not be zero");
   if (!request.level) {
     if (request.budget) refuse("budget", "'sizing.budget' needs 'sizing.level', the finest that it may take");
+    if (!request.lifting.empty()) refuse("lifting", "'sizing.lifting' needs 'sizing.level'");
     if (request.family) refuse("family", "'sizing.family: dpw' needs 'sizing.level'");
     return;
   }
@@ -77,6 +82,7 @@ void set_far_field(const CaseDraft& draft, cad::DomainOptions& domain) {
   }
   if (draft.extent) options.extent = *draft.extent;
   if (draft.extent_unit) options.unit = *draft.extent_unit;
+  if (options.unit == cad::ExtentUnit::reference) options.unit_length = request.reference_length.value_or(1);
   const geometry::Vec3 flow = request.flow.value_or(default_flow);
   int axis = 0;
   for (int i = 1; i < 3; ++i)

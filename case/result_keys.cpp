@@ -61,8 +61,9 @@ void declare_improve(KeyTable& keys, Case& result) {
 }
 
 void declare_files(KeyTable& keys, OutputOptions& output) {
-  keys.text("directory", output.directory,
-            common("Where everything is written, relative to the working directory."));
+  keys.path("directory", output.directory,
+            common("Where everything is written, relative to the working directory. `${NAME}` in the path is "
+                   "an environment variable."));
   std::vector<std::pair<std::string, io::FileFormat>> formats;
   formats.reserve(io::format_names.size());
   for (const io::FormatName& format : io::format_names) formats.emplace_back(format.name, format.format);

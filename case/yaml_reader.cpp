@@ -142,6 +142,11 @@ void KeyTable::text(const std::string& name, std::string& target, const KeyDoc& 
       [&target] { return target.empty() ? std::nullopt : std::optional(target); });
 }
 
+void KeyTable::path(const std::string& name, std::string& target, const KeyDoc& doc) {
+  text(name, target, doc);
+  _entries.back().read = [&target](const YamlValue& value) { target = value.path(); };
+}
+
 void KeyTable::texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc) {
   KeyEntry& entry = add(name, KeyKind::texts, doc);
   entry.read = [&target](const YamlValue& value) { target = value.texts(); };

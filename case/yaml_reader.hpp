@@ -42,6 +42,8 @@ public:
   void flag(const std::string& name, bool& target, const KeyDoc& doc);
   /// Empty text is not accepted, and not written.
   void text(const std::string& name, std::string& target, const KeyDoc& doc);
+  /// The same, of a file or folder: `${NAME}` in it is the value of that environment variable.
+  void path(const std::string& name, std::string& target, const KeyDoc& doc);
   /// A list; the empty one is not written.
   void texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc);
   /// A list of three numbers, in the length unit of the geometry. An empty optional is not written.

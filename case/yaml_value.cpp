@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include <fmt/format.h>
@@ -130,6 +131,26 @@ std::string YamlValue::text() const {
   // What the system would take for the end: another file would be opened than the one that was named.
   if (_node.Scalar().find('\0') != std::string::npos) refuse("a text without NUL");
   return _node.Scalar();
+}
+
+std::string YamlValue::path() const {
+  const std::string given = text();
+  std::string result;
+  std::size_t from = 0;
+  for (std::size_t at; (at = given.find("${", from)) != std::string::npos;) {
+    const std::size_t end = given.find('}', at);
+    if (end == std::string::npos) refuse("a path in which each '${' has its '}'");
+    const std::string name = given.substr(at + 2, end - at - 2);
+    const char* const value = name.empty() ? nullptr : std::getenv(name.c_str());
+    if (value == nullptr || *value == 0)
+      throw CaseError(
+          fmt::format("{}: '{}' names the environment variable '{}', which is not set. Remedy: "
+                      "export {}=..., or a path without it",
+                      _where, _path, shortened(name), shortened(name)));
+    result.append(given, from, at - from).append(value);
+    from = end + 1;
+  }
+  return result.append(given, from);
 }
 
 std::vector<std::string> YamlValue::texts() const {

@@ -41,6 +41,9 @@ public:
   std::int64_t integer(const Range& range) const;
   bool flag() const;
   std::string text() const;
+  /// A text in which `${NAME}` is replaced by the environment variable NAME. Throws CaseError, too, when no
+  /// such variable is set.
+  std::string path() const;
   /// A list of texts, or one text alone.
   std::vector<std::string> texts() const;
   /// A list of three finite numbers.

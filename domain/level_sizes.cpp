@@ -47,14 +47,16 @@ public:
       : _sampler(sampler),
         _request(request),
         _flow(normalized(request.flow.value_or(cases::default_flow))),
-        _bodies(sizing::find_lifting_bodies(sampler, _flow)) {
+        _bodies(sizing::find_lifting_bodies(sampler, _flow, request.lifting)) {
     if (!_bodies.elements.empty()) return;
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
-        fmt::format("sizing.level: no trailing edge was found behind which a body ends along the flow "
-                    "({:.3g}, {:.3g}, {:.3g}): neither a blunt strip nor a sharp edge of the CAD. Remedy: "
-                    "sizing.flow, the direction of the flow, or sizes of your own in place of the level",
-                    _flow.x, _flow.y, _flow.z));
+        fmt::format(
+            "sizing.level: no trailing edge was found behind which a body ends along the flow "
+            "({:.3g}, {:.3g}, {:.3g}): neither a blunt strip nor a sharp edge of the CAD. Remedy: "
+            "sizing.flow, the direction of the flow, sizing.lifting, faces with trailing edges, or sizes of "
+            "your own in place of the level",
+            _flow.x, _flow.y, _flow.z));
   }
 
   const sizing::LiftingBodies& bodies() const { return _bodies; }
@@ -105,19 +107,35 @@ private:
   sizing::LiftingBodies _bodies;
 };
 
+/// Where the file is the fluid, no key moves the far field.
+void warn_of_near_far_field(const sizing::ModelSampler& sampler, const LevelFindings& found,
+                            double semispans) {
+  constexpr double near = 0.9;  // of the distance that the level has: boxes are measured along axes
+  const cad::Model& model = sampler.model();
+  for (cad::FaceId f = 0; f < model.face_count(); ++f)
+    if (model.is_far_field(f)) return;
+  if (found.far_field > near * semispans || !sampler.communicator().is_root()) return;
+  parallel::log_warning(
+      fmt::format("sizing.level: the level has its far field {:.3g} semispans away, that of the file is "
+                  "{:.2g} away",
+                  semispans, found.far_field));
+}
+
 }  // namespace
 
 LevelRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request) {
   Levels levels(sampler, request);
   const Level level = request.budget ? levels.finest_within(*request.budget) : *request.level;
-  LevelRequest result{levels.take(level), level};
   const sizing::LiftingBodies& bodies = levels.bodies();
+  LevelRequest result{levels.take(level), level,
+                      describe_level(sampler.model(), bodies, levels.sizes(level))};
   if (sampler.communicator().is_root())
     parallel::log_info(fmt::format(
         "sizing: level {}: {} trailing edges, reference chord {:.4g}, semispan {:.4g}; {:.3g} % of the local "
         "chord at leading and trailing edges, at most {:.3g} on walls, growth {:.3g}",
         sizing::name_of(level), bodies.elements.size(), bodies.reference_chord, bodies.semispan,
         100 * levels.sizes(level).edge, *result.request.surface_maximum, *result.request.growth));
+  warn_of_near_far_field(sampler, result.found, levels.sizes(level).far_field);
   return result;
 }
 

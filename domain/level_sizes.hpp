@@ -10,6 +10,7 @@ namespace aeroloom::domain {
 struct LevelRequest {
   cases::SizingRequest request;  ///< with the level's bounds in place of the level; those given stay
   sizing::Level level;           ///< the one asked for, or a coarser one that the budget holds
+  LevelFindings found;
 };
 
 /// Makes the sampler's fields ask for what the level does. Collective. Throws CollectiveError where the model

@@ -196,7 +196,8 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
                              const cases::SizingRequest& asked, const Simplification& simplification,
                              parallel::StageClock& clock, Aim aim) {
   std::optional<sizing::SizingOptions>& near = aim.near;
-  const double layers = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
+  const double thin = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
+  const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields,
@@ -232,7 +233,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   if (!closed) sized.walls = report_walls(model, coincident, *sampler, sized.field);
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
-  if (of_level) sized.level = of_level->level;
+  if (of_level) sized.level = of_level->level, sized.found = std::move(of_level->found);
   return sized;
 }
 

@@ -69,6 +69,7 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cad::
   forecast.bounded = sized.bounded;
   forecast.walls = sized.walls;
   forecast.counts = sized.counts;
+  forecast.found = sized.found;
   if (sized.level)
     forecast.levels = forecast_levels(*sized.level, sized.counts, input.sizing, communicator.size());
   clock.end();
@@ -159,10 +160,11 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
   const std::string unseen = describe(forecast.walls.unseen);
   if (!unseen.empty()) text += "gaps: " + unseen + "\n";
   const std::string coincident = describe(forecast.walls.coincident);
+  if (forecast.found) text += describe(*forecast.found);
   return text +
          fmt::format(
              "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
-             "a run: about {:.2g} triangles, {:.2g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
+             "a run: about {:.3g} triangles, {:.3g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
              "       {} rank(s) work with 80 % efficiency ({} where geometry does not count), {:.2g} s, "
              "{:.2g} GiB on the largest\n"
              "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
@@ -236,6 +238,7 @@ Json forecast_json(const RunForecast& forecast) {
           {"seconds_on_one_core", forecast.seconds},
           {"bytes", forecast.bytes},
           {"levels", to_json(forecast.levels)},
+          {"level", forecast.found ? to_json(*forecast.found) : Json()},
           {"scaling", study::to_json(forecast.worthwhile, {})},
           {"piece_triangles", forecast.piece_triangles},
           {"piece_tets", forecast.piece_tets},

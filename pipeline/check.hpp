@@ -39,6 +39,7 @@ struct RunForecast {
   double seconds = 0;                                ///< of one core
   double bytes = 0;                                  ///< of memory, all ranks together
   std::vector<LevelForecast> levels;                 ///< all of those of the case's level; none without
+  std::optional<domain::LevelFindings> found;        ///< by that level
   study::WorthwhileRanks worthwhile;                 ///< how many ranks are worth asking for
   std::int64_t piece_triangles = 0, piece_tets = 0;  ///< piece sizes that give every rank several pieces
 };

@@ -21,13 +21,44 @@ std::vector<LevelForecast> forecast_levels(sizing::Level level, const sizing::Pr
   return forecasts;
 }
 
+std::string describe(const domain::LevelFindings& found) {
+  std::string text = fmt::format(
+      "level: reference chord {:.4g}, semispan {:.4g}, at most {:.3g} on walls, far field {:.3g} semispans "
+      "away\n"
+      "       {:<32} {:>9} {:>9} {:>19} {:>9}\n",
+      found.reference_chord, found.semispan, found.wall_size, found.far_field, "trailing edge", "length",
+      "width", "chord", "size");
+  for (const domain::FoundTrailingEdge& edge : found.edges)
+    text += fmt::format("       {:<32} {:>9.4g} {:>9} {:>19} {:>9.3g}\n", edge.faces, edge.length,
+                        edge.is_blunt ? fmt::format("{:.3g}", edge.width) : "sharp",
+                        fmt::format("{:.4g} to {:.4g}", edge.shortest_chord, edge.longest_chord),
+                        edge.smallest_size);
+  return text;
+}
+
+nlohmann::ordered_json to_json(const domain::LevelFindings& found) {
+  nlohmann::ordered_json json = {{"reference_chord", found.reference_chord},
+                                 {"semispan", found.semispan},
+                                 {"wall_size", found.wall_size},
+                                 {"far_field_semispans", found.far_field}};
+  auto& edges = json["trailing_edges"] = nlohmann::ordered_json::array();
+  for (const domain::FoundTrailingEdge& edge : found.edges)
+    edges.push_back({{"faces", edge.faces},
+                     {"length", edge.length},
+                     {"width", edge.width},
+                     {"shortest_chord", edge.shortest_chord},
+                     {"longest_chord", edge.longest_chord},
+                     {"smallest_size", edge.smallest_size}});
+  return json;
+}
+
 std::string describe(const std::vector<LevelForecast>& levels) {
   if (levels.empty()) return {};
   constexpr double gibibyte = 1024.0 * 1024 * 1024;
   std::string text = fmt::format("levels: {:<8} {:>12} {:>12} {:>14} {:>8}\n", "level", "triangles",
                                  "tetrahedra", "s on one core", "GiB");
   for (const LevelForecast& each : levels)
-    text += fmt::format("        {:<8} {:>12.2g} {:>12.2g} {:>14.2g} {:>8.2g}\n", sizing::name_of(each.level),
+    text += fmt::format("        {:<8} {:>12.3g} {:>12.3g} {:>14.2g} {:>8.2g}\n", sizing::name_of(each.level),
                         each.counts.triangles, each.counts.tetrahedra, each.seconds, each.bytes / gibibyte);
   return text;
 }

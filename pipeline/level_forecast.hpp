@@ -2,6 +2,7 @@
 #pragma once
 
 #include "aeroloom/case/case.hpp"
+#include "aeroloom/domain/level_findings.hpp"
 #include "aeroloom/sizing/levels.hpp"
 #include "aeroloom/sizing/size_field.hpp"
 
@@ -24,6 +25,10 @@ struct LevelForecast {
 /// this an overestimate of finer levels.
 std::vector<LevelForecast> forecast_levels(sizing::Level level, const sizing::PredictedCounts& counted,
                                            const cases::SizingRequest& request, int ranks);
+
+/// Reference lengths and a table of trailing edges.
+std::string describe(const domain::LevelFindings& found);
+nlohmann::ordered_json to_json(const domain::LevelFindings& found);
 
 /// A table; empty where there are no levels.
 std::string describe(const std::vector<LevelForecast>& levels);

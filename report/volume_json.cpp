@@ -78,6 +78,7 @@ Json volume_json(const RunRecord& record) {
           {"disagreements", disagreements},
           {"load_error_90", record.volume.load_error_90},
           {"good_edges", record.conformity.good_edges},
+          {"fair_edges", record.conformity.fair_edges},
           {"mean_edge", record.conformity.mean_edge},
           {"bytes_per_tetrahedron", record.conformity.bytes_per_cell}};
 }

@@ -225,6 +225,7 @@ SizingOptions with_given(const SizingOptions& options, const GivenSizes& given) 
   sizes.chordal_deviation = given.chordal_deviation.value_or(sizes.chordal_deviation);
   sizes.curvature_angle = given.curvature_angle.value_or(sizes.curvature_angle);
   sizes.proximity = given.proximity.value_or(sizes.proximity);
+  if (given.gap_proximity) sizes.gap_proximity = *given.gap_proximity;
   sizes.growth = given.growth.value_or(sizes.growth);
   sizes.surface_maximum = given.surface_maximum.value_or(sizes.surface_maximum);
   sizes.maximum = given.maximum.value_or(std::max(sizes.maximum, given.minimum.value_or(0)));
@@ -308,7 +309,7 @@ ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, double
 std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& chosen,
                                       const GivenSizes& given) {
   using Bound = std::optional<double> GivenSizes::*;
-  static constexpr std::array<std::pair<const char*, Bound>, 8> bounds{{
+  static constexpr std::array<std::pair<const char*, Bound>, 9> bounds{{
       {"minimum", &GivenSizes::minimum},
       {"feature_minimum", &GivenSizes::feature_minimum},
       {"maximum", &GivenSizes::maximum},
@@ -317,6 +318,7 @@ std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& 
       {"chordal_deviation", &GivenSizes::chordal_deviation},
       {"growth", &GivenSizes::growth},
       {"proximity", &GivenSizes::proximity},
+      {"gap_proximity", &GivenSizes::gap_proximity},
   }};
   if (std::none_of(bounds.begin(), bounds.end(),
                    [&](const auto& each) { return (given.*each.second).has_value(); }))

@@ -24,22 +24,23 @@ SizeLine along(const EdgeLine& edge, double share) {
   return line;
 }
 
+/// How wide a strip is at each point of its border.
+std::vector<double> widths_of(const LiftingElement& element) {
+  std::vector<double> widths;
+  for (std::size_t i = 0; i < element.opposite.size(); ++i)
+    widths.push_back(distance(element.trailing.points[i], element.opposite[i]));
+  return widths;
+}
+
 /// Lines on a trailing edge: one where it is sharp; from border to border where it is blunt, no farther
 /// apart than elements are large.
 void add_trailing(const LiftingElement& element, const LevelSizes& level, std::vector<SizeLine>& lines) {
-  SizeLine border = along(element.trailing, level.edge);
+  SizeLine border{element.trailing.points, trailing_sizes(element, level)};
   if (element.opposite.empty()) return lines.push_back(std::move(border));
-  std::vector<double> widths;
-  for (std::size_t i = 0; i < border.points.size(); ++i)
-    widths.push_back(distance(border.points[i], element.opposite[i]));
-  const double widest = *std::max_element(widths.begin(), widths.end());
   double most_across = 1;
-  for (std::size_t i = 0; i < border.points.size(); ++i) {
-    const double width = widths[i];
-    if (width > std::max(thinnest * element.trailing.chords[i], thinnest_of_widest * widest))
-      border.sizes[i] = std::min(border.sizes[i], width / level.trailing_cells);
-    most_across = std::max(most_across, width / border.sizes[i]);
-  }
+  const std::vector<double> widths = widths_of(element);
+  for (std::size_t i = 0; i < widths.size(); ++i)
+    most_across = std::max(most_across, widths[i] / border.sizes[i]);
   const int across = static_cast<int>(std::ceil(most_across));
   for (int k = 0; k <= across; ++k) {
     SizeLine line = border;
@@ -85,6 +86,18 @@ SizeLine along(const cad::Model& model, cad::EdgeId id, double size) {
 }
 
 }  // namespace
+
+std::vector<double> trailing_sizes(const LiftingElement& element, const LevelSizes& level) {
+  std::vector<double> sizes = along(element.trailing, level.edge).sizes;
+  const std::vector<double> widths = widths_of(element);
+  if (widths.empty()) return sizes;
+  const double widest = *std::max_element(widths.begin(), widths.end());
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (widths[i] > std::max(thinnest * element.trailing.chords[i], thinnest_of_widest * widest))
+      sizes[i] = std::min(sizes[i], widths[i] / level.trailing_cells);
+  }
+  return sizes;
+}
 
 std::vector<SizeLine> level_lines(const cad::Model& model, const LiftingBodies& bodies,
                                   const LevelSizes& level, Vec3 flow) {

@@ -5,6 +5,7 @@
 #include "sizing/lifting_section.hpp"
 #include "sizing/lifting_seeds.hpp"
 #include "sizing/segment_tree.hpp"
+#include "sizing/sized_surface.hpp"
 #include "sizing/skin_faces.hpp"
 
 #include <algorithm>
@@ -275,17 +276,29 @@ void add_reference(const cad::Model& model, const geometry::Box& body, Vec3 flow
       !is_half_model(model) && (has_partner || is_alone) ? 0.5 * body.size()[axis] : body.size()[axis];
 }
 
+/// Whether there is a seed with a face that is wanted. All are where the list is empty.
+bool is_wanted(const std::optional<TrailingSeed>& seed, const std::vector<bool>& wanted) {
+  if (!seed || wanted.empty()) return seed.has_value();
+  const cad::FaceId strip = seed->element.strip;
+  return (strip != cad::no_entity && wanted[strip]) ||
+         std::any_of(seed->neighbours.begin(), seed->neighbours.end(), [&](FaceId f) { return wanted[f]; });
+}
+
 }  // namespace
 
-LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow) {
+LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow,
+                                  const std::vector<std::string>& named) {
   const parallel::Communicator& communicator = sampler.communicator();
   const cad::Model& model = sampler.model();
+  std::vector<bool> wanted;
   std::vector<std::int32_t> strips, edges;
   parallel::agree(communicator, [&] {
+    require_like(model, "sizing.lifting", named);
+    if (!named.empty()) wanted = faces_like(model, named);
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size())
-      if (blunt_seed(model, f, flow)) strips.push_back(f);
+      if (is_wanted(blunt_seed(model, f, flow), wanted)) strips.push_back(f);
     for (cad::EdgeId e = communicator.rank(); e < model.edge_count(); e += communicator.size())
-      if (sharp_seed(model, e, flow)) edges.push_back(e);
+      if (is_wanted(sharp_seed(model, e, flow), wanted)) edges.push_back(e);
   });
   std::vector<std::int32_t> all_strips = communicator.all_gather_items<std::int32_t>(strips),
                             all_edges = communicator.all_gather_items<std::int32_t>(edges);

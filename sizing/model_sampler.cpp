@@ -63,12 +63,15 @@ constexpr double largest_aspect = 1e30;  // finite, for widths of nothing
 /// Sources in gaps and thin bodies.
 std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& options) {
   std::vector<SizeSource> sources;
+  const double across_gaps = elements_across_gaps(options);
   for (const Gap& gap : gaps.seen) {
-    const double size = std::max(gap.width / options.proximity, options.minimum);
-    if (size < options.maximum) sources.push_back({gap.point, size});
+    const double elements = gap.is_meshed ? across_gaps : options.proximity;
+    const double size = std::max(gap.width / elements, options.minimum);
+    if (elements > 0 && size < options.maximum) sources.push_back({gap.point, size});
   }
   for (const Gap& gap : gaps.open) {
-    const double size = std::max(gap.width / options.proximity, smallest_gap_size(options));
+    if (across_gaps <= 0) break;
+    const double size = std::max(gap.width / across_gaps, smallest_gap_size(options));
     if (size < options.minimum) sources.push_back({gap.point, size});
   }
   return sources;
@@ -222,7 +225,7 @@ std::vector<SizeSource> ModelSampler::sample_own(const SizingOptions& given, dou
         strip_sources(_model, face.facets, face.closed_corners, options, largest_size(far_field, options));
     sources.insert(sources.end(), strips.begin(), strips.end());
     keep(thin_sources(_root, sources));
-    if (options.proximity > 0 && face.gaps) keep(gap_sources(*face.gaps, options));
+    if (face.gaps) keep(gap_sources(*face.gaps, options));
   }
   for (cad::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
     keep(edge_sources(_model, e, only_far_field(_model.edge(e), _far_field), given));

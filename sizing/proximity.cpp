@@ -148,6 +148,11 @@ private:
     double gap = nowhere, open = nowhere;
   };
 
+  /// On both sides together; `thin`: of a side that is not meshed.
+  struct Around {
+    double gap = nowhere, open = nowhere, thin = nowhere;
+  };
+
   std::vector<Gaps::Unseen> whole_facets() const {
     std::vector<Gaps::Unseen> parts;
     parts.reserve(_facets.triangles.size());
@@ -170,12 +175,13 @@ private:
       return;
     }
     const std::int64_t before = _nodes;
-    const auto [gap, open] = look_around(center, normal, part.facet);
+    const auto [gap, open, thin] = look_around(center, normal, part.facet);
     if (gap <= _widest) _gaps.seen.push_back({center, gap});
+    if (thin <= _widest) _gaps.seen.push_back({center, thin, false});
     if (open <= _widest) _gaps.open.push_back({center, open});
     const auto [from, length] = longest_edge(t);
     // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
-    const double fine = std::max(_finest, _edge_per_gap * std::min(gap, _widest));
+    const double fine = std::max(_finest, _edge_per_gap * std::min({gap, thin, _widest}));
     if (length > fine && part.depth < deepest_edge_split) {
       const auto halves = bisect(t, from);
       cover({halves[0], part.facet, part.depth + 1}, (most - (_nodes - before)) / 2);
@@ -200,7 +206,7 @@ private:
 
   /// Distances along the normal, to either side, to the nearest wall that faces back, the lower one where two
   /// are as near; infinity where there is none in reach. `facet`: that looked from.
-  Seen look_around(Vec3 from, Vec3 normal, std::int32_t facet) {
+  Around look_around(Vec3 from, Vec3 normal, std::int32_t facet) {
     if (++_looks % looks_per_beat == 0) parallel::beat();
     const auto faces_back = [&](std::int32_t triangle) {
       return dot(_walls.normals[triangle], normal) <= facing;
@@ -211,7 +217,10 @@ private:
     const auto nearest = _walls.rays.nearest_crossings(from, normal, _widest, corners, faces_back, _nodes);
     const Seen ahead = judge(nearest[0], from, normal, facet, _meshed_beyond);
     const Seen behind = judge(nearest[1], from, -normal, facet, true);
-    return {std::min(ahead.gap, behind.gap), std::min(ahead.open, behind.open)};
+    Around around{behind.gap, std::min(ahead.open, behind.open)};
+    double& out_of_face = _meshed_beyond ? around.gap : around.thin;
+    out_of_face = std::min(out_of_face, ahead.gap);
+    return around;
   }
 
   /// Whether a crossing is a gap, on a side that is meshed or not. The direction is that of the ray.

@@ -147,9 +147,9 @@ void ModelSampler::lay_surfaces() {
     if (each.empty())
       throw std::invalid_argument(
           each.key() +
-          ": the model has no edges there. Remedy: other patterns, or another "
-          "direction or box; geometry.trailing_edges: keep, where a trailing edge is named "
-          "that would be closed");
+          ": the model has no edges there. Remedy: other patterns, another direction of a wake or another "
+          "box "
+          "of edges; geometry.trailing_edges: keep, where a trailing edge is named that would be closed");
   }
   _surfaces = std::make_shared<const std::vector<SizedSurface>>(std::move(surfaces));
 }

@@ -23,6 +23,7 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
   return is_same(a.minimum, b.minimum) && is_same(a.maximum, b.maximum) &&
          is_same(a.surface_maximum, b.surface_maximum) && is_same(a.growth, b.growth) &&
          is_same(a.curvature_angle, b.curvature_angle) && is_same(a.proximity, b.proximity) &&
+         is_same(elements_across_gaps(a), elements_across_gaps(b)) &&
          is_same(a.chordal_deviation, b.chordal_deviation) && is_same(a.feature_aspect, b.feature_aspect) &&
          is_same(smallest_feature_size(a), smallest_feature_size(b)) &&
          is_same(smallest_strip_size(a), smallest_strip_size(b)) &&

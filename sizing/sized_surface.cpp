@@ -1,10 +1,12 @@
 #include "sizing/sized_surface.hpp"
 
 #include "cad/model/patches.hpp"
+#include "sizing/lifting_seeds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -91,6 +93,18 @@ bool is_trailing(const cad::Model& model, cad::EdgeId edge, const std::vector<bo
   return (faces[e.faces[0]] && of_a < -least_ahead) || (faces[e.faces[1]] && of_b < -least_ahead);
 }
 
+/// Both borders of a face, where that is a blunt trailing edge whose neighbours are not named themselves.
+void add_borders_of_strip(const cad::Model& model, cad::FaceId face, const std::vector<bool>& faces,
+                          Vec3 direction, std::vector<std::array<Vec3, 2>>& segments) {
+  const std::optional<TrailingSeed> seed = blunt_seed(model, face, normalized(direction));
+  if (!seed ||
+      std::any_of(seed->neighbours.begin(), seed->neighbours.end(), [&](cad::FaceId f) { return faces[f]; }))
+    return;
+  for (const std::vector<Vec3>& border : {seed->element.trailing.points, seed->element.opposite}) {
+    for (std::size_t i = 0; i + 1 < border.size(); ++i) segments.push_back({border[i], border[i + 1]});
+  }
+}
+
 /// The part of a segment inside a box; false where there is none.
 bool clip(std::array<Vec3, 2>& segment, const Box& box) {
   double first = 0, last = 1;
@@ -107,18 +121,6 @@ bool clip(std::array<Vec3, 2>& segment, const Box& box) {
   if (first > last) return false;
   segment = {from + first * way, from + last * way};
   return true;
-}
-
-void require_like(const cad::Model& model, const std::string& key, const std::vector<std::string>& patterns) {
-  for (const std::string& pattern : patterns) {
-    const std::vector<bool> found = faces_like(model, {pattern});
-    if (std::find(found.begin(), found.end(), true) == found.end())
-      throw std::invalid_argument(
-          fmt::format("{}: no face and no patch of this model is like '{}'. Remedy: `aeroloom check` lists "
-                      "the patches; * "
-                      "stands for any characters, ? for one",
-                      key, pattern));
-  }
 }
 
 }  // namespace
@@ -192,6 +194,18 @@ double SizedSurface::cells(const RootCube& root, double coarser) const {
   return cells;
 }
 
+void require_like(const cad::Model& model, const std::string& key, const std::vector<std::string>& patterns) {
+  for (const std::string& pattern : patterns) {
+    const std::vector<bool> found = faces_like(model, {pattern});
+    if (std::find(found.begin(), found.end(), true) == found.end())
+      throw std::invalid_argument(
+          fmt::format("{}: no face and no patch of this model is like '{}'. Remedy: `aeroloom check` lists "
+                      "the patches; * "
+                      "stands for any characters, ? for one",
+                      key, pattern));
+  }
+}
+
 std::vector<bool> faces_like(const cad::Model& model, const std::vector<std::string>& patterns) {
   const std::vector<cad::NamePattern> compiled(patterns.begin(), patterns.end());
   std::vector<bool> like(model.face_count());
@@ -211,6 +225,9 @@ std::vector<std::array<Vec3, 2>> trailing_segments(const cad::Model& model, cons
     if (!is_trailing(model, e, faces, direction)) continue;
     const auto more = segments_of(model, e);
     segments.insert(segments.end(), more.begin(), more.end());
+  }
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (faces[f]) add_borders_of_strip(model, f, faces, direction, segments);
   }
   return segments;
 }

@@ -51,8 +51,12 @@ private:
 /// Whether each face, or its patch, is like one of the patterns.
 std::vector<bool> faces_like(const cad::Model& model, const std::vector<std::string>& patterns);
 
+/// Throws std::invalid_argument where no face and no patch is like a pattern. `key`: of the case.
+void require_like(const cad::Model& model, const std::string& key, const std::vector<std::string>& patterns);
+
 /// Parts of the edges where the body ends in the given direction, of these faces: convex, of a body that lies
-/// ahead of them, swept by 60 degrees at most. Both borders of a blunt trailing edge.
+/// ahead of them, swept by 60 degrees at most. Both borders of a blunt trailing edge, whether its strip is
+/// among the faces or the faces beside it are.
 std::vector<std::array<geometry::Vec3, 2>> trailing_segments(const cad::Model& model,
                                                              const std::vector<bool>& faces,
                                                              geometry::Vec3 direction);

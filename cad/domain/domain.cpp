@@ -33,7 +33,8 @@ HullComparison compare(const NamedShape& solids, Volumes& volumes) {
 /// `hull` receives the comparison where one was made.
 KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids, Volumes& volumes,
                          std::optional<HullComparison>& hull) {
-  if (options.kind != DomainKind::automatic) return {options.kind, "as requested"};
+  if (options.kind != DomainKind::automatic)
+    return {options.kind, options.kind == DomainKind::fluid ? "fluid, as requested" : "bodies, as requested"};
   if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
   const std::vector<TopoDS_Solid> all = solids_of(solids.shape);

@@ -106,6 +106,7 @@ constexpr double least_clearance = 1.01;
 double unit_of(const FarFieldOptions& options, const Box& whole, const Box& body,
                const std::optional<SymmetryPlane>& symmetry) {
   if (options.unit == ExtentUnit::body) return largest_extent(whole);
+  if (options.unit != ExtentUnit::semispan) return options.unit_length;
   if (symmetry) return body.size()[symmetry->axis];
   Vec3 across = body.size();
   across[static_cast<int>(options.flow)] = 0;
@@ -125,6 +126,11 @@ double needed_extent(const FarFieldOptions& options, const Box& body, const gp_P
   return std::max(needed[axis], std::hypot(needed[(axis + 1) % 3], needed[(axis + 2) % 3]));
 }
 
+const char* name_of(ExtentUnit unit) {
+  constexpr std::array names = {"lengths of the body", "semispans", "length units", "reference lengths"};
+  return names[static_cast<std::size_t>(unit)];
+}
+
 void require_clearance(const FarFieldOptions& options, const Box& body, const gp_Pnt& center,
                        double reference) {
   const double needed = needed_extent(options, body, center) / reference;
@@ -132,8 +138,7 @@ void require_clearance(const FarFieldOptions& options, const Box& body, const gp
   throw CadError(
       fmt::format("the far field cuts the body: its extent of {:.4g} {} ({:.6g}) must exceed "
                   "{:.4g} for this body",
-                  options.extent, options.unit == ExtentUnit::body ? "reference lengths" : "semispans",
-                  reference, least_clearance * needed));
+                  options.extent, name_of(options.unit), reference, least_clearance * needed));
 }
 
 bool holds(const Box& outer, const Box& inner) {

@@ -81,11 +81,21 @@ TEST_P(WholeFarFields, MustClearTheBody) {
   FarFieldOptions far_field = GetParam().far_field;
   far_field.extent = 0.5;
   const std::string message = shapes::refusal(make_body(), around(far_field));
-  EXPECT_NE(message.find("the far field cuts the body: its extent of 0.5 reference lengths (2)"),
+  EXPECT_NE(message.find("the far field cuts the body: its extent of 0.5 lengths of the body (2)"),
             std::string::npos)
       << message;
   far_field.extent = 0.6;
   EXPECT_EQ(shapes::prepare(make_body(), around(far_field)).model.region_count(), 1);
+}
+
+TEST(FarField, ExtendsInTheUnitAskedFor) {
+  FarFieldOptions far_field{.shape = FarFieldShape::box, .extent = 30, .unit = ExtentUnit::model};
+  EXPECT_NEAR(shapes::prepare(make_body(), around(far_field)).model.bounds().size().x, 60, 1e-9);
+  far_field.unit = ExtentUnit::reference, far_field.unit_length = 0.5;
+  EXPECT_NEAR(shapes::prepare(make_body(), around(far_field)).model.bounds().size().x, 30, 1e-9);
+  far_field.extent = 1;
+  EXPECT_NE(shapes::refusal(make_body(), around(far_field)).find("its extent of 1 reference lengths (0.5)"),
+            std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(FarField, WholeFarFields, testing::ValuesIn(wholes),

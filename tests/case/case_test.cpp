@@ -327,6 +327,25 @@ TEST_F(CaseTest, FilesAreSoughtBesideTheCaseToo) {
   EXPECT_EQ(read_case(file, {"geometry.file=" + absolute}).domain.file, absolute);
 }
 
+TEST_F(CaseTest, PathsMayNameEnvironmentVariables) {
+  ::setenv("AEROLOOM_TEST_FOLDER", folder.c_str(), 1);
+  write("", "wing.step");
+  const Case input = read(
+      "geometry: {file: '${AEROLOOM_TEST_FOLDER}/wing.step'}\noutput: {directory: "
+      "a/${AEROLOOM_TEST_FOLDER}}\n");
+  EXPECT_EQ(input.domain.file, (folder / "wing.step").string());
+  EXPECT_EQ(input.output.directory, "a/" + folder.string());
+  ::unsetenv("AEROLOOM_TEST_FOLDER");
+  const std::string unset =
+      "'geometry.file' names the environment variable 'AEROLOOM_TEST_FOLDER', which is not set. Remedy: "
+      "export "
+      "AEROLOOM_TEST_FOLDER=..., or a path without it";
+  EXPECT_NE(error_of("geometry: {file: '${AEROLOOM_TEST_FOLDER}/wing.step'}\n").find(unset),
+            std::string::npos);
+  EXPECT_NE(error_of("geometry: {file: '${A/wing.step'}\n").find("each '${' has its '}'"), std::string::npos);
+  EXPECT_NE(error_of("geometry: {file: 'a${}b'}\n").find("the environment variable ''"), std::string::npos);
+}
+
 TEST_F(CaseTest, SourcesComeBack) {
   const Case input = read(
       "geometry: {file: a.step}\nsizing:\n  sources:\n"

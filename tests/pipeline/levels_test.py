@@ -33,6 +33,11 @@ def main():
     done, forecast = check(program)
     assert done.returncode == 0, done.stderr
     assert "sizing: level B:" in done.stdout + done.stderr, done.stdout + done.stderr
+    found = forecast["level"]
+    assert 16.9 < found["semispan"] < 17.1 and len(found["trailing_edges"]) == 5, found
+    wing = next(edge for edge in found["trailing_edges"] if edge["faces"] == "wing_left_trailing_edge")
+    assert 14 < wing["length"] < 17.5 and 0 < wing["width"] < 0.1 and wing["shortest_chord"] < 2 < 5 < wing["longest_chord"], wing
+    assert "wing_left_trailing_edge" in done.stdout and "semispan 17" in done.stdout, done.stdout
     levels = {row["level"]: row for row in forecast["levels"]}
     assert list(levels) == list(FACTORS), levels
     assert levels["B"]["tetrahedra"] == forecast["tetrahedra"] and levels["B"]["triangles"] == forecast["triangles"]

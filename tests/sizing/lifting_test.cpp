@@ -1,6 +1,7 @@
 #include "aeroloom/sizing/lifting.hpp"
 
 #include "aeroloom/cad/domain/domain.hpp"
+#include "sizing/sized_surface.hpp"
 #include "tests/cad/real_files.hpp"
 
 #include <algorithm>
@@ -15,11 +16,11 @@ namespace {
 
 using geometry::Vec3;
 
-LiftingBodies find(const cad::DomainOptions& options) {
+LiftingBodies find(const cad::DomainOptions& options, const std::vector<std::string>& named = {}) {
   const cad::Model model = cad::prepare_domain(options).model;
   parallel::StageClock clock;
   const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
-  return find_lifting_bodies(sampler, {1, 0, 0});
+  return find_lifting_bodies(sampler, {1, 0, 0}, named);
 }
 
 LiftingBodies find_in(const std::string& name) {
@@ -69,6 +70,42 @@ TEST(Lifting, OfTheBuiltInAircraft) {
     EXPECT_GT(outermost, 0.995 * wing.half_span);
   }
   EXPECT_EQ(wings, 2);
+}
+
+TEST(Wakes, BeginAtBothBordersOfAStrip) {
+  cad::DomainOptions options;
+  options.transport = cad::TransportDimensions{};
+  const cad::Model model = cad::prepare_domain(options).model;
+  const auto length_behind = [&](const std::vector<std::string>& names, Vec3 flow) {
+    double length = 0;
+    for (const auto& [a, b] : trailing_segments(model, faces_like(model, names), flow))
+      length += distance(a, b);
+    return length;
+  };
+  const double of_strip = length_behind({"wing_left_trailing_edge"}, {3, 0, 0});
+  EXPECT_GT(of_strip, 2 * 14);  // both, each longer than the half span outside the fuselage
+  EXPECT_NEAR(of_strip, length_behind({"wing_left_upper", "wing_left_lower"}, {1, 0, 0}), 0.01 * of_strip);
+  EXPECT_EQ(of_strip, length_behind({"wing_left_trailing_edge"}, {1, 0, 0}));
+  EXPECT_EQ(length_behind({"wing_left_trailing_edge"}, {-1, 0, 0}), 0);
+}
+
+TEST(Lifting, OfNamedFacesAlone) {
+  cad::DomainOptions options;
+  options.transport = cad::TransportDimensions{};
+  const LiftingBodies wings = find(options, {"wing_*"});
+  EXPECT_EQ(wings.elements.size(), 2u);
+  EXPECT_EQ(wings.reference_chord, find(options).reference_chord);
+  EXPECT_EQ(find(options, {"wing_left*", "vertical_tail*"}).elements.size(), 2u);
+  EXPECT_TRUE(find(options, {"fuselage*"}).elements.empty());
+  try {
+    find(options, {"wing_*", "canard*"});
+    FAIL();
+  } catch (const std::exception& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("sizing.lifting: no face and no patch of this model is like 'canard*'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Lifting, OfSharpEdges) {

@@ -132,18 +132,52 @@ TEST(OpenGaps, AskForLessThanTheMinimumWhereAllowedTo) {
   EXPECT_GE(build_with_gaps(slot, 0.05)({0, 0, 0}), 0.0499);
 }
 
-TEST(OpenGaps, AreMeshed) {
-  // The same plate as a body: nothing is between its sides.
+namespace {
+
+/// The same as a body, from (0, 0, 0) to (2, thickness, 2).
+Model plate_in_far_field(double thickness) {
   cad::DomainOptions options;
   options.kind = cad::DomainKind::body;
   const std::string file =
       (std::filesystem::temp_directory_path() / ("aeroloom_plate_" + std::to_string(::getpid()) + ".brep"))
           .string();
-  BRepTools::Write(BRepPrimAPI_MakeWedge(2, 0.01, 2, 2).Shape(), file.c_str());
+  BRepTools::Write(BRepPrimAPI_MakeWedge(2, thickness, 2, 2).Shape(), file.c_str());
   options.file = file;
-  const Model body = prepare_domain(options).model;
+  Model body = prepare_domain(options).model;
   std::filesystem::remove(file);
-  EXPECT_GE(build_with_gaps(body, 0.001)({1, 0.01, 1}), 0.0999);
+  return body;
+}
+
+/// Elements wanted across thin parts, and across gaps.
+SizeField build_with_elements(const Model& model, double thin, double gap) {
+  SizingOptions options{0.01, 1, 30, 1.3, 0, thin};
+  options.gap_proximity = gap;
+  parallel::StageClock clock;
+  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+}
+
+}  // namespace
+
+TEST(OpenGaps, AreMeshed) {
+  // Nothing is between the sides of a body.
+  EXPECT_GE(build_with_gaps(plate_in_far_field(0.01), 0.001)({1, 0.01, 1}), 0.0999);
+}
+
+TEST(OpenGaps, AreToldFromThinParts) {
+  const Model gap = plate(0.2), part = plate_in_far_field(0.2);
+  const auto in_gap = [&](double thin, double of_gap) {
+    return build_with_elements(gap, thin, of_gap)({0, 0, 0});
+  };
+  const auto on_part = [&](double thin, double of_gap) {
+    return build_with_elements(part, thin, of_gap)({1, 0.2, 1});
+  };
+  EXPECT_NEAR(in_gap(1, 4), 0.05, 0.01);
+  EXPECT_EQ(in_gap(1, 4), in_gap(0, 4));
+  EXPECT_EQ(in_gap(4, -1), in_gap(4, 4));
+  EXPECT_GT(in_gap(4, 1), 3 * in_gap(4, 4));
+  EXPECT_NEAR(on_part(4, 1), 0.05, 0.01);
+  EXPECT_EQ(on_part(4, 1), on_part(4, 0));
+  EXPECT_GT(on_part(1, 4), 3 * on_part(4, 1));
 }
 
 TEST(OpenGaps, AWedgeIsNone) {

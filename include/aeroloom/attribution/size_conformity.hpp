@@ -11,6 +11,7 @@ struct SizeConformity {
   /// Part of the edges with 0.7 to 1.4 times the size at their middles; an edge counts once in each piece. Of
   /// pieces with more than 200 vertices those of some 200 are looked at.
   double good_edges = 0;
+  double fair_edges = 0;      ///< the same with 0.5 to 2 times the size
   double mean_edge = 0;       ///< in local sizes
   double bytes_per_cell = 0;  ///< of memory the pieces occupy
 };

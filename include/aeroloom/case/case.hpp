@@ -40,6 +40,7 @@ struct SizingRequest : sizing::GivenSizes {
   std::optional<sizing::LevelFamily> family;                   ///< of the level; left out: hlpw
   sizing::SolverPoints solver = sizing::SolverPoints::vertex;  ///< what spacings of a level mean
   std::optional<geometry::Vec3> flow;  ///< its direction, for levels; of any length; left out: default_flow
+  std::vector<std::string> lifting;    ///< patterns of faces with trailing edges, for levels; none: all faces
   std::vector<SourceRule> sources;     ///< regions with sizes of their own
   std::vector<WallRule> walls;         ///< bands off walls
   std::vector<EdgeRule> edges;         ///< sizes along CAD edges

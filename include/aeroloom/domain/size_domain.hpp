@@ -5,6 +5,7 @@
 #include "aeroloom/cad/repair/change.hpp"
 #include "aeroloom/case/case.hpp"
 #include "aeroloom/domain/bounded_faces.hpp"
+#include "aeroloom/domain/level_findings.hpp"
 #include "aeroloom/domain/trailing_edges.hpp"
 #include "aeroloom/domain/unresolved_features.hpp"
 #include "aeroloom/domain/wall_findings.hpp"
@@ -50,6 +51,7 @@ struct SizedDomain {
   TrailingEdgeReport edges = {};            ///< where that was looked at
   WallFindings walls;                       ///< what was found of walls close to each other
   std::optional<sizing::Level> level = {};  ///< whose sizes these are
+  std::optional<LevelFindings> found = {};  ///< by that level
 };
 
 /// Resolves sizes, closes trailing edges that trial sizes do not resolve where that moves little, joins

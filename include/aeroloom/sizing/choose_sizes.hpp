@@ -21,6 +21,7 @@ struct GivenSizes {
   std::optional<double> chordal_deviation;  ///< of triangles from curved faces
   std::optional<double> growth;             ///< ratio of neighbouring sizes
   std::optional<double> proximity;          ///< elements across thin parts and gaps; 0: any
+  std::optional<double> gap_proximity;      ///< across gaps alone
 
   /// Whether the sizes of features finer than the minimum are given too.
   bool holds_features() const { return minimum || feature_minimum; }

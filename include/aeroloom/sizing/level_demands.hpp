@@ -17,6 +17,9 @@ namespace aeroloom::sizing {
 std::vector<SizeLine> level_lines(const cad::Model& model, const LiftingBodies& bodies,
                                   const LevelSizes& level, geometry::Vec3 flow);
 
+/// The same at each point of a trailing edge.
+std::vector<double> trailing_sizes(const LiftingElement& element, const LevelSizes& level);
+
 /// Bounds for all the rest: walls by the reference chord; the smallest size along edges for curvature and
 /// features; growth and curvature angle of the level; in the far field a share of the domain.
 GivenSizes level_bounds(const cad::Model& model, const LiftingBodies& bodies, const LevelSizes& level);

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -47,8 +48,10 @@ struct LiftingBodies {
   double semispan = 0;  ///< half of what the body extends along the span of the largest; of half models all
 };
 
-/// Finds them. `flow`: a unit vector. For the model before any of its faces were joined. The same on every
-/// rank; collective. Throws parallel::CollectiveError where the CAD library fails.
-LiftingBodies find_lifting_bodies(const ModelSampler& sampler, geometry::Vec3 flow);
+/// Finds them. `flow`: a unit vector. `named`: patterns of the names of faces or patches; only trailing edges
+/// of these faces are taken, of all where there are none. For the model before any of its faces were joined.
+/// The same on every rank; collective. Throws parallel::CollectiveError where the CAD library fails.
+LiftingBodies find_lifting_bodies(const ModelSampler& sampler, geometry::Vec3 flow,
+                                  const std::vector<std::string>& named = {});
 
 }  // namespace aeroloom::sizing

@@ -21,11 +21,12 @@ inline constexpr double rays_per_area = 24;
 struct Gap {
   geometry::Vec3 point;
   double width;
+  bool is_meshed = true;  ///< whether what lies between is; if not, that is a thin part of a body
 };
 
 /// Gaps that rays from one face have met.
 struct Gaps {
-  std::vector<Gap> seen;  ///< on either side of the face, the narrower one
+  std::vector<Gap> seen;  ///< the narrower one on meshed sides of the face, and one through the body
   /// On a side that is meshed, and where the walls do not run together towards a common edge: elements as
   /// small as the gap resolve it. A wedge looks the same to elements of any size. Where facets are less than
   /// twice their distance from the surface apart, the gap is that between the surfaces; none where these run

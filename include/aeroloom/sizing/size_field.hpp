@@ -28,6 +28,7 @@ struct SizingOptions {
   double surface_maximum =
       0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
   double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
+  double gap_proximity = -1;  ///< the same, across gaps alone; negative: `proximity`
   double feature_minimum =
       0;                      ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
   double strip_minimum = 0;   ///< as `feature_minimum`, for narrow faces alone; 0: as that
@@ -40,9 +41,9 @@ struct SizingOptions {
   static constexpr auto fields() {
     return std::tuple(&SizingOptions::minimum, &SizingOptions::maximum, &SizingOptions::curvature_angle,
                       &SizingOptions::growth, &SizingOptions::surface_maximum, &SizingOptions::proximity,
-                      &SizingOptions::feature_minimum, &SizingOptions::strip_minimum,
-                      &SizingOptions::gap_minimum, &SizingOptions::feature_aspect,
-                      &SizingOptions::chordal_deviation);
+                      &SizingOptions::gap_proximity, &SizingOptions::feature_minimum,
+                      &SizingOptions::strip_minimum, &SizingOptions::gap_minimum,
+                      &SizingOptions::feature_aspect, &SizingOptions::chordal_deviation);
   }
   friend bool operator==(const SizingOptions&, const SizingOptions&) = default;
 };
@@ -65,6 +66,11 @@ inline double feature_size(double extent, double smallest, const SizingOptions& 
 /// The size that a narrow face asks for where it is so wide.
 inline double strip_size(double width, const SizingOptions& options) {
   return feature_size(width, smallest_strip_size(options), options);
+}
+
+/// Elements wanted across a gap between walls, at least.
+inline double elements_across_gaps(const SizingOptions& options) {
+  return options.gap_proximity >= 0 ? options.gap_proximity : options.proximity;
 }
 
 /// Gaps may ask for sizes down to this.

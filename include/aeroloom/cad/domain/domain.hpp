@@ -24,8 +24,9 @@ enum class Axis { x, y, z };
 enum class Symmetry { automatic, none, x, y, z };
 
 /// The length in which the extent of a far field is given: the largest extent of the body's box; half of what
-/// that extends across the flow, of half models from the plane of symmetry on.
-enum class ExtentUnit { body, semispan };
+/// that extends across the flow, of half models from the plane of symmetry on; the model's unit; a length
+/// that the user refers to, such as a chord.
+enum class ExtentUnit { body, semispan, model, reference };
 
 /// The far field around a body.
 struct FarFieldOptions {
@@ -33,8 +34,9 @@ struct FarFieldOptions {
   double extent = 10;  ///< distance from the body's centre to the far field, in units; for box and cylinder:
                        ///< from the centre to each side and end
   ExtentUnit unit = ExtentUnit::body;
-  Axis flow = Axis::x;  ///< the axis nearest to the flow, along which there is no span
-  Axis axis = Axis::x;  ///< of the cylinder
+  double unit_length = 1;  ///< of the units `model` and `reference`, in the model's unit
+  Axis flow = Axis::x;     ///< the axis nearest to the flow, along which there is no span
+  Axis axis = Axis::x;     ///< of the cylinder
   /// The half model's plane, normal to an axis. The body is cut there if it does not end there, and its part
   /// on the positive side is kept; the far field is cut to the same half.
   Symmetry symmetry = Symmetry::automatic;
@@ -43,8 +45,8 @@ struct FarFieldOptions {
 
   static constexpr auto fields() {
     return std::tuple(&FarFieldOptions::shape, &FarFieldOptions::extent, &FarFieldOptions::unit,
-                      &FarFieldOptions::flow, &FarFieldOptions::axis, &FarFieldOptions::symmetry,
-                      &FarFieldOptions::symmetry_position);
+                      &FarFieldOptions::unit_length, &FarFieldOptions::flow, &FarFieldOptions::axis,
+                      &FarFieldOptions::symmetry, &FarFieldOptions::symmetry_position);
   }
 };
 
