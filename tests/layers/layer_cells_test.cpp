@@ -33,8 +33,8 @@ std::int32_t any_count(Vec3 p) {
   return static_cast<std::int32_t>(state >> 20 & 3);
 }
 
-Column on_ball(Vec3 p, std::int32_t count) {
-  return is_on_ball(p) ? Column{normalized(p), count} : Column{};
+WantedColumn on_ball(Vec3 p, std::int32_t count) {
+  return is_on_ball(p) ? WantedColumn{normalized(p), count} : WantedColumn{};
 }
 
 void expect_valid(const Layered& layered, const mesh::DistributedMesh* surface) {
@@ -101,7 +101,7 @@ TEST(LayerCells, ConformForAnyCounts) {
 TEST(LayerCells, WithoutColumnsThereAreNone) {
   const auto world = Communicator::world();
   Layered layered(world, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
-  layered.grow(0.02, [](Vec3) { return Column{}; });
+  layered.grow(0.02, [](Vec3) { return WantedColumn{}; });
   layered.fill(volume::fields::uniform(0.4), 100);
   expect_valid(layered, &layered.wall.mesh);
   for (const Piece& piece : layered.mesh.pieces) EXPECT_TRUE(piece.layers.empty());
@@ -170,7 +170,7 @@ constexpr std::int32_t floor_face = 4;
 /// their planes.
 Layered on_the_floor(const Communicator& ranks, const std::function<std::int32_t(Vec3)>& count) {
   Layered layered(ranks, volume::surfaces::cube({0, 0, 0}, 1, 6), floor_face, mesh::PatchType::symmetry);
-  layered.grow(0.02, [&](Vec3 p) { return p.z == -1 ? Column{{0, 0, 1}, count(p)} : Column{}; });
+  layered.grow(0.02, [&](Vec3 p) { return p.z == -1 ? WantedColumn{{0, 0, 1}, count(p)} : WantedColumn{}; });
   layered.fill(volume::fields::uniform(0.3), 1000);
   return layered;
 }

@@ -20,19 +20,19 @@
 namespace aeroloom::layers {
 
 /// Silences the stages: what they do is checked, not read.
-class Quiet : public testing::Environment {
+class QuietLayers : public testing::Environment {
   void SetUp() override {
     parallel::configure_log(parallel::Communicator::world(), parallel::LogLevel::quiet);
   }
 };
-inline const testing::Environment* const quiet = testing::AddGlobalTestEnvironment(new Quiet);
+inline const testing::Environment* const quiet = testing::AddGlobalTestEnvironment(new QuietLayers);
 
 /// The column of a vertex on the faces that bear layers.
-struct Column {
+struct WantedColumn {
   geometry::Vec3 direction;
   std::int32_t count = 0;
 };
-using ColumnAt = std::function<Column(geometry::Vec3)>;
+using ColumnAt = std::function<WantedColumn(geometry::Vec3)>;
 
 /// A surface whose face `wall_face` is a wall, all others of another type; columns on the wall's vertices.
 struct Layered {
@@ -58,7 +58,7 @@ struct Layered {
       const mesh::Piece piece = front;
       PieceColumns& columns = layers.columns.pieces.emplace_back();
       for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-        const Column column = column_at(piece.point(v));
+        const WantedColumn column = column_at(piece.point(v));
         columns.directions.push_back(column.direction);
         columns.counts.push_back(column.count);
         columns.constant.push_back(2);
