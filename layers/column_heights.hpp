@@ -27,6 +27,12 @@ struct Heights {
     for_each_node(count, [&](std::int32_t, double h) { height = h; });
     return height;
   }
+  /// Of the last of `count` layers; of none, 0.
+  double last(std::int32_t count) const {
+    double layer = count > 0 ? first : 0;
+    for (std::int32_t k = constant + 1; k <= count; ++k) layer *= growth;
+    return layer;
+  }
 };
 
 /// No column has more layers.

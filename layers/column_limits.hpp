@@ -22,6 +22,7 @@ public:
   std::int32_t count(std::int32_t v) const { return _counts[v]; }
   std::int32_t wanted_count(std::int32_t v) const { return _wanted_counts[v]; }
   double total(std::int32_t v) const { return heights(v).total(_counts[v]); }
+  double last_height(std::int32_t v) const { return heights(v).last(_counts[v]); }
   bool is_squeezed(std::int32_t v) const { return _growth[v] < _wanted_growth[v]; }
   LayerLimit cause(std::int32_t v) const { return _causes[v]; }
   double mean_edge(std::int32_t v) const { return _mean_edges[v]; }

@@ -49,9 +49,11 @@ int shrink_to_good(const parallel::Communicator& communicator, const Wall& wall,
       const std::int32_t good = good_layers(columns);
       if (good == std::max({columns[0].count, columns[1].count, columns[2].count})) continue;
       ++bad;
-      const std::array<double, 3> heights = heights_at(columns, good);
+      const std::array<double, 3> heights = heights_at(columns, good),
+                                  bad_heights = heights_at(columns, good + 1);
+      const auto [low, high] = std::minmax_element(bad_heights.begin(), bad_heights.end());
       for (int i = 0; i < 3; ++i) {
-        if (columns[i].count <= good) continue;
+        if (columns[i].count <= good || 2 * bad_heights[i] < *low + *high) continue;
         double& total = totals[wall.triangles[t][i]];
         total = std::min({total, heights[i], least_step * columns[i].heights.total(columns[i].count)});
       }

@@ -16,11 +16,14 @@ struct PieceRow {
   static constexpr auto fields() { return std::tuple(&PieceRow::layers, &PieceRow::patch, &PieceRow::piece); }
 };
 
+constexpr double isotropic_enough = 0.35;  // of the mean edge: half of what is aimed at
+
 /// A third of a triangle's area, under one of its columns.
 void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLayers& patch) {
   const std::int32_t count = limits.count(v);
   const bool full = count >= limits.wanted_count(v), squeezed = count > 0 && limits.is_squeezed(v);
   (full ? patch.full_area : count > 0 ? patch.partial_area : patch.empty_area) += area;
+  if (full && limits.last_height(v) >= isotropic_enough * limits.mean_edge(v)) patch.isotropic_area += area;
   if (squeezed) patch.squeezed_area += area;
   if (!full || squeezed) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
   patch.layers_area += area * count;
@@ -43,7 +46,7 @@ void add_triangle(const Wall& wall, const ColumnLimits& limits, std::int32_t t, 
 void add_row(const PatchLayers& row, PatchLayers& sum) {
   for (double PatchLayers::*member :
        {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
-        &PatchLayers::squeezed_area, &PatchLayers::layers_area})
+        &PatchLayers::isotropic_area, &PatchLayers::squeezed_area, &PatchLayers::layers_area})
     sum.*member += row.*member;
   for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
   for (std::int64_t PatchLayers::*member :

@@ -191,8 +191,8 @@ TEST(BuildLayers, CoverASphereInASphere) {
   const Layers layers = build(world, mesh, options_for({0, 1e-3}));
   expect_valid(world, mesh, layers);
   const PatchLayers& patch = layers.report.patches[1];
-  EXPECT_EQ(patch.full_area, patch.area);
-  EXPECT_EQ(patch.squeezed_area, 0);
+  EXPECT_EQ(patch.partial_area, 0);
+  EXPECT_GT(patch.isotropic_area, 0.9 * patch.area);
   EXPECT_EQ(patch.triangles, 12 * 12 * 12);
   EXPECT_EQ(layers.report.patches[0].area, 0);
   EXPECT_GE(patch.most_layers, 24);
@@ -224,7 +224,7 @@ TEST(BuildLayers, FillTheCornersOfABox) {
   const PatchLayers& patch = layers.report.patches[0];
   EXPECT_EQ(patch.empty_area, 0);
   EXPECT_GT(patch.squeezed_area, 0) << "towards the edges";
-  EXPECT_GT(patch.full_area, 0.9 * patch.area);
+  EXPECT_GT(patch.full_area, 0.7 * patch.area);
 }
 
 TEST(BuildLayers, LeaveRoomInASlit) {
