@@ -9,6 +9,7 @@
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
+#include "pipeline/layer_stage.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
@@ -45,10 +46,21 @@ public:
     });
     FinishedSurface surface =
         stage("surface", report::ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
+    std::optional<LayeredSurface> layered;
+    if (_input.layers.given) {
+      layered = stage("layers", report::ExitCode::surface,
+                      [&] { return build_layers(_communicator, _input, surface, _record); });
+    }
     const report::PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
-    mesh::DistributedMesh volume =
-        report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
-                                         [&] { return volume_stages().find_or_build(sized.model, surface); });
+    mesh::DistributedMesh volume = report::with_pictures_of_failure(
+        _communicator, pictured, _input.output, _record.pictures,
+        [&] { return volume_stages().find_or_build(sized.model, layered ? layered->front : surface); });
+    if (layered) {
+      stage("layers", report::ExitCode::volume, [&] {
+        append_layers(_communicator, _input, surface, std::move(*layered), volume, _record);
+        layered.reset();
+      });
+    }
     const mesh::Numbering numbering =
         stage("inspect", report::ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
     volume.patch_types = _record.patch_types;
@@ -297,7 +309,10 @@ private:
 }  // namespace
 
 void run_case(const Communicator& communicator, const cases::Case& input, report::RunRecord& record) {
-  CaseRun(communicator, input, record).run();
+  if (!input.layers.given) return CaseRun(communicator, input, record).run();
+  cases::Case kept = input;
+  kept.improve.boundary_may_change = false;  // layers stand before it
+  CaseRun(communicator, kept, record).run();
 }
 
 }  // namespace aeroloom::pipeline
