@@ -7,10 +7,6 @@
 namespace aeroloom::layers {
 namespace {
 
-/// A round leaves at most so much of a height that is too much: few rounds lead far down. Chosen, not
-/// measured.
-constexpr double least_step = 0.9;
-
 /// The layered triangles around vertices, each once.
 std::vector<std::int32_t> triangles_at(const Wall& wall, const std::vector<std::int32_t>& vertices,
                                        std::vector<std::uint8_t>& seen) {
@@ -46,16 +42,12 @@ int shrink_to_good(const parallel::Communicator& communicator, const Wall& wall,
     std::int64_t bad = 0;
     for (const std::int32_t t : triangles_at(wall, limits.take_changed(), seen)) {
       const TriangleColumns columns = columns_over(wall, directions, limits, t);
-      const std::int32_t good = good_layers(columns);
-      if (good == std::max({columns[0].count, columns[1].count, columns[2].count})) continue;
+      const double height = fitting_height(columns);
+      if (height == std::numeric_limits<double>::infinity()) continue;
       ++bad;
-      const std::array<double, 3> heights = heights_at(columns, good),
-                                  bad_heights = heights_at(columns, good + 1);
-      const auto [low, high] = std::minmax_element(bad_heights.begin(), bad_heights.end());
       for (int i = 0; i < 3; ++i) {
-        if (columns[i].count <= good || 2 * bad_heights[i] < *low + *high) continue;
         double& total = totals[wall.triangles[t][i]];
-        total = std::min({total, heights[i], least_step * columns[i].heights.total(columns[i].count)});
+        if (columns[i].heights.total(columns[i].count) > height) total = std::min(total, height);
       }
     }
     if (communicator.sum(bad) == 0) return rounds;
