@@ -30,7 +30,7 @@ Vec3 move_towards(Vec3 mean, Vec3 present, double least, std::span<const Vec3> n
 
 }  // namespace
 
-Directions find_directions(const Wall& wall, const Fans& fans) {
+Directions find_directions(const WallShare& wall, const Fans& fans) {
   const std::int32_t count = wall.vertex_count();
   Directions directions;
   directions.most_normal.assign(count, Vec3{});

@@ -18,6 +18,6 @@ struct Directions {
 /// The most normal directions, and these after sweeps of smoothing that see every triangle nearly as well as
 /// they. A vertex whose most normal direction stands lower than 10 degrees on a triangle has none, nor have
 /// those where layers may not be. Collective.
-Directions find_directions(const Wall& wall, const Fans& fans);
+Directions find_directions(const WallShare& wall, const Fans& fans);
 
 }  // namespace aeroloom::layers

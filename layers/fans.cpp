@@ -45,7 +45,7 @@ struct FanAnswer {
   auto place() const { return std::tie(vertex, triangle.piece, triangle.cell); }
 };
 
-Vec3 normal_of(const Wall& wall, std::int32_t t) {
+Vec3 normal_of(const WallShare& wall, std::int32_t t) {
   const auto& [a, b, c] = wall.triangles[t];
   return normalized(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
 }
@@ -53,11 +53,11 @@ Vec3 normal_of(const Wall& wall, std::int32_t t) {
 /// The triangles of one piece as their corners see them.
 class PieceFans {
 public:
-  PieceFans(const Wall& wall, std::size_t position)
+  PieceFans(const WallShare& wall, std::size_t position)
       : _wall(wall), _position(position), _names(mesh::name_vertices(wall.mesh.pieces[position])) {}
 
   FanTriangle triangle(std::int32_t t, std::int32_t vertex) const {
-    const Wall::Corners& corners = _wall.triangles[t];
+    const WallShare::Corners& corners = _wall.triangles[t];
     const int at = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
     const std::int32_t base = _wall.first_vertex[_position];
     return {normal_of(_wall, t),
@@ -69,7 +69,7 @@ public:
   }
 
 private:
-  const Wall& _wall;
+  const WallShare& _wall;
   std::size_t _position;
   std::vector<VertexName> _names;
 };
@@ -102,7 +102,8 @@ FanKind kind_of(std::span<const FanTriangle> fan) {
 }
 
 /// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
-std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& communicator, const Wall& wall) {
+std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& communicator,
+                                               const WallShare& wall) {
   std::vector<FanGuest> guests;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const PieceFans of_piece(wall, p);
@@ -130,7 +131,7 @@ std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& com
 
 }  // namespace
 
-Fans gather_fans(const parallel::Communicator& communicator, const Wall& wall) {
+Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wall) {
   const std::vector<FanAnswer> met = meet_at_shared_vertices(communicator, wall);
   Fans fans;
   fans.first.reserve(wall.points.size() + 1);

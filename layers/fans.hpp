@@ -1,7 +1,7 @@
 /// The triangles around each vertex of a wall, those of other pieces included.
 #pragma once
 
-#include "layers/wall.hpp"
+#include "layers/wall_share.hpp"
 
 #include <cstdint>
 #include <span>
@@ -30,6 +30,6 @@ struct Fans {
 };
 
 /// What pieces know of a shared vertex is brought together once. Collective.
-Fans gather_fans(const parallel::Communicator& communicator, const Wall& wall);
+Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wall);
 
 }  // namespace aeroloom::layers

@@ -23,7 +23,7 @@ std::int32_t lowered(std::int32_t count, int round) {
 /// Counts that the columns of triangles of this rank fall to, if any.
 class LoweredCounts {
 public:
-  LoweredCounts(const Wall& wall, const ColumnLimits& limits, int round)
+  LoweredCounts(const WallShare& wall, const ColumnLimits& limits, int round)
       : _wall(wall), _limits(limits), _round(round), _counts(wall.points.size(), unchanged) {}
 
   void add(mesh::PieceId piece, mesh::LocalIndex cell) {
@@ -42,7 +42,7 @@ public:
 private:
   static constexpr std::int32_t unchanged = std::numeric_limits<std::int32_t>::max();
 
-  const Wall& _wall;
+  const WallShare& _wall;
   const ColumnLimits& _limits;
   int _round;
   std::vector<std::int32_t> _counts;
@@ -51,7 +51,7 @@ private:
 
 }  // namespace
 
-Columns make_columns(const Wall& wall, const Directions& directions, const ColumnLimits& limits) {
+Columns make_columns(const WallShare& wall, const Directions& directions, const ColumnLimits& limits) {
   Columns columns;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     PieceColumns& of_piece = columns.pieces.emplace_back();
@@ -83,7 +83,7 @@ mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Column
   return front;
 }
 
-void shrink_to_clear(const parallel::Communicator& communicator, const Wall& wall,
+void shrink_to_clear(const parallel::Communicator& communicator, const WallShare& wall,
                      const Directions& directions, ColumnLimits& limits, LayerReport& report,
                      parallel::StageClock& clock) {
   for (int round = 1;; ++round) {
@@ -100,7 +100,7 @@ void shrink_to_clear(const parallel::Communicator& communicator, const Wall& wal
     report.crossings += static_cast<std::int64_t>(hits.size());
     if (round > rounds_of_thirds) report.zeroed_by_force += lowered;
     limits.limit_counts(lower.take(), LayerLimit::crossing);
-    limits.settle(communicator);
+    limits.converge(communicator);
     report.validity_rounds += shrink_to_good(communicator, wall, directions, limits);
   }
 }

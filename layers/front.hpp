@@ -6,7 +6,7 @@
 namespace aeroloom::layers {
 
 /// The columns of all pieces of this rank.
-Columns make_columns(const Wall& wall, const Directions& directions, const ColumnLimits& limits);
+Columns make_columns(const WallShare& wall, const Directions& directions, const ColumnLimits& limits);
 
 /// The wall mesh with its vertices moved to the ends of their columns.
 mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Columns& columns);
@@ -15,7 +15,7 @@ mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Column
 /// made good again, until no triangles meet. After some rounds columns whose triangles still meet are
 /// emptied. What a wall has of intersections itself stays. Writes rounds and counts to the report.
 /// Collective.
-void shrink_to_clear(const parallel::Communicator& communicator, const Wall& wall,
+void shrink_to_clear(const parallel::Communicator& communicator, const WallShare& wall,
                      const Directions& directions, ColumnLimits& limits, LayerReport& report,
                      parallel::StageClock& clock);
 

@@ -92,14 +92,14 @@ std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator
 }
 
 /// The triangles of this rank, and those of others that its balls may meet.
-std::vector<NearTriangle> fetch_triangles(const parallel::Communicator& communicator, const Wall& wall,
+std::vector<NearTriangle> fetch_triangles(const parallel::Communicator& communicator, const WallShare& wall,
                                           const std::vector<BallBatch>& batches) {
   std::vector<Box> boxes;
   for (const BallBatch& batch : batches) boxes.push_back(batch.box);
   const geometry::BoxTree tree(boxes, boxes_per_leaf_of_gaps);
   std::vector<NearTriangle> triangles;
   std::vector<std::int64_t> ranks;
-  for (const Wall::Corners& corners : wall.triangles) {
+  for (const WallShare::Corners& corners : wall.triangles) {
     NearTriangle triangle{{wall.points[corners[0]], wall.points[corners[1]], wall.points[corners[2]]}, 0};
     Box box;
     for (const Vec3 corner : triangle.corners) box.add(corner);
@@ -135,7 +135,7 @@ double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
   return diameter;
 }
 
-std::vector<double> find_gaps(const parallel::Communicator& communicator, const Wall& wall,
+std::vector<double> find_gaps(const parallel::Communicator& communicator, const WallShare& wall,
                               const std::vector<TouchingBall>& balls) {
   const std::vector<NearTriangle> triangles =
       fetch_triangles(communicator, wall, gather_batches(communicator, balls));

@@ -8,7 +8,7 @@ namespace aeroloom::layers {
 namespace {
 
 /// The layered triangles around vertices, each once.
-std::vector<std::int32_t> triangles_at(const Wall& wall, const std::vector<std::int32_t>& vertices,
+std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<std::int32_t>& vertices,
                                        std::vector<std::uint8_t>& seen) {
   std::vector<std::int32_t> triangles;
   for (const std::int32_t v : vertices) {
@@ -24,7 +24,7 @@ std::vector<std::int32_t> triangles_at(const Wall& wall, const std::vector<std::
 
 }  // namespace
 
-TriangleColumns columns_over(const Wall& wall, const Directions& directions, const ColumnLimits& limits,
+TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
                              std::int32_t triangle) {
   TriangleColumns columns;
   for (int i = 0; i < 3; ++i) {
@@ -34,8 +34,8 @@ TriangleColumns columns_over(const Wall& wall, const Directions& directions, con
   return columns;
 }
 
-int shrink_to_good(const parallel::Communicator& communicator, const Wall& wall, const Directions& directions,
-                   ColumnLimits& limits) {
+int shrink_to_good(const parallel::Communicator& communicator, const WallShare& wall,
+                   const Directions& directions, ColumnLimits& limits) {
   std::vector<std::uint8_t> seen(wall.triangles.size(), 0);
   for (int rounds = 0;; ++rounds) {
     std::vector<double> totals(wall.points.size(), std::numeric_limits<double>::infinity());
@@ -52,7 +52,7 @@ int shrink_to_good(const parallel::Communicator& communicator, const Wall& wall,
     }
     if (communicator.sum(bad) == 0) return rounds;
     limits.limit_totals(std::move(totals), LayerLimit::validity);
-    limits.settle(communicator);
+    limits.converge(communicator);
   }
 }
 

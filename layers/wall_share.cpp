@@ -1,4 +1,4 @@
-#include "layers/wall.hpp"
+#include "layers/wall_share.hpp"
 
 #include "aeroloom/parallel/communication/collective_error.hpp"
 
@@ -41,8 +41,8 @@ std::vector<WallRole> roles_of_patches(const mesh::DistributedMesh& mesh, const 
 
 }  // namespace
 
-Wall::Wall(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-           const LayerOptions& options)
+WallShare::WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
+                     const LayerOptions& options)
     : mesh((require_fitting(surface, options), surface)), shared(communicator, surface) {
   const std::vector<WallRole> of_patches = roles_of_patches(mesh, options);
   for (const mesh::Piece& piece : mesh.pieces) {

@@ -22,12 +22,12 @@ enum class WallRole : std::int8_t {
 /// The pieces of this rank, one after another: vertex v of piece p is number first_vertex[p] + v here,
 /// triangles alike. What several pieces know of a vertex has a place for each of them, and equal values in
 /// all.
-struct Wall {
+struct WallShare {
   using Corners = std::array<std::int32_t, 3>;
 
   /// Refers to the mesh. Throws CollectiveError where options do not fit it. Collective.
-  Wall(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-       const LayerOptions& options);
+  WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+            const LayerOptions& options);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(points.size()); }
   std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }
