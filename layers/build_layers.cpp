@@ -6,6 +6,7 @@
 #include "layers/layer_report.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -22,7 +23,7 @@ double ample_gap(const ColumnLimits& limits, std::int32_t v) {
 }
 
 /// The balls that tell whether columns have room. Only the lowest piece that knows a vertex asks.
-std::vector<TouchingBall> balls_on(const Wall& wall, const Directions& directions,
+std::vector<TouchingBall> balls_on(const WallShare& wall, const Directions& directions,
                                    const ColumnLimits& limits) {
   std::vector<TouchingBall> balls(wall.points.size());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
@@ -34,8 +35,8 @@ std::vector<TouchingBall> balls_on(const Wall& wall, const Directions& direction
 
 /// No column takes more than 0.4 of the gap, nor more than half of what it leaves beside a mean edge, for a
 /// tetrahedron; but layers of the first height are kept where 0.4 of the gap holds them.
-void limit_by_gaps(const parallel::Communicator& communicator, const Wall& wall, const Directions& directions,
-                   ColumnLimits& limits) {
+void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& wall,
+                   const Directions& directions, ColumnLimits& limits) {
   std::vector<double> gaps = find_gaps(communicator, wall, balls_on(wall, directions, limits));
   wall.spread(gaps);
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
@@ -51,19 +52,22 @@ void limit_by_gaps(const parallel::Communicator& communicator, const Wall& wall,
 }  // namespace
 
 Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, parallel::StageClock& clock) {
-  const Wall walls(communicator, wall.mesh, options);
+                    const LayerOptions& options, parallel::StageClock& clock,
+                    const PlaneRemesher& remesh_planes) {
+  const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+  clock.add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
+  const WallShare walls(communicator, wall.mesh, options);
   const Fans fans = gather_fans(communicator, walls);
   const Directions directions = find_directions(walls, fans);
   ColumnLimits limits(walls, options, fans, directions);
-  limits.settle(communicator);
+  limits.converge(communicator);
   limit_by_gaps(communicator, walls, directions, limits);
-  limits.settle(communicator);
+  limits.converge(communicator);
   Layers layers;
   layers.report.validity_rounds = shrink_to_good(communicator, walls, directions, limits);
-  shrink_to_clear(communicator, walls, directions, limits, layers.report, clock);
+  layers.front =
+      FrontClearing(communicator, walls, directions, remesh_planes).run(limits, layers.report, clock);
   layers.columns = make_columns(walls, directions, limits);
-  layers.front = make_front(wall.mesh, layers.columns);
   layers.report.patches = report_patches(communicator, walls, limits);
   return layers;
 }

@@ -26,32 +26,32 @@ constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 }  // namespace
 
-ColumnLimits::ColumnLimits(const Wall& wall, const LayerOptions& options, const Fans& fans,
+ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, const Fans& fans,
                            const Directions& directions)
     : _wall(wall), _stairs(options.stairs) {
-  const std::vector<VertexWish> wishes = gather_wishes(wall, options);
-  const std::size_t n = wishes.size();
+  const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
+  const std::size_t n = all_wanted.size();
   _first.assign(n, 0), _growth.assign(n, 1), _mean_edges.assign(n, 0), _slopes.assign(n, 1),
       _limits.assign(n, 0);
   _constant.assign(n, 1), _counts.assign(n, 0), _causes.assign(n, LayerLimit::none), _changed.assign(n, 0);
   _wanted_counts.assign(n, 0);
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
-    const VertexWish& wish = wishes[v];
-    if (wish.edges == 0) continue;
-    _mean_edges[v] = wish.mean_edge();
-    const double total = wish.total < unlimited ? wish.total : 0;
-    const WallLayers wanted{wish.first, wish.growth, static_cast<std::int32_t>(wish.constant),
-                            static_cast<std::int32_t>(wish.count), total};
+    const VertexLayers& asked = all_wanted[v];
+    if (asked.edges == 0) continue;
+    _mean_edges[v] = asked.mean_edge();
+    const double total = asked.total < unlimited ? asked.total : 0;
+    const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
+                            static_cast<std::int32_t>(asked.count), total};
     _wanted_counts[v] = layers::wanted_count(wanted, _mean_edges[v]);
     if (fans.kinds[v] != FanKind::plain || directions.visibility[v] == 0) {
       _causes[v] = fans.kinds[v] == FanKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
       _lower_counts.push_back(v), _lower_totals.push_back(v);
       continue;
     }
-    _first[v] = wish.first * std::min(most_lengthening, 1 / directions.visibility[v]);
-    _growth[v] = wish.growth;
+    _first[v] = asked.first * std::min(most_lengthening, 1 / directions.slants[v]);
+    _growth[v] = asked.growth;
     _constant[v] = wanted.constant;
-    _slopes[v] = slope_of(wish.growth);
+    _slopes[v] = slope_of(asked.growth);
     _counts[v] = _wanted_counts[v];
     _limits[v] = this->total(v);
     _lower_counts.push_back(v), _lower_totals.push_back(v);
@@ -131,7 +131,7 @@ void ColumnLimits::propagate(const parallel::Communicator& communicator, std::ve
   }
 }
 
-bool ColumnLimits::settle_counts(const parallel::Communicator& communicator) {
+bool ColumnLimits::converge_counts(const parallel::Communicator& communicator) {
   std::vector<std::int32_t> counts = _counts;
   propagate(communicator, counts, std::exchange(_lower_counts, {}),
             [&](std::int32_t, std::int32_t, std::int32_t count) { return count + _stairs; });
@@ -145,7 +145,7 @@ bool ColumnLimits::settle_counts(const parallel::Communicator& communicator) {
   return communicator.sum(cut) > 0;
 }
 
-void ColumnLimits::settle_totals(const parallel::Communicator& communicator) {
+void ColumnLimits::converge_totals(const parallel::Communicator& communicator) {
   std::vector<double> limits = _limits;
   propagate(communicator, limits, std::exchange(_lower_totals, {}),
             [&](std::int32_t v, std::int32_t u, double limit) {
@@ -158,10 +158,10 @@ void ColumnLimits::settle_totals(const parallel::Communicator& communicator) {
   }
 }
 
-void ColumnLimits::settle(const parallel::Communicator& communicator) {
+void ColumnLimits::converge(const parallel::Communicator& communicator) {
   do {
-    settle_counts(communicator);
-    settle_totals(communicator);
+    converge_counts(communicator);
+    converge_totals(communicator);
   } while (communicator.sum(static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
 }
 

@@ -4,7 +4,7 @@
 
 #include "layers/column_heights.hpp"
 #include "layers/directions.hpp"
-#include "layers/wall.hpp"
+#include "layers/wall_share.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,8 @@ namespace aeroloom::layers {
 class ColumnLimits {
 public:
   /// The columns that the patches ask for. Collective.
-  ColumnLimits(const Wall& wall, const LayerOptions& options, const Fans& fans, const Directions& directions);
+  ColumnLimits(const WallShare& wall, const LayerOptions& options, const Fans& fans,
+               const Directions& directions);
 
   Heights heights(std::int32_t v) const { return {_first[v], _growth[v], _constant[v]}; }
   std::int32_t count(std::int32_t v) const { return _counts[v]; }
@@ -34,7 +35,7 @@ public:
   void limit_counts(std::vector<std::int32_t> counts, LayerLimit cause);
   /// Lets neighbours follow: counts within `stairs`, totals within the slope, until nothing changes.
   /// Collective.
-  void settle(const parallel::Communicator& communicator);
+  void converge(const parallel::Communicator& communicator);
 
   /// The vertices whose columns changed since the last call; equal in all pieces.
   std::vector<std::int32_t> take_changed();
@@ -50,10 +51,10 @@ private:
   template <class T, class Follow>
   void propagate(const parallel::Communicator& communicator, std::vector<T>& values,
                  std::vector<std::int32_t> from, const Follow& follow) const;
-  bool settle_counts(const parallel::Communicator& communicator);
-  void settle_totals(const parallel::Communicator& communicator);
+  bool converge_counts(const parallel::Communicator& communicator);
+  void converge_totals(const parallel::Communicator& communicator);
 
-  const Wall& _wall;
+  const WallShare& _wall;
   std::int32_t _stairs;
   std::vector<double> _first, _growth, _wanted_growth, _mean_edges, _slopes;
   std::vector<double> _limits;  ///< of the totals: what neighbours go by

@@ -4,6 +4,7 @@
 #include "mesh/rendezvous.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace aeroloom::layers {
@@ -16,12 +17,11 @@ using mesh::VertexName;
 struct FanTriangle {
   Vec3 normal;
   VertexName next, previous;
-  std::int32_t piece, cell;
-  std::int64_t role;
+  std::int32_t piece, cell, role, face;
 
   static constexpr auto fields() {
     return std::tuple(&FanTriangle::normal, &FanTriangle::next, &FanTriangle::previous, &FanTriangle::piece,
-                      &FanTriangle::cell, &FanTriangle::role);
+                      &FanTriangle::cell, &FanTriangle::role, &FanTriangle::face);
   }
 };
 
@@ -45,7 +45,7 @@ struct FanAnswer {
   auto place() const { return std::tie(vertex, triangle.piece, triangle.cell); }
 };
 
-Vec3 normal_of(const Wall& wall, std::int32_t t) {
+Vec3 normal_of(const WallShare& wall, std::int32_t t) {
   const auto& [a, b, c] = wall.triangles[t];
   return normalized(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
 }
@@ -53,11 +53,11 @@ Vec3 normal_of(const Wall& wall, std::int32_t t) {
 /// The triangles of one piece as their corners see them.
 class PieceFans {
 public:
-  PieceFans(const Wall& wall, std::size_t position)
+  PieceFans(const WallShare& wall, std::size_t position)
       : _wall(wall), _position(position), _names(mesh::name_vertices(wall.mesh.pieces[position])) {}
 
   FanTriangle triangle(std::int32_t t, std::int32_t vertex) const {
-    const Wall::Corners& corners = _wall.triangles[t];
+    const WallShare::Corners& corners = _wall.triangles[t];
     const int at = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
     const std::int32_t base = _wall.first_vertex[_position];
     return {normal_of(_wall, t),
@@ -65,11 +65,12 @@ public:
             _names[corners[(at + 2) % 3] - base],
             _wall.mesh.pieces[_position].id,
             t - _wall.first_triangle[_position],
-            static_cast<std::int64_t>(_wall.roles[t])};
+            static_cast<std::int32_t>(_wall.roles[t]),
+            _wall.faces[t]};
   }
 
 private:
-  const Wall& _wall;
+  const WallShare& _wall;
   std::size_t _position;
   std::vector<VertexName> _names;
 };
@@ -101,8 +102,36 @@ FanKind kind_of(std::span<const FanTriangle> fan) {
   return is_closed_fan(fan) ? FanKind::plain : FanKind::broken;
 }
 
+/// Normals of the different planes around a vertex that layers end on.
+std::vector<Vec3> planes_around(const WallShare& wall, std::span<const FanTriangle> fan) {
+  constexpr double same_plane = 1 - 1e-12;  // cosine; as planes are told from other faces
+  std::vector<Vec3> planes;
+  for (const FanTriangle& t : fan) {
+    if (static_cast<WallRole>(t.role) != WallRole::plane) continue;
+    const Vec3 normal = wall.end_planes[t.face];
+    const bool known = std::any_of(planes.begin(), planes.end(),
+                                   [&](Vec3 other) { return std::abs(dot(other, normal)) >= same_plane; });
+    if (!known) planes.push_back(normal);
+  }
+  return planes;
+}
+
+/// Appends the normals of layered triangles, and their mirror images at the planes.
+void append_normals(std::span<const FanTriangle> fan, std::span<const Vec3> planes,
+                    std::vector<Vec3>& normals) {
+  const std::size_t first = normals.size();
+  for (const FanTriangle& t : fan) {
+    if (static_cast<WallRole>(t.role) == WallRole::layered) normals.push_back(t.normal);
+  }
+  for (const Vec3 plane : planes) {
+    for (std::size_t i = first, end = normals.size(); i < end; ++i)
+      normals.push_back(normals[i] - 2 * dot(plane, normals[i]) * plane);
+  }
+}
+
 /// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
-std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& communicator, const Wall& wall) {
+std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& communicator,
+                                               const WallShare& wall) {
   std::vector<FanGuest> guests;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const PieceFans of_piece(wall, p);
@@ -130,11 +159,12 @@ std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& com
 
 }  // namespace
 
-Fans gather_fans(const parallel::Communicator& communicator, const Wall& wall) {
+Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wall) {
   const std::vector<FanAnswer> met = meet_at_shared_vertices(communicator, wall);
   Fans fans;
   fans.first.reserve(wall.points.size() + 1);
   fans.first.push_back(0);
+  fans.first_plane.push_back(0);
   std::vector<FanTriangle> fan;
   std::size_t next = 0;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
@@ -146,10 +176,13 @@ Fans gather_fans(const parallel::Communicator& communicator, const Wall& wall) {
         for (const std::int32_t t : wall.triangles_around(v)) fan.push_back(of_piece.triangle(t, v));
       }
       fans.kinds.push_back(kind_of(fan));
-      for (const FanTriangle& t : fan) {
-        if (static_cast<WallRole>(t.role) == WallRole::layered) fans.normals.push_back(t.normal);
-      }
+      std::vector<Vec3> planes = planes_around(wall, fan);
+      if (fans.kinds.back() != FanKind::plain) planes.clear();
+      if (planes.size() > 2) fans.kinds.back() = FanKind::ending, planes.clear();
+      append_normals(fan, planes, fans.normals);
+      fans.plane_normals.insert(fans.plane_normals.end(), planes.begin(), planes.end());
       fans.first.push_back(static_cast<std::int64_t>(fans.normals.size()));
+      fans.first_plane.push_back(static_cast<std::int64_t>(fans.plane_normals.size()));
     }
   }
   return fans;

@@ -7,12 +7,8 @@
 namespace aeroloom::layers {
 namespace {
 
-/// A round leaves at most so much of a height that is too much: few rounds lead far down. Chosen, not
-/// measured.
-constexpr double least_step = 0.9;
-
 /// The layered triangles around vertices, each once.
-std::vector<std::int32_t> triangles_at(const Wall& wall, const std::vector<std::int32_t>& vertices,
+std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<std::int32_t>& vertices,
                                        std::vector<std::uint8_t>& seen) {
   std::vector<std::int32_t> triangles;
   for (const std::int32_t v : vertices) {
@@ -28,7 +24,7 @@ std::vector<std::int32_t> triangles_at(const Wall& wall, const std::vector<std::
 
 }  // namespace
 
-TriangleColumns columns_over(const Wall& wall, const Directions& directions, const ColumnLimits& limits,
+TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
                              std::int32_t triangle) {
   TriangleColumns columns;
   for (int i = 0; i < 3; ++i) {
@@ -38,29 +34,25 @@ TriangleColumns columns_over(const Wall& wall, const Directions& directions, con
   return columns;
 }
 
-int shrink_to_good(const parallel::Communicator& communicator, const Wall& wall, const Directions& directions,
-                   ColumnLimits& limits) {
+int shrink_to_good(const parallel::Communicator& communicator, const WallShare& wall,
+                   const Directions& directions, ColumnLimits& limits) {
   std::vector<std::uint8_t> seen(wall.triangles.size(), 0);
   for (int rounds = 0;; ++rounds) {
     std::vector<double> totals(wall.points.size(), std::numeric_limits<double>::infinity());
     std::int64_t bad = 0;
     for (const std::int32_t t : triangles_at(wall, limits.take_changed(), seen)) {
       const TriangleColumns columns = columns_over(wall, directions, limits, t);
-      const std::int32_t good = good_layers(columns);
-      if (good == std::max({columns[0].count, columns[1].count, columns[2].count})) continue;
+      const double height = fitting_height(columns);
+      if (height == std::numeric_limits<double>::infinity()) continue;
       ++bad;
-      const std::array<double, 3> heights = heights_at(columns, good),
-                                  bad_heights = heights_at(columns, good + 1);
-      const auto [low, high] = std::minmax_element(bad_heights.begin(), bad_heights.end());
       for (int i = 0; i < 3; ++i) {
-        if (columns[i].count <= good || 2 * bad_heights[i] < *low + *high) continue;
         double& total = totals[wall.triangles[t][i]];
-        total = std::min({total, heights[i], least_step * columns[i].heights.total(columns[i].count)});
+        if (columns[i].heights.total(columns[i].count) > height) total = std::min(total, height);
       }
     }
     if (communicator.sum(bad) == 0) return rounds;
     limits.limit_totals(std::move(totals), LayerLimit::validity);
-    limits.settle(communicator);
+    limits.converge(communicator);
   }
 }
 

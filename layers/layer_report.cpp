@@ -30,7 +30,7 @@ void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLa
   patch.most_layers = std::max<std::int64_t>(patch.most_layers, count);
 }
 
-void add_triangle(const Wall& wall, const ColumnLimits& limits, std::int32_t t, PatchLayers& patch) {
+void add_triangle(const WallShare& wall, const ColumnLimits& limits, std::int32_t t, PatchLayers& patch) {
   const auto& [a, b, c] = wall.triangles[t];
   const double area = 0.5 * norm(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
   std::array<std::int32_t, 3> counts{limits.count(a), limits.count(b), limits.count(c)};
@@ -57,7 +57,7 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 
 }  // namespace
 
-std::vector<PatchLayers> report_patches(const parallel::Communicator& communicator, const Wall& wall,
+std::vector<PatchLayers> report_patches(const parallel::Communicator& communicator, const WallShare& wall,
                                         const ColumnLimits& limits) {
   std::vector<PieceRow> rows;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {

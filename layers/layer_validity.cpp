@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace aeroloom::layers {
 namespace {
@@ -97,29 +98,82 @@ bool is_good_cell(const TriangleColumns& columns, std::int32_t k, const Level& l
   return has_positive_volume(lower[0], lower[1], lower[2], upper[alone]);
 }
 
+/// What cells may not fall below, of the wall triangle.
+struct Least {
+  double determinant, cosine;
+
+  explicit Least(const TriangleColumns& columns) {
+    const Level wall{columns[0].point, columns[1].point, columns[2].point};
+    determinant = kept_jacobian * corner_determinant(wall, columns);
+    cosine = std::cos(kept_angle * std::acos(largest_cosine(wall)));
+  }
+};
+
+/// The heights of the columns' ends, and of the uppermost prism.
+struct Ends {
+  std::array<double, 3> totals, of_prisms;
+
+  explicit Ends(const TriangleColumns& columns) {
+    const std::int32_t prisms = std::min({columns[0].count, columns[1].count, columns[2].count});
+    for (int i = 0; i < 3; ++i) {
+      totals[i] = columns[i].heights.total(columns[i].count);
+      of_prisms[i] = columns[i].count == prisms ? totals[i] : columns[i].heights.total(prisms);
+    }
+  }
+  double highest() const { return std::max({totals[0], totals[1], totals[2]}); }
+};
+
+/// Whether front and uppermost prism are good where all columns shrink to a height.
+bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least& least, double height) {
+  Level front, prism;
+  for (int i = 0; i < 3; ++i) {
+    const double ratio = ends.totals[i] > height ? height / ends.totals[i] : 1;
+    front[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
+    prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
+  }
+  return largest_cosine(front) <= least.cosine && corner_determinant(prism, columns) >= least.determinant;
+}
+
 }  // namespace
 
 std::int32_t good_layers(const TriangleColumns& columns) {
   const std::int32_t most = std::max({columns[0].count, columns[1].count, columns[2].count});
   const std::int32_t prisms = std::min({columns[0].count, columns[1].count, columns[2].count});
+  const Least least(columns);
   Levels levels(columns);
-  const Level wall = levels.level();
-  const double least = kept_jacobian * corner_determinant(wall, columns);
-  Level lower = wall;
+  Level lower = levels.level();
   for (std::int32_t k = 1; k <= most; ++k) {
     levels.advance();
     if (!is_good_cell(columns, k, lower, levels.level())) return k - 1;
-    if (k <= prisms && corner_determinant(levels.level(), columns) < least) return k - 1;
+    if (k <= prisms && corner_determinant(levels.level(), columns) < least.determinant) return k - 1;
     lower = levels.level();
   }
-  const double angle = std::acos(largest_cosine(lower)), wall_angle = std::acos(largest_cosine(wall));
-  return most > 0 && angle < kept_angle * wall_angle ? most - 1 : most;
+  return most;
 }
 
-std::array<double, 3> heights_at(const TriangleColumns& columns, std::int32_t layers) {
-  std::array<double, 3> heights;
-  for (int i = 0; i < 3; ++i) heights[i] = columns[i].heights.total(std::min(layers, columns[i].count));
-  return heights;
+bool has_good_front(const TriangleColumns& columns) {
+  return is_good_below(columns, Ends(columns), Least(columns), std::numeric_limits<double>::infinity());
+}
+
+double fitting_height(const TriangleColumns& columns) {
+  constexpr double step = 0.95;  // between heights that are tried; chosen, not measured
+  constexpr double lowest = 0.01;
+  const Ends ends(columns);
+  const Least least(columns);
+  const double highest = ends.highest();
+  if (!is_good_below(columns, ends, least, highest)) {
+    double height = step * highest;
+    while (height > lowest * highest && !is_good_below(columns, ends, least, height)) height *= step;
+    return height;
+  }
+  const std::int32_t good = good_layers(columns);
+  double below = 0;
+  bool all = true;
+  for (const CornerColumn& column : columns) {
+    below = std::max(below, column.heights.total(std::min(good, column.count)));
+    all = all && column.count <= good;
+  }
+  return all ? std::numeric_limits<double>::infinity() : std::min(below, step * highest);
 }
 
 }  // namespace aeroloom::layers

@@ -19,11 +19,15 @@ using TriangleColumns = std::array<CornerColumn, 3>;
 
 /// The number of layers from the wall whose cells are good: exactly positive all twelve tetrahedra of prisms,
 /// all four of pyramids, and tetrahedra themselves; the scaled Jacobian of prisms at least half of that at
-/// vanishing height. Where all are, the smallest angle of the front's triangle is at least 0.6 of the wall
-/// triangle's, else the last layer counts as bad.
+/// vanishing height.
 std::int32_t good_layers(const TriangleColumns& columns);
+/// Whether the smallest angle of the front's triangle is at least 0.6 of the wall triangle's, and the
+/// uppermost prism has its scaled Jacobian: what most often fails, and quickly told.
+bool has_good_front(const TriangleColumns& columns);
 
-/// The height of each column's first `layers` layers, clipped at its count.
-std::array<double, 3> heights_at(const TriangleColumns& columns, std::int32_t layers);
+/// A height that no column over the triangle may exceed so that front and cells become good, below the
+/// highest of them: the tallest columns fall first. Infinite where all is good. Where columns below it still
+/// are not, the next answer is lower.
+double fitting_height(const TriangleColumns& columns);
 
 }  // namespace aeroloom::layers

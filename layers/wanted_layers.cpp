@@ -8,17 +8,17 @@
 namespace aeroloom::layers {
 namespace {
 
-VertexWish wish_of(const WallLayers& wanted) {
-  VertexWish wish;
-  wish.first = wanted.first;
-  wish.growth = wanted.growth;
-  wish.total = wanted.total > 0 ? wanted.total : std::numeric_limits<double>::infinity();
-  wish.count = wanted.count > 0 ? wanted.count : most_layers;
-  wish.constant = wanted.constant;
-  return wish;
+VertexLayers layers_of(const WallLayers& wanted) {
+  VertexLayers asked;
+  asked.first = wanted.first;
+  asked.growth = wanted.growth;
+  asked.total = wanted.total > 0 ? wanted.total : std::numeric_limits<double>::infinity();
+  asked.count = wanted.count > 0 ? wanted.count : most_layers;
+  asked.constant = wanted.constant;
+  return asked;
 }
 
-VertexWish both(const VertexWish& a, const VertexWish& b) {
+VertexLayers both(const VertexLayers& a, const VertexLayers& b) {
   if (a.edges == 0) return b;
   if (b.edges == 0) return a;
   return {std::min(a.first, b.first),
@@ -32,21 +32,21 @@ VertexWish both(const VertexWish& a, const VertexWish& b) {
 
 }  // namespace
 
-std::vector<VertexWish> gather_wishes(const Wall& wall, const LayerOptions& options) {
-  std::vector<VertexWish> wishes(wall.points.size());
+std::vector<VertexLayers> gather_wanted_layers(const WallShare& wall, const LayerOptions& options) {
+  std::vector<VertexLayers> all_wanted(wall.points.size());
   for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
     if (wall.roles[t] != WallRole::layered) continue;
-    VertexWish wish = wish_of(options.patches[wall.patches[t]]);
-    wish.edges = 2;
+    VertexLayers asked = layers_of(options.patches[wall.patches[t]]);
+    asked.edges = 2;
     const auto& [a, b, c] = wall.triangles[t];
     const double ab = distance(wall.points[a], wall.points[b]), bc = distance(wall.points[b], wall.points[c]),
                  ca = distance(wall.points[c], wall.points[a]);
-    wish.edge_sum = ca + ab, wishes[a] = both(wishes[a], wish);
-    wish.edge_sum = ab + bc, wishes[b] = both(wishes[b], wish);
-    wish.edge_sum = bc + ca, wishes[c] = both(wishes[c], wish);
+    asked.edge_sum = ca + ab, all_wanted[a] = both(all_wanted[a], asked);
+    asked.edge_sum = ab + bc, all_wanted[b] = both(all_wanted[b], asked);
+    asked.edge_sum = bc + ca, all_wanted[c] = both(all_wanted[c], asked);
   }
-  wall.combine(wishes, both);
-  return wishes;
+  wall.combine(all_wanted, both);
+  return all_wanted;
 }
 
 }  // namespace aeroloom::layers

@@ -28,7 +28,7 @@ struct Directed {
         fans(gather_fans(communicator, wall)),
         directions(find_directions(wall, fans)) {}
 
-  Wall wall;
+  WallShare wall;
   Fans fans;
   Directions directions;
 };

@@ -1,6 +1,7 @@
 #include "layers/layer_validity.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -52,20 +53,40 @@ TEST(GoodLayers, CountTheCellsOfClippedColumns) {
   }
 }
 
-TEST(GoodLayers, KeepTheAngleOfTheFront) {
+TEST(FittingHeight, KeepsTheAngleOfTheFront) {
   TriangleColumns columns = upright(0.1, 30);
   columns[0].count = columns[1].count = 3;
-  // Sides of the front: 1, and the root of 1 + h^2 twice; its least angle falls below 36 degrees at h = 1.27.
-  const std::int32_t good = good_layers(columns);
-  EXPECT_EQ(good, 29) << "the last layer counts as bad";
+  // Sides of the front: 1, and the root of 1 + h^2 twice; its least angle falls below 36 degrees at h = 1.28.
+  EXPECT_EQ(good_layers(columns), 30);
+  EXPECT_FALSE(has_good_front(columns));
+  const double height = fitting_height(columns);
+  EXPECT_LT(height, 0.3 + 1.28);
+  EXPECT_GT(height, (0.3 + 1.28) * 0.95 - 1e-9);
   columns[2].count = 14;
-  EXPECT_EQ(good_layers(columns), 14);
+  EXPECT_TRUE(has_good_front(columns));
+  EXPECT_EQ(fitting_height(columns), std::numeric_limits<double>::infinity());
 }
 
-TEST(GoodLayers, AreClippedInHeights) {
-  TriangleColumns columns = upright(0.5, 4);
-  columns[1].count = 1;
-  EXPECT_EQ(heights_at(columns, 3), (std::array<double, 3>{1.5, 0.5, 1.5}));
+TEST(FittingHeight, EndsBelowTheFirstBadLayer) {
+  TriangleColumns columns = upright(0.1, 20);
+  columns[2].direction = normalized(Vec3{0, -1, 1});
+  double height = fitting_height(columns);
+  EXPECT_LT(height, 2.0);
+  for (CornerColumn& column : columns) column.count = static_cast<std::int32_t>(height / 0.1);
+  while ((height = fitting_height(columns)) < 10) {
+    const std::int32_t count = columns[0].count;
+    for (CornerColumn& column : columns) column.count = static_cast<std::int32_t>(height / 0.1);
+    ASSERT_LT(columns[0].count, count);
+  }
+  EXPECT_GT(columns[0].count, 2);
+  EXPECT_EQ(good_layers(columns), columns[0].count);
+  EXPECT_TRUE(has_good_front(columns));
+}
+
+TEST(FittingHeight, IsZeroWhereNoLayerIsGood) {
+  TriangleColumns columns = upright(0.1, 3);
+  for (CornerColumn& column : columns) column.direction = normalized(Vec3{1, 1, -0.5});
+  EXPECT_LT(fitting_height(columns), 0.1);
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ enum class WallRole : std::int8_t {
 /// The pieces of this rank, one after another: vertex v of piece p is number first_vertex[p] + v here,
 /// triangles alike. What several pieces know of a vertex has a place for each of them, and equal values in
 /// all.
-struct Wall {
+struct WallShare {
   using Corners = std::array<std::int32_t, 3>;
 
   /// Refers to the mesh. Throws CollectiveError where options do not fit it. Collective.
-  Wall(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-       const LayerOptions& options);
+  WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+            const LayerOptions& options);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(points.size()); }
   std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }
@@ -65,8 +65,9 @@ struct Wall {
   std::vector<std::int32_t> first_vertex{0}, first_triangle{0};  ///< by piece; the ends come last
   std::vector<geometry::Vec3> points;
   std::vector<Corners> triangles;  ///< counter-clockwise seen from the fluid: not as the mesh has them
-  std::vector<std::int32_t> patches;
+  std::vector<std::int32_t> patches, faces;  ///< by triangle; CAD faces
   std::vector<WallRole> roles;
+  std::vector<geometry::Vec3> end_planes;  ///< by CAD face: normals of planes that layers end on, else zero
   std::vector<std::int32_t> first_around,
       around;  ///< triangles by vertex, ascending; lists end at the next first
   mesh::SharedVertices shared;
