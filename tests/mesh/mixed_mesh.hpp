@@ -31,7 +31,7 @@ struct WholeFace {
   std::size_t cell;
 };
 
-/// SquareColumns of squares: those of the slabs, then the cubes.
+/// Columns of squares: those of the slabs, then the cubes.
 struct SquareColumns {
   int first = 0, last = 0;
 };
