@@ -108,7 +108,7 @@ TEST(AircraftOutline, MovesOutwards) {
   const SurfaceOptions options{.piece_triangles = 200};
   std::vector<std::string> hashes;
   for (const Communicator& communicator : {world, self}) {
-    Meshed meshed = mesh_model(communicator, model, {0.4, 20, 20, 1.4}, options);
+    Meshed meshed = mesh_model(communicator, model, {0.6, 20, 25, 1.5}, options);
     Outline outline(communicator, model, meshed, 0.02 * 37.6);
     ASSERT_GT(outline.size(), 30u);
     const auto move = [&] {
