@@ -3,7 +3,6 @@
 #include "aeroloom/geometry/box_tree.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/runs.hpp"
-#include "mesh/triangle_contact.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -56,15 +55,6 @@ struct SentTriangle {
 struct BatchPair {
   std::int32_t lower, upper;
 };
-
-std::vector<VertexName> name_vertices(const Piece& piece) {
-  std::vector<VertexName> names(piece.vertex_count());
-  for (std::size_t v = 0; v < names.size(); ++v) names[v] = {piece.id, v};
-  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-    names[piece.shared_vertices[s]] = {-1, piece.shared_keys[s]};
-  }
-  return names;
-}
 
 Box box_of(const NamedTriangle& triangle) {
   Box box;
@@ -294,6 +284,15 @@ private:
 };
 
 }  // namespace
+
+std::vector<VertexName> name_vertices(const Piece& piece) {
+  std::vector<VertexName> names(piece.vertex_count());
+  for (std::size_t v = 0; v < names.size(); ++v) names[v] = {piece.id, v};
+  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+    names[piece.shared_vertices[s]] = {-1, piece.shared_keys[s]};
+  }
+  return names;
+}
 
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
                                             const DistributedMesh& surface, parallel::StageClock& clock) {

@@ -4,6 +4,7 @@
 #include "aeroloom/mesh/distributed_mesh.hpp"
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/parallel/observation/timers.hpp"
+#include "mesh/triangle_contact.hpp"
 
 #include <tuple>
 #include <vector>
@@ -24,6 +25,9 @@ struct TriangleHit {
                       &TriangleHit::first_area, &TriangleHit::second_area);
   }
 };
+
+/// The names of a piece's vertices over all pieces: their keys where they have one.
+std::vector<VertexName> name_vertices(const Piece& piece);
 
 /// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.
 /// Vertices are the same when their shared-vertex keys are (across pieces) or their indices (within one).

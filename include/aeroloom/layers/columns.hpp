@@ -78,21 +78,24 @@ std::string_view name_of(LayerLimit limit);
 /// The layers of a patch. Each vertex counts for a third of the triangles around it. Areas are in the unit of
 /// the mesh, squared.
 struct PatchLayers {
-  double area = 0;           ///< of triangles that ask for layers
-  double full_area = 0;      ///< with as many layers as asked for
-  double partial_area = 0;   ///< with fewer
-  double empty_area = 0;     ///< with none
-  double squeezed_area = 0;  ///< with layers that grow slower than asked for
+  double area = 0;            ///< of triangles that ask for layers
+  double full_area = 0;       ///< with as many layers as asked for
+  double partial_area = 0;    ///< with fewer
+  double empty_area = 0;      ///< with none
+  double isotropic_area = 0;  ///< full, and the last layer at least 0.35 of the mean edge at the vertex high
+  double squeezed_area = 0;   ///< with layers that grow slower than asked for
   /// Of what is neither full nor unsqueezed, by what limited it last: a LayerLimit.
   std::array<double, layer_limit_count> limited_area{};
-  double triangles = 0, prisms = 0, pyramids = 0, tetrahedra = 0;  ///< counts of triangles and cells
-  double layers_mean = 0, layers_max = 0;                          ///< of live columns, by area
+  double layers_area = 0;  ///< sum of areas times their layers: over `area`, the mean number of layers
+  std::int64_t triangles = 0, prisms = 0, pyramids = 0, tetrahedra = 0;  ///< of `area`, and cells over them
+  std::int64_t most_layers = 0;
 
   static constexpr auto fields() {
     return std::tuple(&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area,
-                      &PatchLayers::empty_area, &PatchLayers::squeezed_area, &PatchLayers::limited_area,
-                      &PatchLayers::triangles, &PatchLayers::prisms, &PatchLayers::pyramids,
-                      &PatchLayers::tetrahedra, &PatchLayers::layers_mean, &PatchLayers::layers_max);
+                      &PatchLayers::empty_area, &PatchLayers::isotropic_area, &PatchLayers::squeezed_area,
+                      &PatchLayers::limited_area, &PatchLayers::layers_area, &PatchLayers::triangles,
+                      &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra,
+                      &PatchLayers::most_layers);
   }
 };
 

@@ -1,0 +1,67 @@
+#include "layers/directions.hpp"
+
+#include "layers/cone.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+
+/// Columns that stand lower on a triangle have no room for cells: the cosine of 80 degrees.
+constexpr double least_visibility = 0.17364817766693041;
+/// Smoothing leaves at least so much of the visibility of the most normal direction: 26 degrees on a flat
+/// wall. Chosen, not measured.
+constexpr double kept_visibility = 0.9;
+/// Smoothing reaches about as many edges from a ridge as columns are high. Chosen, not measured.
+constexpr int smoothing_sweeps = 8;
+
+/// The direction between the present one and the mean of its neighbours' that is farthest on the way of those
+/// tried and keeps the visibility.
+Vec3 move_towards(Vec3 mean, Vec3 present, double least, std::span<const Vec3> normals) {
+  for (const double step : {0.5, 0.25, 0.125}) {
+    const Vec3 moved = normalized((1 - step) * present + step * mean);
+    if (visibility_of(moved, normals) >= least) return moved;
+  }
+  return present;
+}
+
+}  // namespace
+
+Directions find_directions(const WallShare& wall, const Fans& fans) {
+  const std::int32_t count = wall.vertex_count();
+  Directions directions;
+  directions.most_normal.assign(count, Vec3{});
+  directions.visibility.assign(count, 0);
+  for (std::int32_t v = 0; v < count; ++v) {
+    if (fans.kinds[v] != FanKind::plain) continue;
+    const NormalCone cone = smallest_cone(fans.normals_at(v));
+    if (!(cone.visibility >= least_visibility)) continue;
+    directions.most_normal[v] = cone.axis;
+    directions.visibility[v] = cone.visibility;
+  }
+  directions.smoothed = directions.most_normal;
+  std::vector<Vec3> sums(count);
+  for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
+    for (std::int32_t v = 0; v < count; ++v) {
+      sums[v] = {};
+      wall.for_each_neighbour(v, [&](std::int32_t u) { sums[v] += directions.smoothed[u]; });
+    }
+    wall.combine(sums, std::plus<>());
+    for (std::int32_t v = 0; v < count; ++v) {
+      if (directions.visibility[v] == 0) continue;
+      const double least = std::max(least_visibility, kept_visibility * directions.visibility[v]);
+      directions.smoothed[v] =
+          move_towards(normalized(sums[v]), directions.smoothed[v], least, fans.normals_at(v));
+    }
+  }
+  for (std::int32_t v = 0; v < count; ++v) {
+    if (directions.visibility[v] > 0)
+      directions.visibility[v] = visibility_of(directions.smoothed[v], fans.normals_at(v));
+  }
+  return directions;
+}
+
+}  // namespace aeroloom::layers
