@@ -3,6 +3,7 @@
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "mesh/shared_vertices.hpp"
 #include "surface/face_loops.hpp"
+#include "surface/free_curves.hpp"
 #include "surface/piece_mesher.hpp"
 #include "surface/plane_support.hpp"
 #include "surface/subface_dealer.hpp"
@@ -40,6 +41,10 @@ public:
   /// Pieces of all faces, unless there are conflicts.
   PlaneConflicts mesh(const mesh::DistributedMesh& surface) {
     _loops = gather_loops(_communicator, surface, _faces);
+    parallel::agree(_communicator, [&] {
+      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
+    });
     for (std::vector<FaceId> faces = _faces; !faces.empty();) {
       Subfaces whole = make_whole_subfaces(faces);
       if (PlaneConflicts found = gather_conflicts(); !found.empty()) return found;

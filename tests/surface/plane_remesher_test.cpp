@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 
 namespace aeroloom::surface {
@@ -168,6 +170,43 @@ TEST(PlaneRemesher, RefusesVerticesBesideThePlane) {
       },
       meshed.surface.mesh);
   EXPECT_THROW(remesh(world, model, {}, meshed), parallel::CollectiveError);
+}
+
+/// The ball in the corner of a box: its columns at CAD vertices run along lines between two planes, far
+/// beyond the next vertices there.
+TEST(PlaneRemesher, SpreadsVerticesOnLinesBetweenPlanesAnew) {
+  const Communicator world = Communicator::world(), self = Communicator::self();
+  const Model model = cad::shapes::prepare_fluid(
+                          BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(3, 3, 3)).Shape(),
+                                          BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, 0), 1).Shape())
+                              .Shape())
+                          .model;
+  std::vector<std::string> hashes;
+  for (const Communicator& communicator : {world, self}) {
+    Meshed meshed = mesh_model(communicator, model, {ball_size, 0.4, 12, 1.3}, {});
+    meshed.planes.clear();
+    for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+      const Vec3 centre = model.face_place(f).centre;
+      if (std::min({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)}) < 1e-9)
+        meshed.planes.push_back(f);
+    }
+    ASSERT_EQ(meshed.planes.size(), 3u);
+    thicken_ball(4 * ball_size, meshed.surface.mesh);
+    const PlaneConflicts conflicts = remesh(communicator, model, {}, meshed);
+    EXPECT_TRUE(conflicts.empty()) << conflicts.complaint;
+    expect_closed(communicator, meshed);
+    EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
+    EXPECT_GT(measure_planes(communicator, meshed).least_angle, 20);
+    for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+      if (!is_of(meshed.planes, piece)) continue;
+      for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
+        EXPECT_TRUE(piece.point(v).x == 0 || piece.point(v).y == 0 || piece.point(v).z == 0);
+    }
+    hashes.push_back(hash_of(communicator, meshed.surface.mesh));
+    EXPECT_TRUE(remesh(communicator, model, {}, meshed).empty());
+    EXPECT_EQ(hash_of(communicator, meshed.surface.mesh), hashes.back());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ struct PlaneConflicts {
 /// Meshes planar faces of a surface anew under the field. Their boundaries are those that their pieces have:
 /// vertices on curves may have moved within the plane (on an axis-aligned one they have its coordinate
 /// exactly); what lies inside does not matter. Vertices on curves keep their names, places and, where other
-/// pieces know them, the classification that they have there.
+/// pieces know them, the classification that they have there. Only on curves that no other faces have, and
+/// whose ends have moved, do they find new places (surface/free_curves.hpp).
 ///
 /// Pieces of other faces stay what they are, keep their order, and come first; the new ones follow, by face,
 /// then as the face was cut. Where boundaries cross or touch themselves or each other, the surface stays as
