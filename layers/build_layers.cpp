@@ -6,6 +6,7 @@
 #include "layers/layer_report.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -52,6 +53,8 @@ void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& 
 
 Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
                     const LayerOptions& options, parallel::StageClock& clock) {
+  const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+  clock.add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
   const WallShare walls(communicator, wall.mesh, options);
   const Fans fans = gather_fans(communicator, walls);
   const Directions directions = find_directions(walls, fans);

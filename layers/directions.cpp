@@ -1,6 +1,7 @@
 #include "layers/directions.hpp"
 
 #include "layers/cone.hpp"
+#include "layers/end_planes.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -19,11 +20,11 @@ constexpr double kept_visibility = 0.9;
 constexpr int smoothing_sweeps = 8;
 
 /// The direction between the present one and the mean of its neighbours' that is farthest on the way of those
-/// tried and keeps the visibility.
-Vec3 move_towards(Vec3 mean, Vec3 present, double least, std::span<const Vec3> normals) {
+/// tried and keeps the visibility; along the planes of the vertex.
+Vec3 move_towards(Vec3 mean, Vec3 present, double least, const Fans& fans, std::int32_t v) {
   for (const double step : {0.5, 0.25, 0.125}) {
-    const Vec3 moved = normalized((1 - step) * present + step * mean);
-    if (visibility_of(moved, normals) >= least) return moved;
+    const Vec3 moved = normalized(along_planes((1 - step) * present + step * mean, fans.planes_at(v)));
+    if (visibility_of(moved, fans.normals_at(v)) >= least) return moved;
   }
   return present;
 }
@@ -37,10 +38,11 @@ Directions find_directions(const WallShare& wall, const Fans& fans) {
   directions.visibility.assign(count, 0);
   for (std::int32_t v = 0; v < count; ++v) {
     if (fans.kinds[v] != FanKind::plain) continue;
-    const NormalCone cone = smallest_cone(fans.normals_at(v));
-    if (!(cone.visibility >= least_visibility)) continue;
-    directions.most_normal[v] = cone.axis;
-    directions.visibility[v] = cone.visibility;
+    const Vec3 axis = normalized(along_planes(smallest_cone(fans.normals_at(v)).axis, fans.planes_at(v)));
+    const double visibility = visibility_of(axis, fans.normals_at(v));
+    if (!(visibility >= least_visibility)) continue;
+    directions.most_normal[v] = axis;
+    directions.visibility[v] = visibility;
   }
   directions.smoothed = directions.most_normal;
   std::vector<Vec3> sums(count);
@@ -53,8 +55,7 @@ Directions find_directions(const WallShare& wall, const Fans& fans) {
     for (std::int32_t v = 0; v < count; ++v) {
       if (directions.visibility[v] == 0) continue;
       const double least = std::max(least_visibility, kept_visibility * directions.visibility[v]);
-      directions.smoothed[v] =
-          move_towards(normalized(sums[v]), directions.smoothed[v], least, fans.normals_at(v));
+      directions.smoothed[v] = move_towards(normalized(sums[v]), directions.smoothed[v], least, fans, v);
     }
   }
   for (std::int32_t v = 0; v < count; ++v) {

@@ -4,6 +4,7 @@
 #include "mesh/rendezvous.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace aeroloom::layers {
@@ -16,12 +17,11 @@ using mesh::VertexName;
 struct FanTriangle {
   Vec3 normal;
   VertexName next, previous;
-  std::int32_t piece, cell;
-  std::int64_t role;
+  std::int32_t piece, cell, role, face;
 
   static constexpr auto fields() {
     return std::tuple(&FanTriangle::normal, &FanTriangle::next, &FanTriangle::previous, &FanTriangle::piece,
-                      &FanTriangle::cell, &FanTriangle::role);
+                      &FanTriangle::cell, &FanTriangle::role, &FanTriangle::face);
   }
 };
 
@@ -65,7 +65,8 @@ public:
             _names[corners[(at + 2) % 3] - base],
             _wall.mesh.pieces[_position].id,
             t - _wall.first_triangle[_position],
-            static_cast<std::int64_t>(_wall.roles[t])};
+            static_cast<std::int32_t>(_wall.roles[t]),
+            _wall.faces[t]};
   }
 
 private:
@@ -99,6 +100,33 @@ FanKind kind_of(std::span<const FanTriangle> fan) {
   if (!has(WallRole::layered)) return FanKind::off_wall;
   if (has(WallRole::other)) return FanKind::ending;
   return is_closed_fan(fan) ? FanKind::plain : FanKind::broken;
+}
+
+/// Normals of the different planes around a vertex that layers end on.
+std::vector<Vec3> planes_around(const WallShare& wall, std::span<const FanTriangle> fan) {
+  constexpr double same_plane = 1 - 1e-12;  // cosine; as planes are told from other faces
+  std::vector<Vec3> planes;
+  for (const FanTriangle& t : fan) {
+    if (static_cast<WallRole>(t.role) != WallRole::plane) continue;
+    const Vec3 normal = wall.end_planes[t.face];
+    const bool known = std::any_of(planes.begin(), planes.end(),
+                                   [&](Vec3 other) { return std::abs(dot(other, normal)) >= same_plane; });
+    if (!known) planes.push_back(normal);
+  }
+  return planes;
+}
+
+/// Appends the normals of layered triangles, and their mirror images at the planes.
+void append_normals(std::span<const FanTriangle> fan, std::span<const Vec3> planes,
+                    std::vector<Vec3>& normals) {
+  const std::size_t first = normals.size();
+  for (const FanTriangle& t : fan) {
+    if (static_cast<WallRole>(t.role) == WallRole::layered) normals.push_back(t.normal);
+  }
+  for (const Vec3 plane : planes) {
+    for (std::size_t i = first, end = normals.size(); i < end; ++i)
+      normals.push_back(normals[i] - 2 * dot(plane, normals[i]) * plane);
+  }
 }
 
 /// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
@@ -136,6 +164,7 @@ Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wa
   Fans fans;
   fans.first.reserve(wall.points.size() + 1);
   fans.first.push_back(0);
+  fans.first_plane.push_back(0);
   std::vector<FanTriangle> fan;
   std::size_t next = 0;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
@@ -147,10 +176,13 @@ Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wa
         for (const std::int32_t t : wall.triangles_around(v)) fan.push_back(of_piece.triangle(t, v));
       }
       fans.kinds.push_back(kind_of(fan));
-      for (const FanTriangle& t : fan) {
-        if (static_cast<WallRole>(t.role) == WallRole::layered) fans.normals.push_back(t.normal);
-      }
+      std::vector<Vec3> planes = planes_around(wall, fan);
+      if (fans.kinds.back() != FanKind::plain) planes.clear();
+      if (planes.size() > 2) fans.kinds.back() = FanKind::ending, planes.clear();
+      append_normals(fan, planes, fans.normals);
+      fans.plane_normals.insert(fans.plane_normals.end(), planes.begin(), planes.end());
       fans.first.push_back(static_cast<std::int64_t>(fans.normals.size()));
+      fans.first_plane.push_back(static_cast<std::int64_t>(fans.plane_normals.size()));
     }
   }
   return fans;

@@ -13,7 +13,7 @@ namespace aeroloom::layers {
 enum class FanKind : std::int8_t {
   plain,    ///< one closed fan of triangles that ask for layers, or end them in a plane
   broken,   ///< several fans, an open one, or an edge of more than two triangles
-  ending,   ///< a triangle where layers may not end
+  ending,   ///< a triangle where layers may not end, or three planes
   off_wall  ///< no triangle asks for layers
 };
 
@@ -21,11 +21,19 @@ enum class FanKind : std::int8_t {
 struct Fans {
   std::vector<FanKind> kinds;
   std::vector<std::int64_t> first;  ///< (vertices + 1)
+  /// Unit, into the fluid, of layered triangles: by piece, then triangle. On planes that layers end on, their
+  /// mirror images follow: so the most normal direction lies in the plane.
+  std::vector<geometry::Vec3> normals;
+  std::vector<std::int64_t> first_plane;  ///< (vertices + 1)
   std::vector<geometry::Vec3>
-      normals;  ///< unit, into the fluid, of layered triangles: by piece, then triangle
+      plane_normals;  ///< of the planes through a vertex that layers end on: two at most
 
   std::span<const geometry::Vec3> normals_at(std::int32_t vertex) const {
     return std::span(normals).subspan(first[vertex], first[vertex + 1] - first[vertex]);
+  }
+  std::span<const geometry::Vec3> planes_at(std::int32_t vertex) const {
+    return std::span(plane_normals)
+        .subspan(first_plane[vertex], first_plane[vertex + 1] - first_plane[vertex]);
   }
 };
 

@@ -22,9 +22,12 @@ constexpr int boxes_per_leaf_of_gaps = 4;  // chosen, not measured
 /// A triangle for the balls of a rank.
 struct NearTriangle {
   Vec3 corners[3];
+  Vec3 plane;  ///< normal out of the fluid where layers end on the triangle's plane, else zero
   std::int64_t rank;
 
-  static constexpr auto fields() { return std::tuple(&NearTriangle::corners, &NearTriangle::rank); }
+  static constexpr auto fields() {
+    return std::tuple(&NearTriangle::corners, &NearTriangle::plane, &NearTriangle::rank);
+  }
 };
 
 /// Where balls of a rank are.
@@ -99,8 +102,10 @@ std::vector<NearTriangle> fetch_triangles(const parallel::Communicator& communic
   const geometry::BoxTree tree(boxes, boxes_per_leaf_of_gaps);
   std::vector<NearTriangle> triangles;
   std::vector<std::int64_t> ranks;
-  for (const WallShare::Corners& corners : wall.triangles) {
-    NearTriangle triangle{{wall.points[corners[0]], wall.points[corners[1]], wall.points[corners[2]]}, 0};
+  for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
+    const auto& [a, b, c] = wall.triangles[t];
+    NearTriangle triangle{{wall.points[a], wall.points[b], wall.points[c]}, {}, 0};
+    if (wall.roles[t] == WallRole::plane) triangle.plane = wall.end_planes[wall.faces[t]];
     Box box;
     for (const Vec3 corner : triangle.corners) box.add(corner);
     ranks.clear();
@@ -114,6 +119,15 @@ std::vector<NearTriangle> fetch_triangles(const parallel::Communicator& communic
   }
   return parallel::deliver(communicator, std::move(triangles),
                            [](const NearTriangle& t) { return static_cast<parallel::Rank>(t.rank); });
+}
+
+/// Columns may run along a plane that layers end on, and what stands opposite is their own mirror image. A
+/// column that leans towards it meets that at twice the distance from the plane in its direction.
+double gap_before(const TouchingBall& ball, const NearTriangle& triangle) {
+  const double through = diameter_beside(ball, triangle.corners);
+  if (triangle.plane == Vec3{} || through == ball.diameter) return through;
+  const double towards = dot(ball.direction, triangle.plane);
+  return towards > 0 ? std::min(ball.diameter, through * (1 + towards) / towards) : ball.diameter;
 }
 
 }  // namespace
@@ -154,10 +168,11 @@ std::vector<double> find_gaps(const parallel::Communicator& communicator, const 
     gaps[b] = ball.diameter;
     tree.search_nearest([&](const Box& box) { return least_diameter(ball, box); }, bound,
                         [&](std::int32_t place) {
-                          const auto& corners = triangles[tree.order()[place]].corners;
+                          const NearTriangle& triangle = triangles[tree.order()[place]];
+                          const auto& corners = triangle.corners;
                           if (least_diameter(ball, boxes[tree.order()[place]]) > bound) return;
                           if (std::count(corners, corners + 3, ball.point) != 0) return;
-                          gaps[b] = std::min(gaps[b], diameter_beside(ball, corners));
+                          gaps[b] = std::min(gaps[b], gap_before(ball, triangle));
                           bound = beyond_rounding * gaps[b];
                         });
   }

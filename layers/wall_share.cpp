@@ -1,6 +1,7 @@
 #include "layers/wall_share.hpp"
 
 #include "aeroloom/parallel/communication/collective_error.hpp"
+#include "layers/end_planes.hpp"
 
 #include <string>
 
@@ -43,7 +44,9 @@ std::vector<WallRole> roles_of_patches(const mesh::DistributedMesh& mesh, const 
 
 WallShare::WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
                      const LayerOptions& options)
-    : mesh((require_fitting(surface, options), surface)), shared(communicator, surface) {
+    : mesh((require_fitting(surface, options), surface)),
+      end_planes(find_end_planes(communicator, surface, options)),
+      shared(communicator, surface) {
   const std::vector<WallRole> of_patches = roles_of_patches(mesh, options);
   for (const mesh::Piece& piece : mesh.pieces) {
     const std::int32_t base = vertex_count();
@@ -51,11 +54,18 @@ WallShare::WallShare(const parallel::Communicator& communicator, const mesh::Dis
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* cell = piece.cell(t);
       triangles.push_back({base + cell[0], base + cell[2], base + cell[1]});
-      const std::int32_t patch = piece.triangle_patch[t];
-      const bool known = patch >= 0 && static_cast<std::size_t>(patch) < of_patches.size();
-      const bool inner = mesh.sides_of(piece.triangle_face[t]).is_inner();
+      const std::int32_t patch = piece.triangle_patch[t], face = piece.triangle_face[t];
       patches.push_back(patch);
-      roles.push_back(known && !inner ? of_patches[patch] : WallRole::other);
+      faces.push_back(face);
+      const auto has = [](const auto& table, std::int32_t i) {
+        return i >= 0 && static_cast<std::size_t>(i) < table.size();
+      };
+      if (has(end_planes, face) && !(end_planes[face] == geometry::Vec3{})) {
+        roles.push_back(WallRole::plane);
+      } else {
+        roles.push_back(has(of_patches, patch) && !mesh.sides_of(face).is_inner() ? of_patches[patch]
+                                                                                  : WallRole::other);
+      }
     }
     first_vertex.push_back(vertex_count());
     first_triangle.push_back(triangle_count());

@@ -65,8 +65,9 @@ struct WallShare {
   std::vector<std::int32_t> first_vertex{0}, first_triangle{0};  ///< by piece; the ends come last
   std::vector<geometry::Vec3> points;
   std::vector<Corners> triangles;  ///< counter-clockwise seen from the fluid: not as the mesh has them
-  std::vector<std::int32_t> patches;
+  std::vector<std::int32_t> patches, faces;  ///< by triangle; CAD faces
   std::vector<WallRole> roles;
+  std::vector<geometry::Vec3> end_planes;  ///< by CAD face: normals of planes that layers end on, else zero
   std::vector<std::int32_t> first_around,
       around;  ///< triangles by vertex, ascending; lists end at the next first
   mesh::SharedVertices shared;
