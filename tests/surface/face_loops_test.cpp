@@ -12,7 +12,7 @@ using geometry::Vec3;
 using mesh::SharedVertexKey;
 using parallel::Communicator;
 
-mesh::Piece flat_piece(cad::FaceId face, std::vector<Vec3> points, std::vector<mesh::LocalIndex> cells,
+mesh::Piece flat_piece(cad::FaceId face, const std::vector<Vec3>& points, std::vector<mesh::LocalIndex> cells,
                        std::vector<SharedVertexKey> keys) {
   mesh::Piece piece;
   piece.id = face;
