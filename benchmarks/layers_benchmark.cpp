@@ -7,12 +7,16 @@
 #include "aeroloom/layers/columns.hpp"
 #include "aeroloom/parallel/observation/log.hpp"
 #include "benchmarks/case_surface.hpp"
+#include "benchmarks/layer_figures.hpp"
 #include "parallel/communication/environment.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +67,28 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
   return sum;
 }
 
+void print_figures(const Communicator& communicator, benchmarks::LayerFigures mine) {
+  const auto gather = [&](const std::vector<double>& values) {
+    return communicator.all_gather_items(std::span<const double>(values));
+  };
+  std::vector<double> jacobians = gather(mine.jacobians), heights = gather(mine.first_heights);
+  const auto within =
+      std::count_if(heights.begin(), heights.end(), [](double h) { return h > 0.9 && h < 1.1; });
+  const double between = communicator.sum(mine.between), volume = communicator.sum(mine.volume);
+  const std::int64_t bad = communicator.sum(std::int64_t{mine.bad_cells});
+  if (!communicator.is_root()) return;
+  const auto percentile = [](std::vector<double>& values, double share) {
+    return benchmarks::LayerFigures::percentile(values, share);
+  };
+  std::printf(
+      "       bad_cells=%lld volume_error=%.1e jacobian_min=%.3f jacobian_1%%=%.3f jacobian_median=%.3f "
+      "first_within_10%%=%.2f first_min=%.3f first_max=%.3f\n",
+      static_cast<long long>(bad), std::abs(volume - between) / between, percentile(jacobians, 0),
+      percentile(jacobians, 0.01), percentile(jacobians, 0.5),
+      100.0 * static_cast<double>(within) / std::max<double>(1, static_cast<double>(heights.size())),
+      percentile(heights, 0), percentile(heights, 1));
+}
+
 void run(const Communicator& communicator, const cases::Case& input, double first, const std::string& patch) {
   const benchmarks::CaseSurface made = benchmarks::mesh_surface(communicator, input);
   const mesh::NumberedMesh wall{made.surface.mesh, made.numbering};
@@ -75,6 +101,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   const double wall_used = communicator.maximum(parallel::wall_seconds() - wall_start);
   clock.end();
   const std::string hash = mesh::hash_mesh(communicator, layers.front, wall.numbering);
+  print_figures(communicator, {wall.mesh, layers, options});
   if (!communicator.is_root()) return;
   const layers::PatchLayers sum = sum_of(layers.report);
   const auto cells = static_cast<double>(sum.prisms + sum.pyramids + sum.tetrahedra);

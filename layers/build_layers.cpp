@@ -52,7 +52,8 @@ void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& 
 }  // namespace
 
 Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, parallel::StageClock& clock) {
+                    const LayerOptions& options, parallel::StageClock& clock,
+                    const PlaneRemesher& remesh_planes) {
   const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
   clock.add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
   const WallShare walls(communicator, wall.mesh, options);
@@ -64,9 +65,9 @@ Layers build_layers(const parallel::Communicator& communicator, const mesh::Numb
   limits.converge(communicator);
   Layers layers;
   layers.report.validity_rounds = shrink_to_good(communicator, walls, directions, limits);
-  shrink_to_clear(communicator, walls, directions, limits, layers.report, clock);
+  layers.front =
+      FrontClearing(communicator, walls, directions, remesh_planes).run(limits, layers.report, clock);
   layers.columns = make_columns(walls, directions, limits);
-  layers.front = make_front(wall.mesh, layers.columns);
   layers.report.patches = report_patches(communicator, walls, limits);
   return layers;
 }

@@ -48,7 +48,7 @@ ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, c
       _lower_counts.push_back(v), _lower_totals.push_back(v);
       continue;
     }
-    _first[v] = asked.first * std::min(most_lengthening, 1 / directions.visibility[v]);
+    _first[v] = asked.first * std::min(most_lengthening, 1 / directions.slants[v]);
     _growth[v] = asked.growth;
     _constant[v] = wanted.constant;
     _slopes[v] = slope_of(asked.growth);

@@ -58,9 +58,14 @@ Directions find_directions(const WallShare& wall, const Fans& fans) {
       directions.smoothed[v] = move_towards(normalized(sums[v]), directions.smoothed[v], least, fans, v);
     }
   }
+  directions.slants.assign(count, 1);
   for (std::int32_t v = 0; v < count; ++v) {
-    if (directions.visibility[v] > 0)
-      directions.visibility[v] = visibility_of(directions.smoothed[v], fans.normals_at(v));
+    if (directions.visibility[v] == 0) continue;
+    const Vec3 direction = directions.smoothed[v];
+    double largest = -1;
+    for (const Vec3 normal : fans.normals_at(v)) largest = std::max(largest, dot(direction, normal));
+    directions.visibility[v] = visibility_of(direction, fans.normals_at(v));
+    directions.slants[v] = 0.5 * (directions.visibility[v] + largest);
   }
   return directions;
 }

@@ -13,6 +13,9 @@ struct Directions {
   std::vector<geometry::Vec3> most_normal;  ///< axis of the smallest cone around the normals
   std::vector<geometry::Vec3> smoothed;     ///< unit: of the columns
   std::vector<double> visibility;           ///< smallest dot product of the smoothed one with a normal
+  /// The mean of its smallest and largest dot product with a normal: columns are longer than their height
+  /// along the normals by about the inverse.
+  std::vector<double> slants;
 };
 
 /// The most normal directions, and these after sweeps of smoothing that see every triangle nearly as well as

@@ -46,6 +46,13 @@ struct Unaware {
   ColumnLimits limits;
 };
 
+mesh::DistributedMesh clear(const Communicator& communicator, Unaware& columns, LayerReport& report) {
+  parallel::StageClock clock;
+  const PlaneRemesher none;
+  return FrontClearing(communicator, columns.wall, columns.directions, none)
+      .run(columns.limits, report, clock);
+}
+
 TEST(Front, ShrinksUntilNoTrianglesMeet) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = narrow_slit().distribute(world, 5);
@@ -53,7 +60,7 @@ TEST(Front, ShrinksUntilNoTrianglesMeet) {
   parallel::StageClock clock;
   EXPECT_FALSE(mesh::find_intersections(world, columns.front(), clock).empty());
   LayerReport report;
-  shrink_to_clear(world, columns.wall, columns.directions, columns.limits, report, clock);
+  clear(world, columns, report);
   EXPECT_TRUE(mesh::find_intersections(world, columns.front(), clock).empty());
   EXPECT_GE(report.crossing_rounds, 1);
   EXPECT_GT(report.crossings, 0);
@@ -72,10 +79,8 @@ TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
   const auto cleared = [](const Communicator& communicator) {
     const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);
     Unaware columns(communicator, mesh);
-    parallel::StageClock clock;
     LayerReport report;
-    shrink_to_clear(communicator, columns.wall, columns.directions, columns.limits, report, clock);
-    const mesh::DistributedMesh front = columns.front();
+    const mesh::DistributedMesh front = clear(communicator, columns, report);
     return mesh::hash_mesh(communicator, front, mesh::number_mesh(communicator, front));
   };
   EXPECT_EQ(cleared(world), cleared(self));
@@ -94,7 +99,8 @@ TEST(Front, LeavesCrossingsOfTheWallItself) {
   ColumnLimits limits(wall, {}, fans, directions);
   LayerReport report;
   parallel::StageClock clock;
-  shrink_to_clear(world, wall, directions, limits, report, clock);
+  const PlaneRemesher none;
+  FrontClearing(world, wall, directions, none).run(limits, report, clock);
   EXPECT_EQ(report.crossing_rounds, 0);
 }
 

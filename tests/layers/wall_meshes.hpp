@@ -81,30 +81,71 @@ public:
     }
   }
 
+  Shapes& move(const std::function<Vec3(Vec3)>& place) {
+    for (Vec3& p : _mesh.points) p = place(p);
+    return *this;
+  }
+  /// Gives triangles another CAD face, and a patch of its own, by their middle.
+  Shapes& label(const std::function<int(Vec3)>& face_at) {
+    _shapes = 0;
+    for (std::size_t t = 0; t < _mesh.cells.size(); ++t) {
+      Vec3 sum;
+      for (const int v : _mesh.cells[t]) sum += _mesh.points[v];
+      _mesh.faces[t] = _mesh.patches[t] = face_at(sum / 3);
+      _shapes = std::max(_shapes, _mesh.faces[t] + 1);
+    }
+    return *this;
+  }
+
+  /// Each CAD face in so many slices along x.
+  mesh::DistributedMesh distribute_faces(const parallel::Communicator& communicator, int slices) const {
+    mesh::examples::WholeMesh whole = complete();
+    whole.piece_of_cell.assign(whole.cells.size(), 0);
+    for (int face = 0; face < _shapes; ++face) {
+      std::vector<std::size_t> cells;
+      for (const std::size_t t : along_x()) {
+        if (whole.faces[t] == face) cells.push_back(t);
+      }
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        whole.piece_of_cell[cells[i]] = face * slices + static_cast<int>(i * slices / cells.size());
+    }
+    return mesh::examples::distribute(communicator, whole, _shapes * slices);
+  }
   /// In pieces of consecutive slices along x.
   mesh::DistributedMesh distribute(const parallel::Communicator& communicator, int pieces) const {
-    mesh::examples::WholeMesh whole = _mesh;
-    whole.kind = mesh::CellKind::triangle;
-    whole.dimensions.assign(whole.points.size(), mesh::CadDimension::face);
-    whole.entities.assign(whole.points.size(), 0);
-    std::vector<std::tuple<double, std::size_t>> order;
-    for (std::size_t t = 0; t < whole.cells.size(); ++t) {
-      double x = 0;
-      for (const int v : whole.cells[t]) x += whole.points[v].x;
-      order.emplace_back(x, t);
-    }
-    std::sort(order.begin(), order.end());
-    whole.piece_of_cell.resize(order.size());
+    mesh::examples::WholeMesh whole = complete();
+    whole.piece_of_cell.resize(whole.cells.size());
+    const std::vector<std::size_t> order = along_x();
     for (std::size_t i = 0; i < order.size(); ++i)
-      whole.piece_of_cell[std::get<1>(order[i])] = static_cast<int>(i * pieces / order.size());
-    for (int shape = 0; shape < _shapes; ++shape) {
-      whole.face_names.push_back("face " + std::to_string(shape));
-      whole.patch_names.push_back("patch " + std::to_string(shape));
-    }
+      whole.piece_of_cell[order[i]] = static_cast<int>(i * pieces / order.size());
     return mesh::examples::distribute(communicator, whole, pieces);
   }
 
 private:
+  mesh::examples::WholeMesh complete() const {
+    mesh::examples::WholeMesh whole = _mesh;
+    whole.kind = mesh::CellKind::triangle;
+    whole.dimensions.assign(whole.points.size(), mesh::CadDimension::face);
+    whole.entities.assign(whole.points.size(), 0);
+    for (int shape = 0; shape < _shapes; ++shape) {
+      whole.face_names.push_back("face " + std::to_string(shape));
+      whole.patch_names.push_back("patch " + std::to_string(shape));
+    }
+    return whole;
+  }
+  /// Triangles by the place of their middles.
+  std::vector<std::size_t> along_x() const {
+    std::vector<std::tuple<double, std::size_t>> order;
+    for (std::size_t t = 0; t < _mesh.cells.size(); ++t) {
+      double x = 0;
+      for (const int v : _mesh.cells[t]) x += _mesh.points[v].x;
+      order.emplace_back(x, t);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<std::size_t> triangles;
+    for (const auto& [x, t] : order) triangles.push_back(t);
+    return triangles;
+  }
   void add(std::array<int, 3> corners, bool as_given) {
     if (!as_given) std::swap(corners[1], corners[2]);
     _mesh.cells.emplace_back(corners.begin(), corners.end());

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -110,17 +111,24 @@ struct LayerReport {
 
 struct Layers {
   Columns columns;
-  /// The wall mesh with moved vertices: the same pieces, triangles, faces, patches and shared-vertex keys.
-  /// Where a column has layers the vertex lies on no CAD entity: region, -1.
+  /// The wall mesh with moved vertices: the same pieces, triangles, faces, patches, classification and
+  /// shared-vertex keys; where planes were meshed again, as that has left it.
   mesh::DistributedMesh front;
   LayerReport report;
 };
 
+/// Meshes the planes that layers end on again, in a front whose vertices on their boundaries have moved.
+/// Pieces of other faces stay, keep their order and come first. Returns the shared-vertex keys of vertices
+/// that must move less, the same on every rank, and leaves the front alone then; none: done. Collective.
+using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& front)>;
+
 /// Columns on the walls of a surface mesh whose triangles are free of intersections, and a front that is so
 /// too; all cells between have positive volumes. A function of mesh and options alone, whatever the ranks.
 /// Heights only ever shrink on the way, and at zero the front is the wall: so there is a result for every
-/// mesh. Collective. Throws CollectiveError where options do not fit the mesh.
+/// mesh. `remesh_planes` is called, maybe several times, where layers end on planes; their pieces have no
+/// triangles of other faces then. Collective. Throws CollectiveError where options do not fit the mesh.
 Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, parallel::StageClock& clock);
+                    const LayerOptions& options, parallel::StageClock& clock,
+                    const PlaneRemesher& remesh_planes = {});
 
 }  // namespace aeroloom::layers
