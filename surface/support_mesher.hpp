@@ -12,15 +12,18 @@
 namespace aeroloom::surface {
 
 /// The loops of a piece cross each other under the present sizes. Carries where sizes have to fall, and to
-/// what.
+/// what, and the vertices with names at the ends of edges that cross.
 class FaceConflict : public std::runtime_error {
 public:
-  FaceConflict(const std::string& what, std::vector<sizing::SizeSource> remedy)
-      : std::runtime_error(what), _remedy(std::move(remedy)) {}
+  FaceConflict(const std::string& what, std::vector<sizing::SizeSource> remedy,
+               std::vector<mesh::SharedVertexKey> vertices = {})
+      : std::runtime_error(what), _remedy(std::move(remedy)), _vertices(std::move(vertices)) {}
   const std::vector<sizing::SizeSource>& remedy() const { return _remedy; }
+  const std::vector<mesh::SharedVertexKey>& vertices() const { return _vertices; }
 
 private:
   std::vector<sizing::SizeSource> _remedy;
+  std::vector<mesh::SharedVertexKey> _vertices;
 };
 
 struct SupportMeshing {
