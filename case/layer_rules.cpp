@@ -72,6 +72,7 @@ layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequ
                                    const std::vector<mesh::PatchType>& types) {
   layers::LayerOptions options;
   options.patches.resize(patches.size());
+  options.ends_on_planes = true;
   if (!request.given) return options;
   const layers::WallLayers wanted = layers_of_walls(request, sizing);
   for (std::size_t p = 0; p < patches.size() && request.walls == LayeredWalls::all; ++p) {

@@ -15,7 +15,7 @@ struct LayeredPiece {
   const mesh::Piece& wall;
   const mesh::Piece& front;
   const PieceColumns& columns;
-  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the wall's vertices
+  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the front's vertices
   const std::vector<std::uint8_t>& bears;         ///< by triangle
   std::span<const LateralEdge> laterals;          ///< by half-edge
   mesh::RegionId region = 0;

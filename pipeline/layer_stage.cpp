@@ -1,7 +1,8 @@
 #include "pipeline/layer_stage.hpp"
 
-#include "aeroloom/layers/layer_cells.hpp"
 #include "aeroloom/sizing/sources.hpp"
+#include "aeroloom/surface/plane_remesher.hpp"
+#include "layers/end_planes.hpp"
 #include "pipeline/stage_log.hpp"
 
 #include <algorithm>
@@ -31,22 +32,39 @@ std::vector<double> mean_edges(const mesh::Piece& piece) {
   return sum;
 }
 
+/// The places of the front where layers end: a function of the wall and its columns, for planes that were
+/// meshed again are other pieces in the front.
+struct FrontEnd {
+  Vec3 at;
+  double edge;  ///< mean length at the vertex of the front
+};
+
+std::vector<FrontEnd> ends_of_columns(const mesh::DistributedMesh& wall, const layers::Columns& columns) {
+  std::vector<FrontEnd> ends;
+  for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
+    mesh::Piece moved = wall.pieces[p];
+    const layers::PieceColumns& of_piece = columns.pieces[p];
+    for (LocalIndex v = 0; v < moved.vertex_count(); ++v)
+      moved.set_point(v, layers::node(wall.pieces[p], of_piece, v, of_piece.counts[v]));
+    const std::vector<double> edges = mean_edges(moved);
+    for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
+      if (of_piece.counts[v] > 0) ends.push_back({moved.point(v), edges[v]});
+    }
+  }
+  return ends;
+}
+
 /// What the front asks of the sizes: its own edges, where the field is well above them. Sources are thinned
 /// as if they asked for twice their size: in between the field grows by less than what counts as well above.
 std::vector<sizing::SizeSource> sizes_of_front(const parallel::Communicator& communicator,
-                                               const layers::Layers& layers, const sizing::SizeField& field,
+                                               const mesh::DistributedMesh& wall,
+                                               const layers::Columns& columns, const sizing::SizeField& field,
                                                parallel::StageClock& clock) {
   constexpr double well_above = 1.3, thinning = 2;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
   std::vector<sizing::SizeSource> sources;
-  for (std::size_t p = 0; p < layers.front.pieces.size(); ++p) {
-    const mesh::Piece& piece = layers.front.pieces[p];
-    const std::vector<double> edges = mean_edges(piece);
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (layers.columns.pieces[p].counts[v] == 0) continue;
-      const Vec3 at = piece.point(v);
-      if (field(at) > well_above * edges[v]) sources.push_back({at, thinning * edges[v]});
-    }
+  for (const FrontEnd& end : ends_of_columns(wall, columns)) {
+    if (field(end.at) > well_above * end.edge) sources.push_back({end.at, thinning * end.edge});
   }
   const sizing::RootCube root(field.domain());
   sources = sizing::thin_sources(root, sources);
@@ -56,33 +74,48 @@ std::vector<sizing::SizeSource> sizes_of_front(const parallel::Communicator& com
   return sources;
 }
 
+/// Ascending.
+std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communicator,
+                                         const mesh::DistributedMesh& wall,
+                                         const layers::LayerOptions& options) {
+  std::vector<cad::FaceId> faces;
+  const std::vector<Vec3> normals = layers::find_end_planes(communicator, wall, options);
+  for (std::size_t face = 0; face < normals.size(); ++face) {
+    if (!(normals[face] == Vec3{})) faces.push_back(static_cast<cad::FaceId>(face));
+  }
+  return faces;
+}
+
 }  // namespace
 
 LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
-                            FinishedSurface& surface, report::RunRecord& record) {
+                            const cad::Model& model, FinishedSurface& surface, report::RunRecord& record) {
   surface.mesh.patch_types = record.patch_types;
   const layers::LayerOptions options =
       cases::layer_options(input.layers, input.sizing, surface.mesh.patches, record.patch_types);
-  layers::Layers made = layers::build_layers(communicator, surface, options, record.clock);
-  record.layers.emplace(report::LayerRecord{options, made.report});
+  const surface::PlanesToRemesh planes{faces_of_planes(communicator, surface.mesh, options), input.surface};
+  const auto remesh = [&](mesh::DistributedMesh& front) {
+    surface::PlaneConflicts conflicts =
+        surface::remesh_planes(communicator, model, surface.field, planes, front, record.clock);
+    return std::move(conflicts.vertices);
+  };
+  layers::Layers made = layers::build_layers(communicator, surface, options, record.clock, remesh);
+  record.layers.emplace(report::LayerRecord{options, std::move(made.report), !planes.faces.empty()});
   log_layers(record);
   const std::vector<sizing::SizeSource> sizes =
-      sizes_of_front(communicator, made, surface.field, record.clock);
+      sizes_of_front(communicator, surface.mesh, made.columns, surface.field, record.clock);
   sizing::SizeField field =
       sizes.empty() ? surface.field : surface.field.refined(communicator, sizes, record.clock);
-  layers::name_front(communicator, surface, made.front);
-  mesh::NumberedMesh front{std::exchange(made.front, {}), surface.numbering};
-  return {std::move(made), {std::move(front), std::move(field)}};
+  return {std::move(made.columns), layers::name_front(communicator, std::move(made.front)), std::move(field)};
 }
 
 void append_layers(const parallel::Communicator& communicator, const cases::Case& input,
-                   const FinishedSurface& surface, LayeredSurface layered, mesh::DistributedMesh& volume,
-                   report::RunRecord& record) {
-  const parallel::ScopedCpu task(record.clock, parallel::ScopedCpu::As::task);
+                   const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+                   mesh::DistributedMesh& volume, report::RunRecord& record) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
-  layered.layers.front = std::move(layered.front.mesh);
-  layers::append_layers(communicator, surface, layered.layers, input.volume.piece_tets.value_or(most_cells),
-                        volume);
+  const parallel::ScopedCpu task(record.clock, parallel::ScopedCpu::As::task);
+  layers::append_layers(communicator, surface, layered.columns, layered.front,
+                        input.volume.piece_tets.value_or(most_cells), volume);
 }
 
 }  // namespace aeroloom::pipeline

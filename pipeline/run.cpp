@@ -46,21 +46,10 @@ public:
     });
     FinishedSurface surface =
         stage("surface", report::ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
-    std::optional<LayeredSurface> layered;
-    if (_input.layers.given) {
-      layered = stage("layers", report::ExitCode::surface,
-                      [&] { return build_layers(_communicator, _input, surface, _record); });
-    }
     const report::PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
-    mesh::DistributedMesh volume = report::with_pictures_of_failure(
-        _communicator, pictured, _input.output, _record.pictures,
-        [&] { return volume_stages().find_or_build(sized.model, layered ? layered->front : surface); });
-    if (layered) {
-      stage("layers", report::ExitCode::volume, [&] {
-        append_layers(_communicator, _input, surface, std::move(*layered), volume, _record);
-        layered.reset();
-      });
-    }
+    mesh::DistributedMesh volume =
+        report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
+                                         [&] { return find_or_build_volume(sized.model, surface); });
     const mesh::Numbering numbering =
         stage("inspect", report::ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
     volume.patch_types = _record.patch_types;
@@ -255,7 +244,18 @@ private:
 
   // --- volume
 
-  VolumeStages volume_stages() { return {_communicator, _input, _record, *_checkpoints}; }
+  /// The volume within the surface; where the case asks for layers, behind their front, and they before it.
+  mesh::DistributedMesh find_or_build_volume(const cad::Model& model, FinishedSurface& surface) {
+    VolumeStages stages(_communicator, _input, _record, *_checkpoints);
+    if (!_input.layers.given) return stages.find_or_build(model, {surface, surface.field});
+    const LayeredSurface layered = stage("layers", report::ExitCode::surface, [&] {
+      return build_layers(_communicator, _input, model, surface, _record);
+    });
+    mesh::DistributedMesh volume = stages.find_or_build(model, {layered.front, layered.field});
+    stage("layers", report::ExitCode::volume,
+          [&] { append_layers(_communicator, _input, surface, layered, volume, _record); });
+    return volume;
+  }
 
   // --- the finished mesh
 
@@ -264,7 +264,9 @@ private:
     mesh::Numbering numbering = mesh::number_mesh(_communicator, volume);
     if (_record.improve.changed_triangles > 0)
       adopt_boundary(_communicator, model, volume, numbering, surface, _record);
-    inspect_volume(_communicator, _input, volume, numbering, &surface.mesh, _record);
+    const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
+    inspect_volume(_communicator, _input, volume, numbering, is_of_surface ? &surface.mesh : nullptr,
+                   _record);
     add_cad_volumes(model, _record.regions_filled);
     const parallel::ScopedCpu check(_record.clock, parallel::ScopedCpu::As::check);
     _record.conformity = attribution::measure_conformity(_communicator, volume, surface.field);
@@ -273,7 +275,8 @@ private:
 
   void write(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
              const FinishedSurface& surface) {
-    const SurfaceView view{surface.mesh, surface.numbering};
+    const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
+    const SurfaceView view{surface.mesh, surface.numbering, is_of_surface};
     {
       const parallel::ScopedCpu task(_record.clock, parallel::ScopedCpu::As::task);
       write_outputs(_communicator, volume, numbering, &view, _input.output);

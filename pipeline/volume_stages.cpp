@@ -34,7 +34,7 @@ namespace {
 
 }  // namespace
 
-mesh::DistributedMesh VolumeStages::find_or_build(const cad::Model& model, const FinishedSurface& surface) {
+mesh::DistributedMesh VolumeStages::find_or_build(const cad::Model& model, const VolumeBoundary& boundary) {
   constexpr report::ExitCode code = report::ExitCode::volume;
   std::optional<io::CheckpointContent> improved, filled;
   run_stage(_record, "decompose", code, [&] {
@@ -56,17 +56,18 @@ mesh::DistributedMesh VolumeStages::find_or_build(const cad::Model& model, const
     });
   }
   mesh::DistributedMesh volume =
-      filled ? run_stage(_record, "volume", code, [&] { return adopt(std::move(*filled)); }) : build(surface);
-  run_stage(_record, "improve", code, [&] { improve(model, surface, volume); });
+      filled ? run_stage(_record, "volume", code, [&] { return adopt(std::move(*filled)); })
+             : build(boundary);
+  run_stage(_record, "improve", code, [&] { improve(model, boundary, volume); });
   return volume;
 }
 
-mesh::DistributedMesh VolumeStages::build(const FinishedSurface& surface) {
+mesh::DistributedMesh VolumeStages::build(const VolumeBoundary& boundary) {
   constexpr report::ExitCode code = report::ExitCode::volume;
   volume::Decomposition decomposition =
-      run_stage(_record, "decompose", code, [&] { return decompose(surface); });
+      run_stage(_record, "decompose", code, [&] { return decompose(boundary); });
   return run_stage(_record, "volume", code, [&] {
-    mesh::DistributedMesh volume = fill(surface, std::move(decomposition));
+    mesh::DistributedMesh volume = fill(boundary, std::move(decomposition));
     log_volume(_record);
     keep(SavedStage::volume, volume);
     return volume;
@@ -90,34 +91,34 @@ void VolumeStages::keep(SavedStage saved, const mesh::DistributedMesh& volume) {
       saved, [&] { return pack_volume(volume, _record.decomposition, _record.volume, _record.improve); });
 }
 
-volume::VolumeInput VolumeStages::input_of(const FinishedSurface& surface) {
-  return {surface.mesh, surface.numbering, surface.field, _input.volume,
+volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
+  return {boundary.surface.mesh, boundary.surface.numbering, boundary.field, _input.volume,
           _checkpoints.tasks(SavedStage::volume)};
 }
 
-volume::Decomposition VolumeStages::decompose(const FinishedSurface& surface) {
-  volume::Decomposition decomposition = volume::decompose(_communicator, input_of(surface), _record.clock);
+volume::Decomposition VolumeStages::decompose(const VolumeBoundary& boundary) {
+  volume::Decomposition decomposition = volume::decompose(_communicator, input_of(boundary), _record.clock);
   _record.decomposition = decomposition.report();
   log_decompose(_record);
   if (_communicator.is_root()) warn_of_count(_record);
   return decomposition;
 }
 
-mesh::DistributedMesh VolumeStages::fill(const FinishedSurface& surface,
+mesh::DistributedMesh VolumeStages::fill(const VolumeBoundary& boundary,
                                          volume::Decomposition decomposition) {
   try {
-    return volume::fill_zones(_communicator, input_of(surface), std::move(decomposition), _record.clock,
+    return volume::fill_zones(_communicator, input_of(boundary), std::move(decomposition), _record.clock,
                               _record.volume);
   } catch (const volume::VolumeFailure& failure) {
     point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
   }
 }
 
-void VolumeStages::improve(const cad::Model& model, const FinishedSurface& surface,
+void VolumeStages::improve(const cad::Model& model, const VolumeBoundary& boundary,
                            mesh::DistributedMesh& volume) {
   if (!_input.improve.enabled) return;
   cad::PointLocator locator(model);
-  improve_volume(_communicator, _input, {&locator, &surface.field}, volume, _record,
+  improve_volume(_communicator, _input, {&locator, &boundary.field}, volume, _record,
                  _checkpoints.tasks(SavedStage::improve));
   keep(SavedStage::improve, volume);
 }

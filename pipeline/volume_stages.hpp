@@ -8,6 +8,12 @@
 
 namespace aeroloom::pipeline {
 
+/// The surface that a volume is filled within, with its sizes. Refers to what lives elsewhere.
+struct VolumeBoundary {
+  const mesh::NumberedMesh& surface;
+  const sizing::SizeField& field;
+};
+
 /// Decomposition, filling and improvement of one run: each taken from the checkpoint of an earlier run where
 /// there is one, else made and kept. All of it is collective.
 class VolumeStages {
@@ -17,16 +23,16 @@ public:
       : _communicator(communicator), _input(input), _record(record), _checkpoints(checkpoints) {}
 
   /// Improved, where the case asks for that.
-  mesh::DistributedMesh find_or_build(const cad::Model& model, const FinishedSurface& surface);
+  mesh::DistributedMesh find_or_build(const cad::Model& model, const VolumeBoundary& boundary);
 
 private:
-  mesh::DistributedMesh build(const FinishedSurface& surface);
+  mesh::DistributedMesh build(const VolumeBoundary& boundary);
   mesh::DistributedMesh adopt(io::CheckpointContent content);
   void keep(SavedStage saved, const mesh::DistributedMesh& volume);
-  volume::VolumeInput input_of(const FinishedSurface& surface);
-  volume::Decomposition decompose(const FinishedSurface& surface);
-  mesh::DistributedMesh fill(const FinishedSurface& surface, volume::Decomposition decomposition);
-  void improve(const cad::Model& model, const FinishedSurface& surface, mesh::DistributedMesh& volume);
+  volume::VolumeInput input_of(const VolumeBoundary& boundary);
+  volume::Decomposition decompose(const VolumeBoundary& boundary);
+  mesh::DistributedMesh fill(const VolumeBoundary& boundary, volume::Decomposition decomposition);
+  void improve(const cad::Model& model, const VolumeBoundary& boundary, mesh::DistributedMesh& volume);
 
   const parallel::Communicator& _communicator;
   const cases::Case& _input;

@@ -55,7 +55,7 @@ CellCounts expected_cells(const Layered& layered) {
   CellCounts cells;
   for (std::size_t p = 0; p < layered.wall.mesh.pieces.size(); ++p) {
     const Piece& piece = layered.wall.mesh.pieces[p];
-    const std::vector<std::int32_t>& counts = layered.layers.columns.pieces[p].counts;
+    const std::vector<std::int32_t>& counts = layered.columns.pieces[p].counts;
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (piece.triangle_patch[t] != 0) continue;
       std::array<std::int32_t, 3> of{counts[piece.cell(t)[0]], counts[piece.cell(t)[1]],
@@ -139,8 +139,9 @@ TEST(LayerCells, VerticesOffTheWallLieInTheirRegionOthersWhereTheCadHasThem) {
           std::max({std::abs(piece.point(v).x), std::abs(piece.point(v).y), std::abs(piece.point(v).z)}) == 2;
       const bool on_wall = std::abs(r - 1) < 1e-12;
       EXPECT_EQ(is_on_boundary(piece.vertex_dimension[v]), on_box || on_wall) << r;
-      if (on_wall) EXPECT_EQ(piece.vertex_entity[v], ball_face);
-      if (!on_box && !on_wall) EXPECT_EQ(piece.vertex_entity[v], 0);
+      if (!on_box) {
+        EXPECT_EQ(piece.vertex_entity[v], on_wall ? ball_face : 0);
+      }
       on_ball_face += on_wall;
     }
   }
@@ -197,6 +198,13 @@ TEST(LayerCells, EndOnPlanesForAnyCounts) {
   expect_valid(layered, nullptr);
   expect_cells(layered);
   const mesh::MeshCounts counts = mesh::count_mesh(world, layered.mesh, layered.numbering);
+  for (const Piece& piece : layered.mesh.pieces) {
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const Vec3 p = piece.point(v);
+      const bool on_cube = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) == 1;
+      EXPECT_EQ(is_on_boundary(piece.vertex_dimension[v]), on_cube) << p.x << " " << p.y << " " << p.z;
+    }
+  }
   EXPECT_GT(counts.boundary_quads, 4);
   EXPECT_GT(counts.boundary_triangles, 6 * 6 * 6 * 2);
 }

@@ -52,22 +52,22 @@ struct Layered {
   /// Heights are `first`, twice, then half as much again each. Vertices with a direction that is not zero
   /// have columns.
   void grow(double first, const ColumnAt& column_at) {
-    layers.front = wall.mesh;
-    layers.columns.pieces.clear();
-    for (mesh::Piece& front : layers.front.pieces) {
-      const mesh::Piece piece = front;
-      PieceColumns& columns = layers.columns.pieces.emplace_back();
+    mesh::DistributedMesh moved = wall.mesh;
+    columns.pieces.clear();
+    for (mesh::Piece& end : moved.pieces) {
+      const mesh::Piece piece = end;
+      PieceColumns& of_piece = columns.pieces.emplace_back();
       for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
         const WantedColumn column = column_at(piece.point(v));
-        columns.directions.push_back(column.direction);
-        columns.counts.push_back(column.count);
-        columns.constant.push_back(2);
-        columns.first.push_back(first);
-        columns.growth.push_back(1.5);
-        front.set_point(v, node(piece, columns, v, column.count));
+        of_piece.directions.push_back(column.direction);
+        of_piece.counts.push_back(column.count);
+        of_piece.constant.push_back(2);
+        of_piece.first.push_back(first);
+        of_piece.growth.push_back(1.5);
+        end.set_point(v, node(piece, of_piece, v, column.count));
       }
     }
-    name_front(communicator, wall, layers.front);
+    front = name_front(communicator, std::move(moved));
   }
 
   /// Tetrahedra behind the front, improved, and the layers before it.
@@ -75,7 +75,7 @@ struct Layered {
             volume::VolumeOptions options = {}) {
     parallel::StageClock clock;
     volume::VolumeReport report;
-    const volume::VolumeInput input{layers.front, wall.numbering, field, options};
+    const volume::VolumeInput input{front.mesh, front.numbering, field, options};
     mesh =
         volume::fill_zones(communicator, input, volume::decompose(communicator, input, clock), clock, report);
     improve::ImproveOptions improvement;
@@ -84,7 +84,7 @@ struct Layered {
     tetrahedra = 0;
     for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);
-    append_layers(communicator, wall, layers, most_cells_per_piece, mesh);
+    append_layers(communicator, wall, columns, front, most_cells_per_piece, mesh);
     numbering = mesh::number_mesh(communicator, mesh);
   }
 
@@ -92,7 +92,8 @@ struct Layered {
 
   parallel::Communicator communicator;
   mesh::NumberedMesh wall;
-  Layers layers;
+  Columns columns;
+  NamedFront front;
   mesh::DistributedMesh mesh;
   mesh::Numbering numbering;
   improve::ImproveReport improved;

@@ -60,6 +60,7 @@ struct RegionRow {
 struct LayerRecord {
   layers::LayerOptions asked;
   layers::LayerReport report;
+  bool end_on_planes = false;  ///< whose triangles are other ones than those of the surface mesh, then
 };
 
 /// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
