@@ -69,8 +69,30 @@ def check_resumed(program, folder, wanted):
     assert other.report["mesh"]["hash"] != wanted
 
 
+def check_plane(program):
+    """Layers end on a plane of symmetry: in its quadrilaterals, exactly planar; the rest of it is meshed again."""
+    half = SPHERE.replace("extent: 2", "extent: 2, symmetry: y") + LAYERS
+    runs = [Run(program, half, ranks) for ranks in (1, 3)]
+    assert all(run.code == 0 for run in runs), [run.text for run in runs]
+    mesh = runs[0].report["mesh"]
+    assert mesh["hash"] == runs[1].report["mesh"]["hash"], "the mesh depends on the number of ranks"
+    assert mesh["boundary_quadrilaterals"] > 100 and runs[0].report["layers"]["full"] > 0.95, runs[0].report["layers"]
+    surface = read(vtk.vtkXMLPPolyDataReader(), runs[0].output / "surface.pvtp")
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    ids = vtk.vtkIdList()
+    quads = 0
+    for cell in range(surface.GetNumberOfCells()):
+        surface.GetCellPoints(cell, ids)
+        if ids.GetNumberOfIds() == 4:
+            quads += 1
+            assert all(points[ids.GetId(k)][1] == 0 for k in range(4)), "a layer leaves the plane"
+    assert quads == mesh["boundary_quadrilaterals"]
+    assert surface.GetNumberOfCells() == quads + mesh["boundary_triangles"]
+
+
 def main():
     program = sys.argv[1]
+    check_plane(program)
     runs = {ranks: Run(program, SPHERE + LAYERS, ranks) for ranks in (1, 2, 3)}
     for ranks, run in runs.items():
         assert run.code == 0, f"{ranks} ranks ended with {run.code}:\n{run.text}"
