@@ -67,7 +67,7 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
   return sum;
 }
 
-void print_figures(const Communicator& communicator, benchmarks::LayerFigures mine) {
+void print_figures(const Communicator& communicator, const benchmarks::LayerFigures& mine) {
   const auto gather = [&](const std::vector<double>& values) {
     return communicator.all_gather_items(std::span<const double>(values));
   };
