@@ -3,7 +3,7 @@
 /// case's keys of layers do not count: all patches but those of the far field have layers until they are
 /// isotropic.
 ///
-/// CPU figures are of the calling thread, around the whole stage, waiting included.
+/// CPU figures are those of the stage clock: without waiting.
 #include "aeroloom/layers/columns.hpp"
 #include "aeroloom/parallel/observation/log.hpp"
 #include "benchmarks/case_surface.hpp"
@@ -67,7 +67,7 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
   return sum;
 }
 
-void print_figures(const Communicator& communicator, benchmarks::LayerFigures mine) {
+void print_figures(const Communicator& communicator, const benchmarks::LayerFigures& mine) {
   const auto gather = [&](const std::vector<double>& values) {
     return communicator.all_gather_items(std::span<const double>(values));
   };
@@ -95,11 +95,10 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   const layers::LayerOptions options = options_for(communicator, wall.mesh, first, patch);
   parallel::StageClock clock;
   clock.begin("layers");
-  const double cpu = parallel::cpu_seconds(), wall_start = parallel::wall_seconds();
   const layers::Layers layers = layers::build_layers(communicator, wall, options, clock);
-  const double cpu_used = communicator.sum(parallel::cpu_seconds() - cpu);
-  const double wall_used = communicator.maximum(parallel::wall_seconds() - wall_start);
   clock.end();
+  const parallel::StageSummary stage = clock.summarise(communicator).back();
+  const double cpu_used = stage.cpu_seconds_mean * communicator.size();
   const std::string hash = mesh::hash_mesh(communicator, layers.front, wall.numbering);
   print_figures(communicator, {wall.mesh, layers, options});
   if (!communicator.is_root()) return;
@@ -107,15 +106,17 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   const auto cells = static_cast<double>(sum.prisms + sum.pyramids + sum.tetrahedra);
   const auto percent = [&](double area) { return 100 * area / std::max(sum.area, 1e-300); };
   std::printf(
-      "RESULT ranks=%d triangles=%lld prisms=%lld pyramids=%lld tetrahedra=%lld cpu=%.3f wall=%.3f "
+      "RESULT ranks=%d triangles=%lld prisms=%lld pyramids=%lld tetrahedra=%lld cpu=%.3f cpu_max=%.3f "
+      "wall=%.3f "
       "cells_per_cpu_second=%.0f full=%.2f isotropic=%.2f partial=%.2f empty=%.2f squeezed=%.2f "
       "layers_mean=%.1f "
       "layers_max=%lld validity_rounds=%d crossing_rounds=%d crossings=%lld zeroed=%lld hash=%s\n",
       communicator.size(), static_cast<long long>(sum.triangles), static_cast<long long>(sum.prisms),
-      static_cast<long long>(sum.pyramids), static_cast<long long>(sum.tetrahedra), cpu_used, wall_used,
-      cells / cpu_used, percent(sum.full_area), percent(sum.isotropic_area), percent(sum.partial_area),
-      percent(sum.empty_area), percent(sum.squeezed_area), sum.layers_area / sum.area,
-      static_cast<long long>(sum.most_layers), layers.report.validity_rounds, layers.report.crossing_rounds,
+      static_cast<long long>(sum.pyramids), static_cast<long long>(sum.tetrahedra), cpu_used,
+      stage.cpu_seconds_max, stage.wall_seconds, cells / cpu_used, percent(sum.full_area),
+      percent(sum.isotropic_area), percent(sum.partial_area), percent(sum.empty_area),
+      percent(sum.squeezed_area), sum.layers_area / sum.area, static_cast<long long>(sum.most_layers),
+      layers.report.validity_rounds, layers.report.crossing_rounds,
       static_cast<long long>(layers.report.crossings), static_cast<long long>(layers.report.zeroed_by_force),
       hash.c_str());
   std::printf("       limited, %% of the area:");

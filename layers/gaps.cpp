@@ -98,6 +98,7 @@ std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator
 std::vector<NearTriangle> fetch_triangles(const parallel::Communicator& communicator, const WallShare& wall,
                                           const std::vector<BallBatch>& batches) {
   std::vector<Box> boxes;
+  boxes.reserve(batches.size());
   for (const BallBatch& batch : batches) boxes.push_back(batch.box);
   const geometry::BoxTree tree(boxes, boxes_per_leaf_of_gaps);
   std::vector<NearTriangle> triangles;

@@ -214,6 +214,14 @@ TEST(BuildLayers, CoverTheEdgesAndCornersOfACube) {
   const PatchLayers& patch = layers.report.patches[1];
   EXPECT_EQ(patch.empty_area, 0);
   EXPECT_GT(patch.full_area, 0.95 * patch.area);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 at = mesh.pieces[p].point(v);
+      const auto is_end = [](double x) { return x == 0 || x == 1; };
+      if (is_end(at.x) + is_end(at.y) + is_end(at.z) != 2) continue;
+      EXPECT_NEAR(layers.columns.pieces[p].first[v], std::sqrt(2.0) * 1e-4, 0.1e-4) << "on an edge they lean";
+    }
+  }
 }
 
 TEST(BuildLayers, FillTheCornersOfABox) {

@@ -125,6 +125,18 @@ TEST(Directions, AreNoneBesideFacesWhereLayersMayNotEnd) {
   }
 }
 
+TEST(Directions, AreNoneOnFacesBetweenTwoRegions) {
+  const auto self = Communicator::self();
+  mesh::DistributedMesh mesh = cube_in_a_box().distribute(self, 2);
+  mesh.regions = {"outer", "inner"};
+  mesh.sides = {{0, mesh::no_region}, {0, 1}};
+  const Directed directed(self, mesh, layers_on(2));
+  for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
+    const bool on_box = norm(directed.wall.points[v] - Vec3{0.5, 0.5, 0.5}) > 2;
+    EXPECT_EQ(directed.fans.kinds[v], on_box ? FanKind::plain : FanKind::off_wall);
+  }
+}
+
 TEST(Directions, AreNoneWhereTwoFansMeet) {
   // Two cubes with a common corner: the vertex is on two fans.
   const auto self = Communicator::self();

@@ -172,6 +172,52 @@ TEST(EndPlanes, MakeColumnsShrinkWhereTheyCannotBeMeshedAgain) {
   EXPECT_GE(layers.report.crossing_rounds, 1);
 }
 
+TEST(EndPlanes, AreNotInTheWayOfColumnsBesideThem) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = distribute(world, box_with_planes([](Vec3 p) {
+                                                  return Vec3{p.x, p.y, 3 * p.z};
+                                                }));
+  const Layers layers = build(world, mesh, layers_on_floor(), take_planes_away);
+  std::int64_t beside = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 at = mesh.pieces[p].point(v);
+      if (at.z != 0 || at.x > 0.25 || at.y > 0.25) continue;
+      EXPECT_GT(layers.columns.pieces[p].growth[v], 1.19) << "hardly squeezed";
+      ++beside;
+    }
+  }
+  EXPECT_GE(world.sum(beside), 9);
+}
+
+TEST(EndPlanes, EmptyColumnsAtLastWhereTheyBearNoTrace) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
+  const auto refuse = [&](mesh::DistributedMesh& front) {
+    std::vector<mesh::SharedVertexKey> at_fault;
+    for (std::size_t p = 0; p < front.pieces.size(); ++p) {
+      for (std::size_t s = 0; s < front.pieces[p].shared_keys.size(); ++s) {
+        const mesh::LocalIndex v = front.pieces[p].shared_vertices[s];
+        const Vec3 from = mesh.pieces[p].point(v);
+        if (from.x == 0 && !(front.pieces[p].point(v) == from))
+          at_fault.push_back(front.pieces[p].shared_keys[s]);
+      }
+    }
+    at_fault = world.all_gather_items(std::span<const mesh::SharedVertexKey>(at_fault));
+    return at_fault.empty() ? take_planes_away(front) : at_fault;
+  };
+  LayerOptions options = layers_on_floor();
+  options.stairs = 100;
+  options.patches[0].growth = 1.01;
+  const Layers layers = build(world, mesh, options, refuse);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v)
+      EXPECT_TRUE(mesh.pieces[p].point(v).x != 0 || layers.columns.pieces[p].counts[v] == 0);
+  }
+  EXPECT_GT(layers.report.crossing_rounds, 10);
+  EXPECT_GT(layers.report.zeroed_by_force, 0);
+}
+
 TEST(EndPlanes, NeedSomebodyWhoMeshesThemAgain) {
   const auto world = Communicator::world();
   EXPECT_THROW(build(world, distribute(world, box_with_planes()), layers_on_floor(), {}), std::runtime_error);
