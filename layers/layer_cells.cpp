@@ -76,7 +76,8 @@ FrontTable make_table(const Communicator& communicator, const Columns& columns, 
 /// triangles that layers lie before are boundary no more.
 class BehindFront {
 public:
-  BehindFront(const mesh::DistributedMesh& wall, const FrontTable& table, mesh::DistributedMesh& volume)
+  /// Collective.
+  BehindFront(const mesh::DistributedMesh& wall, const FrontTable& table, const mesh::DistributedMesh& volume)
       : _wall(wall) {
     for (const Piece& piece : volume.pieces) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -91,6 +92,9 @@ public:
           parallel::FailureKind::bug,
           fmt::format("layers: the volume has a vertex of the front, {}, that there is not", found.missing));
     _rows = found.values;
+  }
+
+  void join(mesh::DistributedMesh& volume) const {
     for (Piece& piece : volume.pieces) join(piece);
   }
 
@@ -238,12 +242,13 @@ void append_layers(const Communicator& communicator, const mesh::NumberedMesh& w
                    const NamedFront& front, std::int64_t most_cells_per_piece,
                    mesh::DistributedMesh& volume) {
   const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
-  BehindFront(wall.mesh, make_table(communicator, columns, front, places), volume);
+  BehindFront(wall.mesh, make_table(communicator, columns, front, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(communicator, wall, columns);
   std::vector<std::vector<Piece>> made;
   parallel::agree(communicator,
                   [&] { made = make_pieces(wall, columns, front, places, laterals, most_cells_per_piece); });
   std::vector<GlobalIndex> counts;
+  counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
   const std::vector<GlobalIndex> first = mesh::first_by_piece(communicator, wall.mesh, counts);
   for (std::size_t p = 0; p < made.size(); ++p) {
