@@ -189,13 +189,13 @@ void fill_chart(const cad::Model& model, const sizing::SizeField& field, const C
 
 }  // namespace
 
-FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, Support support,
+FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, const Support& support,
                       FaceVertices vertices, const SupportMeshing& options) {
   FaceMesh mesh;
   mesh.face = support.face;
   mesh.fixed = vertices.border_count();
   const std::vector<Chart> charts =
-      make_charts(model, field, std::move(support), {.spread = options.chart_spread}, vertices);
+      make_charts(model, field, support, {.spread = options.chart_spread}, vertices);
   mesh.points = vertices.points;
   mesh.uv = vertices.uv;
   for (const Chart& chart : charts) fill_chart(model, field, chart, vertices, options, mesh);

@@ -35,7 +35,7 @@ struct SupportMeshing {
 
 /// Charts, front, and the smoothing that leaves no trace of the charts. Of `vertices` those on borders come
 /// first in the result and keep their numbers. Not collective. Throws FaceConflict or SurfaceError.
-FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, Support support,
+FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, const Support& support,
                       FaceVertices vertices, const SupportMeshing& options);
 
 }  // namespace aeroloom::surface
