@@ -2,6 +2,7 @@
 
 #include "case/case_keys.hpp"
 #include "case/group_keys.hpp"
+#include "case/layer_keys.hpp"
 #include "case/level_keys.hpp"
 #include "case/source_keys.hpp"
 #include "case/wall_keys.hpp"
@@ -76,6 +77,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   check_sizing(keys, draft.result.sizing);
   check_expression(keys, draft.result.sizing.expression);
   check_levels(keys, draft.result.sizing);
+  check_layers(keys, draft);
   check_sources(keys, draft.sources);
   check_groups(keys, draft.groups, draft.patches);
   for (const PatchRule& rule : draft.patches)
@@ -101,6 +103,8 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   result.sizing.sources.assign(draft.sources.begin(), draft.sources.end());
   result.sizing.walls.assign(draft.walls.begin(), draft.walls.end());
   result.sizing.edges.assign(draft.edges.begin(), draft.edges.end());
+  result.layers.given = result.layers.first || result.layers.reynolds || !draft.layer_rules.empty();
+  result.layers.patches.assign(draft.layer_rules.begin(), draft.layer_rules.end());
   for (const PatchRule& rule : result.patches) {
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
   }
@@ -162,6 +166,7 @@ std::string resolved_yaml(const Case& input) {
   draft.sources.assign(input.sizing.sources.begin(), input.sizing.sources.end());
   draft.walls.assign(input.sizing.walls.begin(), input.sizing.walls.end());
   draft.edges.assign(input.sizing.edges.begin(), input.sizing.edges.end());
+  draft.layer_rules.assign(input.layers.patches.begin(), input.layers.patches.end());
   KeyTable keys;
   declare_case_keys(keys, draft);
   for (const GroupRule& rule : input.groups.rules) keys.add_named("groups", rule.name);
@@ -169,6 +174,7 @@ std::string resolved_yaml(const Case& input) {
   for (const SourceRule& rule : input.sizing.sources) keys.add_named("sizing.sources", rule.name);
   for (const WallRule& rule : input.sizing.walls) keys.add_named("sizing.walls", rule.name);
   for (const EdgeRule& rule : input.sizing.edges) keys.add_named("sizing.edges", rule.name);
+  for (const LayerRule& rule : input.layers.patches) keys.add_named("layers.patches", rule.name);
   return keys.write();
 }
 

@@ -1,6 +1,7 @@
 #include "case/case_keys.hpp"
 
 #include "aeroloom/sizing/size_field.hpp"
+#include "case/layer_keys.hpp"
 #include "case/level_keys.hpp"
 #include "case/source_keys.hpp"
 #include "case/wall_keys.hpp"
@@ -121,6 +122,7 @@ void declare_case_keys(KeyTable& root, CaseDraft& draft) {
                                     "smallest of all sizes that are asked for somewhere wins there.")),
       draft);
   declare_surface(root.section("surface", "How the surface is cut into pieces of work."), draft.result);
+  declare_layers(root, draft);
   declare_volume(root.section("volume", "How the volume is cut into pieces of work and filled."),
                  draft.result);
   declare_result_keys(root, draft.result);
@@ -140,7 +142,7 @@ std::vector<KeyInfo> case_keys() {
   declare_case_keys(keys, draft);
   keys.add_named("groups", made_up_name);
   keys.add_named("patches", made_up_name);
-  for (const char* each : {"sizing.sources", "sizing.walls", "sizing.edges"})
+  for (const char* each : {"sizing.sources", "sizing.walls", "sizing.edges", "layers.patches"})
     keys.add_named(each, made_up_name);
   return keys.infos();
 }

@@ -30,6 +30,7 @@ struct CaseDraft {
   std::deque<SourceRule> sources;
   std::deque<WallRule> walls;
   std::deque<EdgeRule> edges;
+  std::deque<LayerRule> layer_rules;
 };
 
 /// The unit of lengths in the geometry's own unit.

@@ -176,6 +176,7 @@ FilePart part_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbe
   part.piece = &piece;
   part.coordinates = piece.coordinates;
   part.numbers = numbering.vertices[i];
+  part.layers = piece.layers;
   part.owned = numbering.owned[i];
   part.owned_count = static_cast<LocalIndex>(std::count(part.owned.begin(), part.owned.end(), 1));
   for (const CellShape shape : cell_shapes)
@@ -263,6 +264,9 @@ FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::Di
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
     result.parts.push_back(part_of(mesh, numbering, i, split));
   result.patches = std::move(split.patches);
+  const bool layers_here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
+                                       [](const mesh::Piece& piece) { return !piece.layers.empty(); });
+  result.has_layers = communicator.maximum(std::int64_t{layers_here}) > 0;
   finish(communicator, result);
   parallel::agree(communicator, [&] { require_numbers(result); });
   return result;

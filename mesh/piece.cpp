@@ -83,6 +83,8 @@ void require_consistent_arrays(const Piece& piece) {
       4 * piece.quad_face.size() == piece.quads.size() && 4 * piece.quad_patch.size() == piece.quads.size(),
       piece, "not one face and patch per boundary quadrilateral");
   require_region_runs(piece);
+  require(piece.layers.empty() || piece.layers.size() == static_cast<std::size_t>(piece.total_cell_count()),
+          piece, "not one layer per cell");
   require(piece.shared_keys.size() == piece.shared_vertices.size(), piece, "not one key per shared vertex");
   require(std::adjacent_find(piece.shared_vertices.begin(), piece.shared_vertices.end(),
                              std::greater_equal<>()) == piece.shared_vertices.end(),
@@ -100,7 +102,7 @@ std::int64_t bytes_at_rest(const Piece& piece) {
          bytes(piece.vertex_dimension) + bytes(piece.vertex_entity) + bytes(piece.boundary) +
          bytes(piece.triangle_face) + bytes(piece.triangle_patch) + bytes(piece.shared_vertices) +
          bytes(piece.shared_keys) + bytes(piece.pyramids) + bytes(piece.prisms) + bytes(piece.quads) +
-         bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs);
+         bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs) + bytes(piece.layers);
 }
 
 }  // namespace aeroloom::mesh

@@ -12,8 +12,8 @@ constexpr int edge_shift = 32;
 
 // Volumes: bits 63 and 62 for rounds, 8 for the round, 54 for piece and vertex or for a running number.
 constexpr SharedVertexKey late_bit = SharedVertexKey{1} << 63, placed_bit = SharedVertexKey{1} << 62,
-                          added_bit = SharedVertexKey{1} << 61;
-constexpr int round_shift = 54, piece_shift = 31, zone_shift = 32;
+                          added_bit = SharedVertexKey{1} << 61, layer_bit = SharedVertexKey{1} << 60;
+constexpr int round_shift = 54, piece_shift = 31, zone_shift = 32, node_bits = 20;
 constexpr SharedVertexKey round_mask = 0xff;
 
 constexpr SharedVertexKey wide(std::int64_t value) {
@@ -57,6 +57,10 @@ SharedVertexKey running_key(std::int64_t number) {
 
 SharedVertexKey added_key(std::int32_t zone, std::int64_t index) {
   return added_bit | wide(zone) << zone_shift | wide(index);
+}
+
+SharedVertexKey layer_key(std::int64_t number, std::int32_t node) {
+  return layer_bit | wide(number) << node_bits | wide(node);
 }
 
 SharedVertexKey late_key(int round, PieceId piece, LocalIndex vertex) {

@@ -2,8 +2,9 @@
 ///
 /// A shared-vertex key is known by construction, before any numbering. On a surface, CAD vertices are named
 /// by their number, vertices of curves and cuts by CAD entity and index, so names ascend by vertex, curve,
-/// cut. In a volume, vertices of the surface and points of the lattice are named by running numbers; points
-/// that TetGen added lie above them, and what rounds over several pieces name lies above everything else.
+/// cut. In a volume, vertices of the surface and points of the lattice are named by running numbers; nodes
+/// of boundary layers lie above them, then points that TetGen added, and what rounds over several pieces name
+/// lies above everything else.
 #pragma once
 
 #include "aeroloom/mesh/piece.hpp"
@@ -34,6 +35,9 @@ std::int32_t index_of_vertex_key(SharedVertexKey vertex_key);
 SharedVertexKey running_key(std::int64_t number);
 /// A point that TetGen added to a zone: it fits no other zone.
 SharedVertexKey added_key(std::int32_t zone, std::int64_t index);
+/// Node `node`, below 2^20, of the column of boundary layers over vertex `number`, below 2^40, of the
+/// surface.
+SharedVertexKey layer_key(std::int64_t number, std::int32_t node);
 
 /// Rounds of cavities that shared-vertex keys tell apart on one mesh.
 inline constexpr int most_key_rounds = 255;

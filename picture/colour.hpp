@@ -19,8 +19,9 @@ struct Colour {
 };
 
 inline constexpr Colour white{255, 255, 255};
-inline constexpr Colour ink{28, 32, 38};            ///< outlines
-inline constexpr Colour solid_grey{208, 212, 217};  ///< a body that was cut
+inline constexpr Colour ink{28, 32, 38};             ///< outlines
+inline constexpr Colour solid_grey{208, 212, 217};   ///< a body that was cut
+inline constexpr Colour layer_green{214, 232, 200};  ///< cells of boundary layers
 
 /// `fraction` of b in a, from 0 to 1.
 Colour mix(Colour a, Colour b, double fraction);

@@ -1,9 +1,11 @@
+#include "aeroloom/mesh/piece_faces.hpp"
 #include "aeroloom/mesh/quality.hpp"
 #include "picture/drawing.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace aeroloom::picture {
 namespace {
@@ -65,6 +67,52 @@ void draw_polygon(Canvas& canvas, const Camera& camera, const CutPolygon& polygo
   canvas.draw_triangle({p[0], p[2], p[3]}, style);
 }
 
+/// Where a plane cuts the edges of a pyramid, prism or tetrahedron, one after another around the cell.
+std::vector<ScreenPoint> cut_of_cell(const mesh::Piece& piece, mesh::CellOfPiece cell,
+                                     const std::vector<double>& heights, const Camera& camera) {
+  std::vector<ScreenPoint> corners;
+  ScreenPoint centre;
+  const LocalIndex* v = vertices_of(piece, cell);
+  for (const mesh::CellFace& face : mesh::faces_of(cell.shape)) {
+    for (int k = 0; k < 4 && face[k] >= 0; ++k) {
+      const LocalIndex a = v[face[k]], b = v[face[k == 3 || face[k + 1] < 0 ? 0 : k + 1]];
+      // Each edge twice, once each way.
+      if (!(heights[a] > 0) || heights[b] > 0) continue;
+      corners.push_back(camera.project(crossing(piece.point(a), heights[a], piece.point(b), heights[b])));
+      corners.back().depth = 0;
+      centre.x += corners.back().x, centre.y += corners.back().y;
+    }
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(1, corners.size()));
+  centre.x /= count, centre.y /= count;
+  const auto angle = [&](const ScreenPoint& p) { return std::atan2(p.y - centre.y, p.x - centre.x); };
+  std::sort(corners.begin(), corners.end(),
+            [&](const ScreenPoint& p, const ScreenPoint& q) { return angle(p) < angle(q); });
+  return corners;
+}
+
+/// The cells of boundary layers, in one colour. Lines fade where layers are thin.
+void draw_layers(Canvas& canvas, const Camera& camera, const mesh::Piece& piece,
+                 const std::vector<double>& heights, double edge_opacity) {
+  for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) {
+    const std::vector<ScreenPoint> p = cut_of_cell(piece, mesh::cell_of(piece, c), heights, camera);
+    double area = 0, around = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const ScreenPoint &a = p[i], &b = p[(i + 1) % p.size()];
+      area += 0.5 * (a.x * b.y - b.x * a.y);
+      around += std::hypot(b.x - a.x, b.y - a.y);
+    }
+    constexpr double invisible = 1.5, full = 5;  // pixels, of a layer's height
+    const double height = around > 0 ? 4 * std::abs(area) / around : 0;
+    const double opacity = edge_opacity * std::clamp((height - invisible) / (full - invisible), 0.0, 1.0);
+    TriangleStyle style{layer_green, mix(layer_green, ink, 0.75), 1.0, {}};
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+      style.line_opacity = {i == 1 ? opacity : 0, opacity, i + 2 == p.size() ? opacity : 0};
+      canvas.draw_triangle({p[0], p[i], p[i + 1]}, style);
+    }
+  }
+}
+
 }  // namespace
 
 void draw_cut(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& volume, Plane plane,
@@ -74,6 +122,10 @@ void draw_cut(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh&
     std::vector<double> heights(piece.vertex_count());
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       heights[v] = dot(plane.normal, piece.point(v)) - plane.offset;
+    }
+    if (!piece.layers.empty()) {
+      draw_layers(canvas, camera, piece, heights, edge_opacity);
+      continue;
     }
     for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
       const LocalIndex* v = piece.cell(c);

@@ -30,7 +30,8 @@ struct Plane {
 };
 
 /// Draws the tetrahedra that the plane cuts, exactly where it cuts them, in the colours of their smallest
-/// dihedral angle. What only touches the plane counts if it lies on the positive side of it.
+/// dihedral angle; cells of boundary layers in a colour of their own. What only touches the plane counts if
+/// it lies on the positive side of it.
 void draw_cut(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh& volume, Plane plane,
               double edge_opacity);
 

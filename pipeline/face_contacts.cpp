@@ -1,7 +1,7 @@
 #include "aeroloom/sizing/model_sources.hpp"
 #include "aeroloom/sizing/ray_tree.hpp"
+#include "mesh/triangle_contact.hpp"
 #include "pipeline/check.hpp"
-#include "surface/triangle_contact.hpp"
 
 #include <set>
 #include <utility>
@@ -60,8 +60,8 @@ std::vector<sizing::Triangle> corners_of(const std::vector<Facet>& facets) {
   return corners;
 }
 
-surface::NamedTriangle named(const Facet& facet, std::int64_t index) {
-  surface::NamedTriangle triangle;
+mesh::NamedTriangle named(const Facet& facet, std::int64_t index) {
+  mesh::NamedTriangle triangle;
   for (int k = 0; k < 3; ++k) {
     triangle.points[k] = facet.corners[k];
     triangle.names[k] = {index, static_cast<std::uint64_t>(k)};
@@ -89,7 +89,7 @@ std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t
     for (const std::int32_t other : near) {
       const Facet& b = facets[other];
       if (met.contains({a.face, b.face}) ||
-          !surface::meet_wrongly(named(a, static_cast<std::int64_t>(i)), named(b, other)))
+          !mesh::meet_wrongly(named(a, static_cast<std::int64_t>(i)), named(b, other)))
         continue;
       met.insert({a.face, b.face});
       if (contacts.size() < most)

@@ -3,17 +3,18 @@
 #include "aeroloom/domain/face_patches.hpp"
 #include "aeroloom/domain/load_domain.hpp"
 #include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/io/vtk/vtk_writer.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/parallel/observation/log.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
+#include "pipeline/layer_stage.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
 #include "pipeline/stage_products.hpp"
+#include "pipeline/volume_stages.hpp"
 #include "pipeline/write_outputs.hpp"
 #include "report/pictures.hpp"
 
@@ -27,21 +28,6 @@ namespace aeroloom::pipeline {
 namespace {
 
 using parallel::Communicator;
-using volume::Decomposition;
-
-/// Leaves the triangles at fault in a file and throws the failure with the file's name. Collective.
-[[noreturn]] void point_at_offenders(const Communicator& communicator, const volume::VolumeFailure& failure,
-                                     const std::string& file) {
-  std::string outcome = "the triangles are in " + file;
-  try {
-    parallel::agree(communicator, [&] {
-      if (communicator.is_root()) io::write_triangles(failure.points(), failure.triangles(), file);
-    });
-  } catch (const parallel::CollectiveError& error) {
-    outcome = fmt::format("the triangles cannot be written: {}", error.what());
-  }
-  throw parallel::CollectiveError(failure.kind(), fmt::format("{}; {}", failure.what(), outcome));
-}
 
 /// The stages of one run. What a stage has made is taken from the checkpoint of an earlier run where there is
 /// one, else made and kept; later stages cannot tell which.
@@ -63,7 +49,7 @@ public:
     const report::PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
     mesh::DistributedMesh volume =
         report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
-                                         [&] { return find_or_build_volume(sized, surface); });
+                                         [&] { return find_or_build_volume(sized.model, surface); });
     const mesh::Numbering numbering =
         stage("inspect", report::ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
     volume.patch_types = _record.patch_types;
@@ -258,86 +244,17 @@ private:
 
   // --- volume
 
-  /// Improved, where the case asks for that.
-  mesh::DistributedMesh find_or_build_volume(const domain::SizedDomain& sized,
-                                             const FinishedSurface& surface) {
-    std::optional<io::CheckpointContent> improved, filled;
-    stage("decompose", report::ExitCode::volume, [&] {
-      if (_input.improve.enabled) improved = find(SavedStage::improve, "improve");
-      if (!improved) filled = find(SavedStage::volume, "volume");
+  /// The volume within the surface; where the case asks for layers, behind their front, and they before it.
+  mesh::DistributedMesh find_or_build_volume(const cad::Model& model, FinishedSurface& surface) {
+    VolumeStages stages(_communicator, _input, _record, *_checkpoints);
+    if (!_input.layers.given) return stages.find_or_build(model, {surface, surface.field});
+    const LayeredSurface layered = stage("layers", report::ExitCode::surface, [&] {
+      return build_layers(_communicator, _input, model, surface, _record);
     });
-    if (improved) {
-      stage("volume", report::ExitCode::volume, [] {});
-      _record.resumed.insert(_record.resumed.end() - 1, "volume");
-      return stage("improve", report::ExitCode::volume, [&] {
-        mesh::DistributedMesh volume = adopt(std::move(*improved));
-        log_improve(_record);
-        return volume;
-      });
-    }
-    mesh::DistributedMesh volume =
-        filled ? stage("volume", report::ExitCode::volume, [&] { return adopt(std::move(*filled)); })
-               : build_volume(surface);
-    stage("improve", report::ExitCode::volume, [&] { improve(sized.model, surface, volume); });
+    mesh::DistributedMesh volume = stages.find_or_build(model, {layered.front, layered.field});
+    stage("layers", report::ExitCode::volume,
+          [&] { append_layers(_communicator, _input, surface, layered, volume, _record); });
     return volume;
-  }
-
-  mesh::DistributedMesh build_volume(const FinishedSurface& surface) {
-    Decomposition decomposition =
-        stage("decompose", report::ExitCode::volume, [&] { return decompose(surface); });
-    return stage("volume", report::ExitCode::volume, [&] {
-      mesh::DistributedMesh volume = fill(surface, std::move(decomposition));
-      log_volume(_record);
-      keep_volume(SavedStage::volume, volume);
-      return volume;
-    });
-  }
-
-  mesh::DistributedMesh adopt(io::CheckpointContent content) {
-    VolumeProduct product;
-    parallel::agree(_communicator, [&] { product = unpack_volume(std::move(content)); });
-    _record.decomposition = product.decomposition;
-    _record.volume = std::move(product.volume);
-    _record.improve = product.improve;
-    _record.clock.add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
-    log_decompose(_record);
-    log_volume(_record);
-    return std::move(product.mesh);
-  }
-
-  void keep_volume(SavedStage saved, const mesh::DistributedMesh& volume) {
-    _checkpoints->keep(
-        saved, [&] { return pack_volume(volume, _record.decomposition, _record.volume, _record.improve); });
-  }
-
-  volume::VolumeInput volume_input(const FinishedSurface& surface) {
-    return {surface.mesh, surface.numbering, surface.field, _input.volume,
-            _checkpoints->tasks(SavedStage::volume)};
-  }
-
-  Decomposition decompose(const FinishedSurface& surface) {
-    Decomposition decomposition = volume::decompose(_communicator, volume_input(surface), _record.clock);
-    _record.decomposition = decomposition.report();
-    log_decompose(_record);
-    if (_communicator.is_root()) warn_of_count(_record);
-    return decomposition;
-  }
-
-  mesh::DistributedMesh fill(const FinishedSurface& surface, Decomposition decomposition) {
-    try {
-      return volume::fill_zones(_communicator, volume_input(surface), std::move(decomposition), _record.clock,
-                                _record.volume);
-    } catch (const volume::VolumeFailure& failure) {
-      point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
-    }
-  }
-
-  void improve(const cad::Model& model, const FinishedSurface& surface, mesh::DistributedMesh& volume) {
-    if (!_input.improve.enabled) return;
-    cad::PointLocator locator(model);
-    improve_volume(_communicator, _input, {&locator, &surface.field}, volume, _record,
-                   _checkpoints->tasks(SavedStage::improve));
-    keep_volume(SavedStage::improve, volume);
   }
 
   // --- the finished mesh
@@ -347,7 +264,9 @@ private:
     mesh::Numbering numbering = mesh::number_mesh(_communicator, volume);
     if (_record.improve.changed_triangles > 0)
       adopt_boundary(_communicator, model, volume, numbering, surface, _record);
-    inspect_volume(_communicator, _input, volume, numbering, &surface.mesh, _record);
+    const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
+    inspect_volume(_communicator, _input, volume, numbering, is_of_surface ? &surface.mesh : nullptr,
+                   _record);
     add_cad_volumes(model, _record.regions_filled);
     const parallel::ScopedCpu check(_record.clock, parallel::ScopedCpu::As::check);
     _record.conformity = attribution::measure_conformity(_communicator, volume, surface.field);
@@ -356,7 +275,8 @@ private:
 
   void write(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
              const FinishedSurface& surface) {
-    const SurfaceView view{surface.mesh, surface.numbering};
+    const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
+    const SurfaceView view{surface.mesh, surface.numbering, is_of_surface};
     {
       const parallel::ScopedCpu task(_record.clock, parallel::ScopedCpu::As::task);
       write_outputs(_communicator, volume, numbering, &view, _input.output);
@@ -392,7 +312,10 @@ private:
 }  // namespace
 
 void run_case(const Communicator& communicator, const cases::Case& input, report::RunRecord& record) {
-  CaseRun(communicator, input, record).run();
+  if (!input.layers.given) return CaseRun(communicator, input, record).run();
+  cases::Case kept = input;
+  kept.improve.boundary_may_change = false;  // layers stand before it
+  CaseRun(communicator, kept, record).run();
 }
 
 }  // namespace aeroloom::pipeline

@@ -5,6 +5,7 @@
 #include "pipeline/shown_changes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -120,6 +121,20 @@ void log_needles(const report::RunRecord& record) {
 void log_surface_again(const std::string& reason) {
   log_info(fmt::format("surface: with joined faces and closed trailing edges: {}; again without",
                        cases::with_keys(reason)));
+}
+
+void log_layers(const report::RunRecord& record) {
+  layers::PatchLayers all;
+  for (const layers::PatchLayers& patch : record.layers->report.patches) {
+    all.area += patch.area, all.full_area += patch.full_area, all.empty_area += patch.empty_area;
+    all.prisms += patch.prisms, all.pyramids += patch.pyramids, all.tetrahedra += patch.tetrahedra;
+  }
+  const double area = std::max(all.area, std::numeric_limits<double>::min());
+  log_info(fmt::format(
+      "layers: {} prisms, {} pyramids and {} tetrahedra; {:.1f} % of the walls have all layers "
+      "asked "
+      "for, {:.1f} % none",
+      all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area));
 }
 
 void log_decompose(const report::RunRecord& record) {

@@ -21,6 +21,7 @@ void log_surface(const report::RunRecord& record);
 void log_needles(const report::RunRecord& record);
 /// Joined faces could not be meshed: it is done again without.
 void log_surface_again(const std::string& reason);
+void log_layers(const report::RunRecord& record);
 void log_decompose(const report::RunRecord& record);
 /// Where more tetrahedra are to be made than sizes have led to expect.
 void warn_of_count(const report::RunRecord& record);

@@ -71,9 +71,18 @@ void write_volume(const parallel::Communicator& communicator, const io::FileMesh
   }
 }
 
-/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions.
+/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions. Both
+/// are of the volume where that has another boundary.
 void write_surfaces(const parallel::Communicator& communicator, const SurfaceView& surface,
-                    const std::string& folder, io::Compression compression) {
+                    const io::FileMesh& volume, const std::string& folder, io::Compression compression) {
+  if (!surface.is_boundary) {
+    io::write_surface(communicator, volume, folder, "surface", compression);
+    if (surface.mesh.has_inner_faces()) {
+      io::write_surface(communicator, volume, folder, "interfaces", compression,
+                        io::SurfaceFaces::between_regions);
+    }
+    return;
+  }
   if (!surface.mesh.has_inner_faces()) {
     io::write_surface(communicator, surface.mesh, surface.numbering, folder, "surface", compression);
     return;
@@ -100,7 +109,7 @@ void write_outputs(const parallel::Communicator& communicator, const mesh::Distr
         write_volume(communicator, mesh, format, output, path_of(staged, format));
     }
     if (surface != nullptr && wants_vtk(output))
-      write_surfaces(communicator, *surface, staging, output.compression);
+      write_surfaces(communicator, *surface, mesh, staging, output.compression);
     // Last, for what may fail has not: its folder is its user's, too.
     if (wants(output, io::FileFormat::openfoam)) {
       write_volume(communicator, mesh, io::FileFormat::openfoam, output,

@@ -17,6 +17,7 @@ namespace aeroloom::pipeline {
 struct SurfaceView {
   const mesh::DistributedMesh& mesh;
   const mesh::Numbering& numbering;
+  bool is_boundary = true;  ///< of the volume
 };
 
 /// Writes the volume as `mesh` with its extension to the output directory, in all formats of the case one

@@ -9,8 +9,11 @@
 namespace aeroloom::report {
 Json mesh_json(const RunRecord& record) {
   return {{"points", record.counts.vertices},
-          {"tetrahedra", record.counts.cells},
+          {"tetrahedra", record.counts.cells - record.counts.prisms - record.counts.pyramids},
+          {"prisms", record.counts.prisms},
+          {"pyramids", record.counts.pyramids},
           {"boundary_triangles", record.counts.boundary_triangles},
+          {"boundary_quadrilaterals", record.counts.boundary_quads},
           {"volume", record.mesh_volume},
           {"hash", record.hash}};
 }

@@ -16,6 +16,8 @@ using Json = nlohmann::ordered_json;
 Json geometry_json(const RunRecord& record);
 Json sizing_json(const RunRecord& record);
 Json surface_json(const RunRecord& record);
+/// Null where the case asks for no layers.
+Json layers_json(const RunRecord& record);
 Json volume_json(const RunRecord& record);
 Json mesh_json(const RunRecord& record);
 /// Needs `record.quality`; `quality.gate` has the limits of the case.

@@ -90,13 +90,18 @@ Subject find_subject(const Communicator& communicator, const PictureSource& sour
   return subject;
 }
 
-/// The legend of cuts.
-std::vector<LegendItem> angle_legend() {
+/// Collective.
+std::vector<LegendItem> legend_of_cuts(const Communicator& communicator,
+                                       const mesh::DistributedMesh& volume) {
   std::vector<LegendItem> legend;
   legend.reserve(picture::angle_classes.size());
   for (const picture::AngleClass& each : picture::angle_classes) {
     legend.push_back({fmt::format("smallest dihedral angle {}", each.name), html_name(each.colour)});
   }
+  const bool layered = std::any_of(volume.pieces.begin(), volume.pieces.end(),
+                                   [](const mesh::Piece& piece) { return !piece.layers.empty(); });
+  if (communicator.maximum(std::int64_t{layered}) > 0)
+    legend.push_back({"boundary layers", html_name(picture::layer_green)});
   return legend;
 }
 
@@ -308,7 +313,7 @@ Picture painted_cut(const Subject& subject, const mesh::DistributedMesh& volume,
        .caption = std::move(caption),
        .width = camera.window.width,
        .height = camera.window.height,
-       .legend = angle_legend()},
+       .legend = legend_of_cuts(subject.communicator, volume)},
       [&](Canvas& canvas) {
         draw_cut(canvas, camera, volume, plane, 0.8);
         draw_section(canvas, camera, subject.source.surface, subject.scene, plane, 2);

@@ -93,6 +93,7 @@ std::string report_json(const cases::Case& input, const RunRecord& record, const
     json["geometry"] = geometry_json(record);
     json["sizing"] = sizing_json(record);
     json["surface"] = surface_json(record);
+    if (record.layers) json["layers"] = layers_json(record);
     json["volume"] = volume_json(record);
   }
   add_finished_mesh(json, input, record, facts);

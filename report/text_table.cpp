@@ -18,11 +18,15 @@ std::string report_table(const RunRecord& record, const std::vector<parallel::St
   }
   text += fmt::format("{:<10} {:>9.2f}  on {} rank(s)\n", "total", record.wall_seconds, ranks);
   if (!record.quality) return text;
+  const mesh::GlobalIndex layered = record.counts.prisms + record.counts.pyramids;
   text += fmt::format(
-      "mesh: {} tetrahedra, {} points, {} boundary triangles, volume {:.10g}\n"
+      "mesh: {} tetrahedra, {}{} points, {} boundary triangles, volume {:.10g}\n"
       "quality: dihedral angles {:.2f} to {:.2f} degrees, mean ratio {:.3f} at least, {:.3f} on average\n"
       "hash: {}\n",
-      record.counts.cells, record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
+      record.counts.cells - layered,
+      layered > 0 ? fmt::format("{} prisms, {} pyramids, ", record.counts.prisms, record.counts.pyramids)
+                  : "",
+      record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
       record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
       record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
   text +=

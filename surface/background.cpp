@@ -233,7 +233,7 @@ std::optional<Background> mesh_background(const Model& model, const Subface& sub
                                .least_fraction = std::min(1.0, fine_edges / factor),
                                .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
-    background.mesh = mesh_support(model, coarse, std::move(thin.support), std::move(thin.vertices), meshing);
+    background.mesh = mesh_support(model, coarse, thin.support, std::move(thin.vertices), meshing);
   } catch (const FaceConflict&) {
     return std::nullopt;
   } catch (const SurfaceError&) {  // no chart under these sizes

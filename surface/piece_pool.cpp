@@ -19,18 +19,11 @@ using cad::FaceId;
 using parallel::ScopedCpu;
 using sizing::SizeField;
 
-/// The cost of a piece besides its triangles, in triangles. No result depends on it. Chosen, not measured.
-constexpr double piece_overhead = 150;
 /// The cost of a whole face besides the vertices of its curves, in vertices, before any was looked at.
 /// Chosen, not measured; no result depends on it.
 constexpr double load_of_face = 50;
 /// Rounds may come to so many triangles, however few the first one has. Chosen, not measured.
 constexpr double few_triangles = 20'000;
-
-/// The expected cost of meshing a piece, in triangles.
-double load_of_piece(double triangles, double facets) {
-  return triangles + piece_overhead + facets;
-}
 
 std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
   std::vector<double> sizes(piece.vertex_count());
@@ -47,8 +40,8 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Mode
       _options(options),
       _clock(clock),
       _tasks(tasks),
-      _parts(model.face_count(), 0),
-      _whole(model.face_count(), 0) {}
+      _dealer(communicator, model, options, clock),
+      _parts(model.face_count(), 0) {}
 
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
@@ -115,8 +108,8 @@ double PiecePool::seconds_per_triangle() const {
 
 /// The faces as subfaces, spread over the ranks. What one takes, most of it in the CAD library, cannot be
 /// told before: it is measured, and who has had more gets fewer pieces.
-PiecePool::Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const CurveMesh& curves,
-                                                   const SizeField& field) {
+Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const CurveMesh& curves,
+                                        const SizeField& field) {
   Subfaces subfaces;
   _costs.clear();
   const double of_triangle = seconds_per_triangle();
@@ -130,7 +123,7 @@ PiecePool::Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& fa
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
       const double begin = parallel::cpu_seconds();
-      const Key key{faces[task], 0, 0};
+      const SubfaceKey key{faces[task], 0, 0};
       subfaces.emplace(key, subface_of_face(_model, faces[task], curves, field, _options));
       const double seconds = parallel::cpu_seconds() - begin;
       _costs[key] = seconds / of_triangle;
@@ -144,103 +137,9 @@ PiecePool::Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& fa
   return subfaces;
 }
 
-/// One row per subface, on every rank, by key.
-std::vector<PiecePool::SubfaceRow> PiecePool::tabulate(const Subfaces& subfaces) const {
-  std::vector<SubfaceRow> rows;
-  for (const auto& [key, subface] : subfaces) {
-    const auto cost = _costs.find(key);
-    rows.push_back({key, subface.load, static_cast<double>(subface.support.triangles.size()),
-                    cost == _costs.end() ? 0 : cost->second, _communicator.rank()});
-  }
-  rows = _communicator.all_gather_items<SubfaceRow>(rows);
-  std::sort(rows.begin(), rows.end(), [](const SubfaceRow& a, const SubfaceRow& b) { return a.key < b.key; });
-  return rows;
-}
-
-/// Sends subfaces to their owners, by row.
-PiecePool::Subfaces PiecePool::send_to_owners(Subfaces subfaces, const std::vector<SubfaceRow>& rows,
-                                              const std::vector<parallel::Rank>& owners) const {
-  Subfaces here;
-  std::map<parallel::Rank, parallel::Packer> leaving;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto at = subfaces.find(rows[i].key);
-    if (at == subfaces.end()) continue;
-    if (owners[i] == _communicator.rank()) {
-      here.emplace(rows[i].key, std::move(at->second));
-      continue;
-    }
-    parallel::pack(leaving[owners[i]], *at);
-  }
-  std::vector<parallel::Parcel> parcels;
-  parcels.reserve(leaving.size());
-  for (auto& [rank, packer] : leaving) parcels.push_back({rank, packer.take()});
-  for (const parallel::Parcel& parcel : _communicator.exchange(std::move(parcels))) {
-    parallel::Unpacker unpacker(parcel.content);
-    while (!unpacker.at_end()) here.insert(parallel::unpack<std::pair<Key, Subface>>(unpacker));
-  }
-  return here;
-}
-
-bool PiecePool::is_to_divide(const SubfaceRow& row, int level) const {
-  if (_whole[row.key[0]]) return false;
-  return _options.divider ? level == 1 : is_heavy(row.load, _options);
-}
-
 void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
-  for (const FaceId face : faces) {
-    _whole[face] = 1;
-    _parts[face] = 0;
-  }
-}
-
-/// Schedules the subfaces and divides those that are too heavy; the parts stay where they were made.
-PiecePool::Subfaces PiecePool::divide_heavy(Subfaces subfaces, const std::vector<SubfaceRow>& rows, int level,
-                                            CoarseSizes& sizes) {
-  if (std::none_of(rows.begin(), rows.end(),
-                   [&](const SubfaceRow& row) { return is_to_divide(row, level); })) {
-    return subfaces;
-  }
-  const auto group_of = [&](const Key& key) { return level == 1 ? 0 : key[1] + 1; };
-  std::vector<double> loads;
-  loads.reserve(rows.size());
-  for (const SubfaceRow& row : rows) {
-    const bool divided = is_to_divide(row, level);
-    loads.push_back(divided ? division_cost(row.load, row.facets, group_of(row.key), _options) : 0);
-  }
-  auto owners = parallel::assign_largest_first(loads, _burdens);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    _burdens[owners[i]] += loads[i];
-    // A subface that is not divided stays with whoever has it: nothing travels in vain.
-    if (!is_to_divide(rows[i], level)) owners[i] = rows[i].at;
-  }
-  subfaces = send_to_owners(std::move(subfaces), rows, owners);
-  Subfaces divided;
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
-    for (auto& [key, subface] : subfaces) {
-      if (!is_to_divide({key, subface.load, 0, 0, 0}, level)) {
-        divided.emplace(key, std::move(subface));
-        continue;
-      }
-      const double begin = parallel::cpu_seconds();
-      const double load = division_cost(subface.load, static_cast<double>(subface.support.triangles.size()),
-                                        group_of(key), _options);
-      SubfaceParts pieces = divide_subface(_model, std::move(subface), group_of(key), sizes, _options);
-      for (std::size_t i = 0; i < pieces.subfaces.size(); ++i) {
-        Key part = key;
-        part[level] = static_cast<std::int32_t>(i);
-        divided.emplace(part, std::move(pieces.subfaces[i]));
-      }
-      _clock.note_task({.kind = level == 1 ? "divided face" : "divided part",
-                        .number = key[0],
-                        .predicted = load,
-                        .cpu_seconds = parallel::cpu_seconds() - begin,
-                        .burden = load});
-      std::vector<CutAngle>& angles = _angles[key];  // its first part has the key of the face
-      angles.insert(angles.end(), pieces.angles.begin(), pieces.angles.end());
-    }
-  });
-  return divided;
+  _dealer.leave_whole(faces);
+  for (const FaceId face : faces) _parts[face] = 0;
 }
 
 double PiecePool::predict(const Subfaces& subfaces, const SizeField& field) const {
@@ -255,17 +154,6 @@ double PiecePool::predict(const Subfaces& subfaces, const SizeField& field) cons
 
 double PiecePool::most_triangles() const {
   return std::max(few_triangles, _options.most_growth * _first);
-}
-
-/// From the subfaces of faces to those of pieces.
-PiecePool::Subfaces PiecePool::divide(Subfaces subfaces, const SizeField& field) {
-  CoarseSizes sizes(field);
-  for (const int level : {1, 2}) {
-    const std::vector<SubfaceRow> rows = tabulate(subfaces);
-    for (const SubfaceRow& row : rows) _burdens[row.at] += level == 1 ? row.cost : 0;
-    subfaces = divide_heavy(std::move(subfaces), rows, level, sizes);
-  }
-  return subfaces;
 }
 
 /// Depends on the subface and the field; model and options are the context of the store.
@@ -284,11 +172,11 @@ mesh::Piece PiecePool::mesh_or_find(const Subface& subface, const SizeField& fie
   return piece;
 }
 
-void PiecePool::mesh_subfaces(const Subfaces& subfaces, const std::map<Key, std::int32_t>& places,
-                              const CurveMesh& curves, const SizeField& field, Conflicts& conflicts) {
+void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curves, const SizeField& field,
+                              Conflicts& conflicts) {
   const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
-  parallel::Progress progress("surface", static_cast<std::int64_t>(subfaces.size()), "triangles");
-  for (const auto& [key, subface] : subfaces) {
+  parallel::Progress progress("surface", static_cast<std::int64_t>(dealt.subfaces.size()), "triangles");
+  for (const auto& [key, subface] : dealt.subfaces) {
     const ScopedCpu cpu(_clock, ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
     try {
@@ -296,7 +184,7 @@ void PiecePool::mesh_subfaces(const Subfaces& subfaces, const std::map<Key, std:
                     {},
                     edge_vertices(curves, key[0]),
                     subface.load,
-                    places.at(key)};
+                    dealt.places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       _clock.note_task({"surface piece", key[0],
                         load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
@@ -334,18 +222,11 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   if (!_started) _first = conflicts.predicted;
   _started = true;
   if (conflicts.predicted > most_triangles()) return conflicts;
-  _burdens.assign(static_cast<std::size_t>(_communicator.size()), 0);
-  subfaces = divide(std::move(subfaces), field);
-  const std::vector<SubfaceRow> rows = tabulate(subfaces);
+  DealtSubfaces dealt = _dealer.deal(std::move(subfaces), _costs, field);
   for (const FaceId face : faces) _parts[face] = 0;
-  std::vector<double> loads;
-  std::map<Key, std::int32_t> places;
-  for (const SubfaceRow& row : rows) {
-    places[row.key] = _parts[row.key[0]]++;
-    loads.push_back(load_of_piece(row.load, row.facets));
-  }
-  subfaces = send_to_owners(std::move(subfaces), rows, parallel::assign_largest_first(loads, _burdens));
-  parallel::agree(_communicator, [&] { mesh_subfaces(subfaces, places, curves, field, conflicts); });
+  for (const auto& [key, place] : dealt.places) ++_parts[key[0]];
+  _angles.merge(dealt.angles);
+  parallel::agree(_communicator, [&] { mesh_subfaces(dealt, curves, field, conflicts); });
   return conflicts;
 }
 

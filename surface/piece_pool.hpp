@@ -6,14 +6,11 @@
 #include "aeroloom/parallel/storage/task_store.hpp"
 #include "aeroloom/surface/surface_report.hpp"
 #include "surface/curves.hpp"
-#include "surface/face_division.hpp"
 #include "surface/imposed_cuts.hpp"
+#include "surface/subface_dealer.hpp"
 
-#include <array>
 #include <map>
-#include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -52,10 +49,6 @@ public:
   std::int64_t divided_faces() const;
 
 private:
-  /// A piece is named by its face, its place among the parts that the face was cut into, and its place among
-  /// those that such a part was cut into.
-  using Key = std::array<std::int32_t, 3>;
-  using Subfaces = std::map<Key, Subface>;
   struct Meshed {
     mesh::Piece piece;
     std::vector<double> vertex_sizes;         // to see whether it has to be made again
@@ -63,54 +56,34 @@ private:
     double load;
     std::int32_t place;  // among the pieces of its face
   };
-  struct SubfaceRow {
-    Key key;
-    double load;    // predicted triangles
-    double facets;  // of the support
-    double cost;    // of making it, in triangles to mesh
-    parallel::Rank at;
-
-    static constexpr auto fields() {
-      return std::tuple(&SubfaceRow::key, &SubfaceRow::load, &SubfaceRow::facets, &SubfaceRow::cost,
-                        &SubfaceRow::at);
-    }
-  };
-
   bool is_unchanged(const CurveMesh& curves, const sizing::SizeField& field, cad::FaceId face,
                     const Meshed& meshed) const;
   std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, cad::FaceId face) const;
   std::vector<cad::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
   /// Triangles of the whole surface: of faces that are kept, and of these subfaces.
   double predict(const Subfaces& subfaces, const sizing::SizeField& field) const;
-  Subfaces divide(Subfaces subfaces, const sizing::SizeField& field);
   /// Seconds to mesh a triangle on this machine, from what curves took. Collective.
   double seconds_per_triangle() const;
   Subfaces make_whole_subfaces(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
                                const sizing::SizeField& field);
-  Subfaces divide_heavy(Subfaces subfaces, const std::vector<SubfaceRow>& rows, int level,
-                        CoarseSizes& sizes);
-  bool is_to_divide(const SubfaceRow& row, int level) const;
-  std::vector<SubfaceRow> tabulate(const Subfaces& subfaces) const;
-  Subfaces send_to_owners(Subfaces subfaces, const std::vector<SubfaceRow>& rows,
-                          const std::vector<parallel::Rank>& owners) const;
   mesh::Piece mesh_or_find(const Subface& subface, const sizing::SizeField& field,
                            const parallel::Digest& of_field) const;
-  void mesh_subfaces(const Subfaces& subfaces, const std::map<Key, std::int32_t>& places,
-                     const CurveMesh& curves, const sizing::SizeField& field, Conflicts& conflicts);
+  void mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curves, const sizing::SizeField& field,
+                     Conflicts& conflicts);
 
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
   parallel::StageClock& _clock;
   parallel::TaskStore* _tasks;  // may be null
+  SubfaceDealer _dealer;
   bool _started = false;
   double _first = 0;                 // triangles predicted in the first round
   std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
-  std::vector<char> _whole;          // per face: 1 where it must not be divided
-  std::vector<double> _burdens;      // per rank: what it has done in this round, in triangles to mesh, about
-  std::map<Key, double> _costs;      // of the subfaces of faces made here in this round, in triangles to mesh
-  std::map<Key, Meshed> _meshed;     // on this rank
-  std::map<Key, std::vector<CutAngle>> _angles;  // of what was divided on this rank
+  std::map<SubfaceKey, double>
+      _costs;  // of the subfaces of faces made here in this round, in triangles to mesh
+  std::map<SubfaceKey, Meshed> _meshed;                 // on this rank
+  std::map<SubfaceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };
 
 }  // namespace aeroloom::surface

@@ -88,8 +88,13 @@ ChartBoundary boundary_of(const Chart& chart) {
 FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front::FrontError& error,
                          const ChartBoundary& boundary, const FaceVertices& vertices) {
   std::vector<sizing::SizeSource> remedy;
+  std::vector<mesh::SharedVertexKey> named;
   for (const front::CrossingEdges& crossing : error.crossings()) {
     for (const std::int32_t e : {crossing.first, crossing.second}) {
+      for (const std::int32_t end : boundary.input.edges[e]) {
+        const std::int32_t v = boundary.face_vertex[end];
+        if (v < vertices.border_count()) named.push_back(vertices.vertex_keys[v]);
+      }
       const Vec3 a = vertices.points[boundary.face_vertex[boundary.input.edges[e][0]]];
       const Vec3 b = vertices.points[boundary.face_vertex[boundary.input.edges[e][1]]];
       if (distance(a, b) > 0) remedy.push_back({0.5 * (a + b), 0.5 * distance(a, b)});
@@ -101,7 +106,7 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front:
                                    remedy[0].point.y, remedy[0].point.z, 2 * remedy[0].size);
   return {fmt::format("face '{}' (patch '{}'): its boundary curves cross or touch{}: {}",
                       model.face(face).name, model.patches()[model.face(face).patch], where, error.what()),
-          std::move(remedy)};
+          std::move(remedy), std::move(named)};
 }
 
 /// Per point of the chart's support, the length over which the surface turns by an angle; infinite where it
@@ -184,13 +189,13 @@ void fill_chart(const cad::Model& model, const sizing::SizeField& field, const C
 
 }  // namespace
 
-FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, Support support,
+FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, const Support& support,
                       FaceVertices vertices, const SupportMeshing& options) {
   FaceMesh mesh;
   mesh.face = support.face;
   mesh.fixed = vertices.border_count();
   const std::vector<Chart> charts =
-      make_charts(model, field, std::move(support), {.spread = options.chart_spread}, vertices);
+      make_charts(model, field, support, {.spread = options.chart_spread}, vertices);
   mesh.points = vertices.points;
   mesh.uv = vertices.uv;
   for (const Chart& chart : charts) fill_chart(model, field, chart, vertices, options, mesh);

@@ -12,15 +12,18 @@
 namespace aeroloom::surface {
 
 /// The loops of a piece cross each other under the present sizes. Carries where sizes have to fall, and to
-/// what.
+/// what, and the vertices with names at the ends of edges that cross.
 class FaceConflict : public std::runtime_error {
 public:
-  FaceConflict(const std::string& what, std::vector<sizing::SizeSource> remedy)
-      : std::runtime_error(what), _remedy(std::move(remedy)) {}
+  FaceConflict(const std::string& what, std::vector<sizing::SizeSource> remedy,
+               std::vector<mesh::SharedVertexKey> vertices = {})
+      : std::runtime_error(what), _remedy(std::move(remedy)), _vertices(std::move(vertices)) {}
   const std::vector<sizing::SizeSource>& remedy() const { return _remedy; }
+  const std::vector<mesh::SharedVertexKey>& vertices() const { return _vertices; }
 
 private:
   std::vector<sizing::SizeSource> _remedy;
+  std::vector<mesh::SharedVertexKey> _vertices;
 };
 
 struct SupportMeshing {
@@ -32,7 +35,7 @@ struct SupportMeshing {
 
 /// Charts, front, and the smoothing that leaves no trace of the charts. Of `vertices` those on borders come
 /// first in the result and keep their numbers. Not collective. Throws FaceConflict or SurfaceError.
-FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, Support support,
+FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, const Support& support,
                       FaceVertices vertices, const SupportMeshing& options);
 
 }  // namespace aeroloom::surface

@@ -3,11 +3,11 @@
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "aeroloom/parallel/observation/log.hpp"
 #include "aeroloom/surface/surface_error.hpp"
+#include "mesh/intersection.hpp"
 #include "sizing/closed_corners.hpp"
 #include "surface/curves.hpp"
 #include "surface/cusp_tips.hpp"
 #include "surface/imposed_cuts.hpp"
-#include "surface/intersection.hpp"
 #include "surface/needle_remedies.hpp"
 #include "surface/piece_pool.hpp"
 
@@ -51,10 +51,10 @@ struct CrossedTriangle {
 };
 
 /// Each once, by faces and sides.
-std::vector<CrossedTriangle> list_crossed(const std::vector<TriangleHit>& hits,
+std::vector<CrossedTriangle> list_crossed(const std::vector<mesh::TriangleHit>& hits,
                                           const std::vector<cad::FaceId>& faces) {
   std::vector<CrossedTriangle> crossed;
-  for (const TriangleHit& hit : hits) {
+  for (const mesh::TriangleHit& hit : hits) {
     const cad::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
     const std::array<cad::FaceId, 2> both{std::min(first, second), std::max(first, second)};
     const std::int32_t side = first <= second ? 0 : 1;
@@ -71,8 +71,8 @@ std::vector<CrossedTriangle> list_crossed(const std::vector<TriangleHit>& hits,
 }
 
 /// The two faces that intersect over the largest area: that of the triangles of one of them, the smaller one.
-std::string complain(const cad::Model& model, const SizeField& field, const std::vector<TriangleHit>& hits,
-                     const std::vector<cad::FaceId>& faces) {
+std::string complain(const cad::Model& model, const SizeField& field,
+                     const std::vector<mesh::TriangleHit>& hits, const std::vector<cad::FaceId>& faces) {
   const std::vector<CrossedTriangle> crossed = list_crossed(hits, faces);
   const CrossedTriangle* worst = nullptr;
   double worst_area = -1;
@@ -98,10 +98,10 @@ Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::
                          const SizeField& field, const mesh::DistributedMesh& surface, const PiecePool& pool,
                          parallel::StageClock& clock) {
   Conflicts conflicts;
-  const std::vector<TriangleHit> hits = find_intersections(communicator, surface, clock);
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(communicator, surface, clock);
   if (hits.empty()) return conflicts;
   const std::vector<cad::FaceId> faces = faces_of_pieces(communicator, surface);
-  for (const TriangleHit& hit : hits) {
+  for (const mesh::TriangleHit& hit : hits) {
     const cad::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
     if (first == second && pool.is_divided(first)) {
       conflicts.undivided.push_back(first);

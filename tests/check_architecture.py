@@ -12,7 +12,7 @@ import tempfile
 # What each stage may include, besides itself.
 STAGE = {"geometry", "cad", "forest", "front", "parallel", "mesh", "cavities", "sizing", "partition"}
 # What what is made of stages may include.
-STAGES = STAGE | {"attribution", "surface", "volume", "improve", "io"}
+STAGES = STAGE | {"attribution", "surface", "layers", "volume", "improve", "io"}
 # What each folder may include, besides itself.
 ALLOWED = {
     "parallel": set(),
@@ -26,6 +26,7 @@ ALLOWED = {
     "partition": {"geometry", "parallel", "mesh"},
     "attribution": {"geometry", "parallel", "mesh", "sizing"},
     "surface": STAGE,
+    "layers": {"geometry", "parallel", "mesh"},
     "volume": STAGE,
     "improve": STAGE,
     "io": {"geometry", "parallel", "mesh"},

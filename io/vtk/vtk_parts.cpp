@@ -129,10 +129,12 @@ struct PieceArrays {
   std::array<Items, cell_shape_count> cells;
   std::array<Items, face_shape_count> faces;
   Array<std::int32_t> triangle_face, triangle_patch;
+  Array<std::int16_t> layers;
 
   static constexpr auto fields() {
     return std::tuple(&PieceArrays::id, &PieceArrays::coordinates, &PieceArrays::numbers, &PieceArrays::cells,
-                      &PieceArrays::faces, &PieceArrays::triangle_face, &PieceArrays::triangle_patch);
+                      &PieceArrays::faces, &PieceArrays::triangle_face, &PieceArrays::triangle_patch,
+                      &PieceArrays::layers);
   }
 };
 
@@ -152,6 +154,7 @@ PieceArrays<View> arrays_of(const PartPiece& piece) {
   std::transform(piece.part.faces.begin(), piece.part.faces.end(), arrays.faces.begin(), items_of);
   arrays.triangle_face = piece.triangle_face;
   arrays.triangle_patch = piece.triangle_patch;
+  arrays.layers = piece.part.layers;
   return arrays;
 }
 
@@ -177,6 +180,7 @@ PartPiece view(const BroughtPiece& brought) {
   }
   piece.triangle_face = brought.triangle_face;
   piece.triangle_patch = brought.triangle_patch;
+  piece.part.layers = brought.layers;
   return piece;
 }
 

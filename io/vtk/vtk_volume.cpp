@@ -16,6 +16,7 @@
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkShortArray.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
@@ -32,6 +33,7 @@ struct CellArrays {
   std::vector<std::uint8_t> types;
   std::vector<std::int32_t> piece, region;
   std::vector<float> mean_ratio, min_dihedral;
+  std::vector<std::int16_t> layer;  // 0 off the layers
 
   void reserve(std::size_t count) {
     types.reserve(count), piece.reserve(count), region.reserve(count);
@@ -66,6 +68,8 @@ void append_cells(const FilePart& part, const std::vector<PointIndex>& places, C
     }
   }
   arrays.piece.resize(arrays.region.size(), part.id);
+  arrays.layer.insert(arrays.layer.end(), part.layers.begin(), part.layers.end());
+  arrays.layer.resize(arrays.region.size(), 0);
 }
 
 /// The boundary faces of a part by the numbers of their vertices.
@@ -114,6 +118,7 @@ void write_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, cons
   grid->GetCellData()->AddArray(make_array<vtkIntArray>("region", arrays.region));
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("mean_ratio", arrays.mean_ratio));
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("min_dihedral", arrays.min_dihedral));
+  if (mesh.has_layers) grid->GetCellData()->AddArray(make_array<vtkShortArray>("layer", arrays.layer));
   add_fields(*grid, pieces, mesh);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   write_vtk_file(*writer, *grid, path, compression);
@@ -130,8 +135,9 @@ void write_volume(const parallel::Communicator& communicator, const FileMesh& me
                     write_part(pieces, mesh, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
-  constexpr IndexArray cell_arrays[] = {
+  std::vector<IndexArray> cell_arrays = {
       {"Int32", "piece"}, {"Int32", "region"}, {"Float32", "mean_ratio"}, {"Float32", "min_dihedral"}};
+  if (mesh.has_layers) cell_arrays.push_back({"Int16", "layer"});
   write_index(communicator, files.index_path(),
               index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
 }

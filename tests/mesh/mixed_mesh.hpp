@@ -32,19 +32,19 @@ struct WholeFace {
 };
 
 /// Columns of squares: those of the slabs, then the cubes.
-struct Columns {
+struct SquareColumns {
   int first = 0, last = 0;
 };
 
 /// All of the mesh, or some columns of it, before it is cut into pieces.
 class MixedMesh {
 public:
-  MixedMesh(int squares, int pieces) : MixedMesh(squares, Columns{0, squares + 1}) {
+  MixedMesh(int squares, int pieces) : MixedMesh(squares, SquareColumns{0, squares + 1}) {
     for (WholeCell& cell : cells) cell.piece = cell.piece * pieces / (squares + 1);
     add_faces();
   }
   /// Without faces; the piece of a cell is its column.
-  MixedMesh(int squares, Columns columns) : _n(squares) {
+  MixedMesh(int squares, SquareColumns columns) : _n(squares) {
     add_slabs(columns);
     if (columns.last > squares) add_cubes();
   }
@@ -86,7 +86,7 @@ private:
     cells.push_back({shape, std::move(corners), region, column});
   }
 
-  void add_slabs(Columns columns) {
+  void add_slabs(SquareColumns columns) {
     for (int i = columns.first; i < std::min(columns.last, _n); ++i) {
       for (int j = 0; j < _n; ++j) {
         for (const bool upper : {false, true}) {

@@ -39,7 +39,9 @@ TEST(SharedVertexKeys, CutsBeyondWhatCanBeNamedAreRefused) {
 
 TEST(SharedVertexKeys, OfVolumesNeverMeet) {
   const std::int64_t many = std::int64_t{1} << 40;
-  EXPECT_LT(running_key(many), added_key(0, 0));
+  EXPECT_LT(running_key(many), layer_key(0, 0));
+  EXPECT_LT(layer_key(3, (1 << 20) - 1), layer_key(4, 0));
+  EXPECT_LT(layer_key(many - 1, (1 << 20) - 1), added_key(0, 0));
   EXPECT_LT(added_key(3, 5), added_key(4, 0));
   EXPECT_LT(added_key((1 << 28), 5), late_key(0, 0, 0));
   EXPECT_LT(late_key(0, 3, 9), late_key(0, 4, 0));

@@ -61,6 +61,29 @@ TEST(Drawing, ACutCoversTheSectionOfTheMesh) {
   EXPECT_EQ(covered(beyond), 0) << "what touches from below does not count";
 }
 
+/// A prism over the unit triangle as two layers, the upper one a pyramid and a tetrahedron.
+TEST(Drawing, ACutOfLayersHasTheirColour) {
+  mesh::DistributedMesh volume;
+  volume.piece_count = 1;
+  mesh::Piece& piece = volume.pieces.emplace_back();
+  for (const double z : {0.0, 0.5, 1.0}) {
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}})
+      piece.coordinates.insert(piece.coordinates.end(), {x, y, z});
+  }
+  piece.cells = {3, 4, 5, 6};
+  piece.pyramids = {4, 5, 8, 7, 6};
+  piece.prisms = {0, 1, 2, 3, 4, 5};
+  piece.layers = {2, 2, 1};
+  const Viewpoint view = look_from({0, 0, 1}, {0, 1, 0});
+  for (const double height : {0.25, 0.75}) {
+    Canvas canvas(window.width, window.height);
+    draw_cut(canvas, close_up(view, {0.5, 0.5, 0}, 3, window), volume, {{0, 0, 1}, height}, 0);
+    const Image image = composite(Communicator::self(), std::move(canvas), white);
+    EXPECT_NEAR(static_cast<double>(covered(image)), 0.5 * 20 * 20, 25) << height;
+    EXPECT_EQ(std::count(image.pixels.begin(), image.pixels.end(), layer_green) > 150, true) << height;
+  }
+}
+
 TEST(Drawing, CutsHaveTheColoursOfTheirAngles) {
   const Image image = drawn_cut(Communicator::world(), 0.37);
   if (!Communicator::world().is_root()) return;

@@ -4,6 +4,7 @@
 #include "aeroloom/cad/domain/domain.hpp"
 #include "aeroloom/case/case_error.hpp"
 #include "aeroloom/case/face_groups.hpp"
+#include "aeroloom/case/layer_rules.hpp"
 #include "aeroloom/case/patch_rules.hpp"
 #include "aeroloom/case/quality_gate.hpp"
 #include "aeroloom/case/source_rules.hpp"
@@ -79,6 +80,7 @@ struct Case {
   NarrowFaces narrow_faces = NarrowFaces::join;
   SizingRequest sizing;
   surface::SurfaceOptions surface;
+  LayerRequest layers;
   volume::VolumeOptions volume;
   improve::ImproveOptions improve;
   QualityGate gate;

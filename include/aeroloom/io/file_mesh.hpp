@@ -74,6 +74,8 @@ struct FilePart {
   std::array<Block, cell_shape_count> cells;
   std::array<Block, face_shape_count> faces;
 
+  std::span<const std::int16_t> layers;  ///< of the cells (mesh::Piece::layers), or empty
+
   const mesh::Piece* piece = nullptr;  ///< what the part looks into; none of what came from another rank
 
   mesh::LocalIndex vertex_count() const { return static_cast<mesh::LocalIndex>(numbers.size()); }
@@ -96,6 +98,7 @@ struct FileMesh {
   mesh::GlobalIndex vertex_count = 0;  ///< of the whole mesh, as all below; the same on every rank
   std::vector<mesh::Patch> patches;    ///< patches between regions are `interior`, and only they
   std::vector<std::string> regions;    ///< one at least
+  bool has_layers = false;             ///< whether any cell is of a boundary layer
   std::vector<std::array<mesh::GlobalIndex, cell_shape_count>> region_cells;  ///< by region and shape
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> patch_faces;   ///< by patch and shape
 

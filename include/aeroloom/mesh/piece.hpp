@@ -63,13 +63,15 @@ struct Piece {
   std::vector<std::int32_t> quad_patch;      ///< (q) patch
   /// The regions of all cells, where they are several: ascending among the cells of a shape.
   std::vector<RegionRun> runs;
+  /// Of all cells, from 1 at the wall: the boundary layer that each is of; empty: none are of any.
+  std::vector<std::int16_t> layers;
 
   static constexpr auto fields() {
     return std::tuple(&Piece::id, &Piece::kind, &Piece::region, &Piece::coordinates, &Piece::cells,
                       &Piece::vertex_dimension, &Piece::vertex_entity, &Piece::boundary,
                       &Piece::triangle_face, &Piece::triangle_patch, &Piece::shared_vertices,
                       &Piece::shared_keys, &Piece::pyramids, &Piece::prisms, &Piece::quads, &Piece::quad_face,
-                      &Piece::quad_patch, &Piece::runs);
+                      &Piece::quad_patch, &Piece::runs, &Piece::layers);
   }
 
   int vertices_per_cell() const { return static_cast<int>(kind); }

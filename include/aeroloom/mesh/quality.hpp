@@ -69,8 +69,8 @@ struct CellsOutside {
   std::vector<std::vector<LocalIndex>> cells;  ///< per local piece, ascending; filled in
 };
 
-/// `outside`, if any, is filled in on the way. Collective; the same on every rank and for any number of ranks
-/// (sums are taken in piece order).
+/// Cells of boundary layers are left out. `outside`, if any, is filled in on the way. Collective; the same on
+/// every rank and for any number of ranks (sums are taken in piece order).
 QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
                                  const Numbering& numbering, CellsOutside* outside = nullptr);
 

@@ -9,6 +9,7 @@
 #include "aeroloom/domain/unresolved_features.hpp"
 #include "aeroloom/domain/wall_findings.hpp"
 #include "aeroloom/improve/improver.hpp"
+#include "aeroloom/layers/columns.hpp"
 #include "aeroloom/mesh/mixed_quality.hpp"
 #include "aeroloom/mesh/quality.hpp"
 #include "aeroloom/mesh/validity.hpp"
@@ -55,6 +56,13 @@ struct RegionRow {
   bool in_far_field = false;  ///< bounded by a far field, which is as coarse as it likes
 };
 
+/// The layers that were asked for, and what became of them; both by patch of the mesh.
+struct LayerRecord {
+  layers::LayerOptions asked;
+  layers::LayerReport report;
+  bool end_on_planes = false;  ///< whose triangles are other ones than those of the surface mesh, then
+};
+
 /// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
 /// rank except `domain` and `pictures`, which rank 0 alone holds.
 struct RunRecord {
@@ -78,6 +86,7 @@ struct RunRecord {
   domain::WallFindings walls;                     ///< what was found of walls close to each other
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
+  std::optional<LayerRecord> layers;  ///< where the case asks for some
   volume::DecompositionReport decomposition;
   volume::VolumeReport volume;
   attribution::SizeConformity conformity;

@@ -27,12 +27,12 @@ constexpr mesh::GlobalIndex cells_per_vtk_file(mesh::GlobalIndex cells) {
 
 /// Writes DIRECTORY/NAME.pvtu and its parts in DIRECTORY/NAME/, each of consecutive parts of the mesh until
 /// they have cells_per_vtk_file. Cells by part, then shape, then region. Cell arrays `piece`, `region`,
-/// `mean_ratio` and `min_dihedral` (io/vtk/cell_quality.hpp); point array `global_id`. Field arrays
-/// `region_names`, and the boundary of these cells, with patches between regions: `patch_names`,
-/// `patch_types` (mesh/patch.hpp), `boundary_patch` (k), `boundary_corners` (global ids, CellShape's
-/// direction) and `boundary_offsets` (k + 1, from 0). Vertices that no cell uses are left out. One part is in
-/// VTK's form at a time on each rank. The files are the same bytes for any number of ranks. Collective;
-/// throws CollectiveError (files) when a file cannot be written.
+/// `mean_ratio` and `min_dihedral` (io/vtk/cell_quality.hpp), with boundary layers `layer`, 0 off them; point
+/// array `global_id`. Field arrays `region_names`, and the boundary of these cells, with patches between
+/// regions: `patch_names`, `patch_types` (mesh/patch.hpp), `boundary_patch` (k), `boundary_corners` (global
+/// ids, CellShape's direction) and `boundary_offsets` (k + 1, from 0). Vertices that no cell uses are left
+/// out. One part is in VTK's form at a time on each rank. The files are the same bytes for any number of
+/// ranks. Collective; throws CollectiveError (files) when a file cannot be written.
 void write_volume(const parallel::Communicator& communicator, const FileMesh& mesh,
                   const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);

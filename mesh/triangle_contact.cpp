@@ -1,8 +1,8 @@
-#include "surface/triangle_contact.hpp"
+#include "mesh/triangle_contact.hpp"
 
 #include "geometry/predicates.hpp"
 
-namespace aeroloom::surface {
+namespace aeroloom::mesh {
 namespace {
 
 using geometry::Vec2;
@@ -50,4 +50,4 @@ bool meet_wrongly(const NamedTriangle& a, const NamedTriangle& b) {
   }
 }
 
-}  // namespace aeroloom::surface
+}  // namespace aeroloom::mesh

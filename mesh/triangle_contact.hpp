@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <tuple>
 
-namespace aeroloom::surface {
+namespace aeroloom::mesh {
 
 /// The name of a vertex over all pieces: its shared-vertex key with piece -1, or its index in its piece.
 struct VertexName {
@@ -30,4 +30,4 @@ struct NamedTriangle {
 /// three common vertices do; so does a triangle without area with one that shares an edge with it. Exact.
 bool meet_wrongly(const NamedTriangle& a, const NamedTriangle& b);
 
-}  // namespace aeroloom::surface
+}  // namespace aeroloom::mesh

@@ -1,9 +1,8 @@
-#include "surface/intersection.hpp"
+#include "mesh/intersection.hpp"
 
 #include "aeroloom/geometry/box_tree.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/runs.hpp"
-#include "surface/triangle_contact.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -12,12 +11,11 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace aeroloom::surface {
+namespace aeroloom::mesh {
 namespace {
 
 using geometry::Box;
 using geometry::Vec3;
-using mesh::LocalIndex;
 
 /// Triangles whose box travels as one: tables of boxes stay short, and few triangles travel in vain. Chosen,
 /// not measured.
@@ -28,7 +26,7 @@ constexpr int boxes_per_leaf = 4;  // chosen, not measured
 /// order in the piece.
 struct Batch {
   Box box;
-  mesh::PieceId piece;
+  PieceId piece;
   std::int32_t order;
   parallel::Rank rank;
 
@@ -58,22 +56,13 @@ struct BatchPair {
   std::int32_t lower, upper;
 };
 
-std::vector<VertexName> name_vertices(const mesh::Piece& piece) {
-  std::vector<VertexName> names(piece.vertex_count());
-  for (std::size_t v = 0; v < names.size(); ++v) names[v] = {piece.id, v};
-  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
-    names[piece.shared_vertices[s]] = {-1, piece.shared_keys[s]};
-  }
-  return names;
-}
-
 Box box_of(const NamedTriangle& triangle) {
   Box box;
   for (const Vec3& point : triangle.points) box.add(point);
   return box;
 }
 
-Triangles name_triangles(const mesh::Piece& piece) {
+Triangles name_triangles(const Piece& piece) {
   const std::vector<VertexName> names = name_vertices(piece);
   Triangles triangles(piece.cell_count());
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -89,11 +78,11 @@ Triangles name_triangles(const mesh::Piece& piece) {
 }
 
 /// The batches of this rank's pieces and their triangles.
-void cut_into_batches(const mesh::DistributedMesh& surface, parallel::Rank rank, std::vector<Batch>& batches,
+void cut_into_batches(const DistributedMesh& surface, parallel::Rank rank, std::vector<Batch>& batches,
                       std::vector<Triangles>& contents) {
-  if (surface.kind != mesh::CellKind::triangle)
+  if (surface.kind != CellKind::triangle)
     throw std::logic_error("find_intersections: the mesh is no surface");
-  for (const mesh::Piece& piece : surface.pieces) {
+  for (const Piece& piece : surface.pieces) {
     const Triangles triangles = name_triangles(piece);
     std::vector<Box> boxes;
     boxes.reserve(triangles.size());
@@ -220,8 +209,7 @@ double area(const NamedTriangle& t) {
   return 0.5 * norm(cross(t.points[1] - t.points[0], t.points[2] - t.points[0]));
 }
 
-TriangleHit make_hit(mesh::PieceId piece_a, const BatchTriangle& a, mesh::PieceId piece_b,
-                     const BatchTriangle& b) {
+TriangleHit make_hit(PieceId piece_a, const BatchTriangle& a, PieceId piece_b, const BatchTriangle& b) {
   const auto& [p, q, r] = a.corners.points;
   if (std::tie(piece_b, b.cell) < std::tie(piece_a, a.cell)) return make_hit(piece_b, b, piece_a, a);
   const double shortest = std::min(shortest_side(a.corners), shortest_side(b.corners));
@@ -297,9 +285,17 @@ private:
 
 }  // namespace
 
+std::vector<VertexName> name_vertices(const Piece& piece) {
+  std::vector<VertexName> names(piece.vertex_count());
+  for (std::size_t v = 0; v < names.size(); ++v) names[v] = {piece.id, v};
+  for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+    names[piece.shared_vertices[s]] = {-1, piece.shared_keys[s]};
+  }
+  return names;
+}
+
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const mesh::DistributedMesh& surface,
-                                            parallel::StageClock& clock) {
+                                            const DistributedMesh& surface, parallel::StageClock& clock) {
   using parallel::ScopedCpu;
   std::vector<Batch> batches;
   std::vector<Triangles> contents;
@@ -334,4 +330,4 @@ std::vector<TriangleHit> find_intersections(const parallel::Communicator& commun
   return hits;
 }
 
-}  // namespace aeroloom::surface
+}  // namespace aeroloom::mesh

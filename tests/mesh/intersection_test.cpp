@@ -1,7 +1,7 @@
-#include "surface/intersection.hpp"
+#include "mesh/intersection.hpp"
 
 #include "geometry/predicates.hpp"
-#include "surface/triangle_contact.hpp"
+#include "mesh/triangle_contact.hpp"
 
 #include <array>
 #include <cmath>
@@ -13,17 +13,16 @@
 
 #include <gtest/gtest.h>
 
-namespace aeroloom::surface {
+namespace aeroloom::mesh {
 namespace {
 
 std::vector<TriangleHit> intersections_of(const parallel::Communicator& communicator,
-                                          const mesh::DistributedMesh& surface) {
+                                          const DistributedMesh& surface) {
   parallel::StageClock clock;
   return find_intersections(communicator, surface, clock);
 }
 
 using geometry::Vec3;
-using mesh::LocalIndex;
 
 /// A surface in one part: corners by index.
 struct Soup {
@@ -33,16 +32,16 @@ struct Soup {
 
 /// The soup cut into pieces of consecutive triangles, piece p on rank p modulo ranks. Every vertex is shared
 /// by its index.
-mesh::DistributedMesh distribute(const Soup& soup, int pieces, const parallel::Communicator& communicator) {
-  mesh::DistributedMesh surface;
-  surface.kind = mesh::CellKind::triangle;
+DistributedMesh distribute(const Soup& soup, int pieces, const parallel::Communicator& communicator) {
+  DistributedMesh surface;
+  surface.kind = CellKind::triangle;
   surface.piece_count = pieces;
   const int count = static_cast<int>(soup.triangles.size());
   for (int id = 0; id < pieces; ++id) {
     if (id % communicator.size() != communicator.rank()) continue;
-    mesh::Piece& piece = surface.pieces.emplace_back();
+    Piece& piece = surface.pieces.emplace_back();
     piece.id = id;
-    piece.kind = mesh::CellKind::triangle;
+    piece.kind = CellKind::triangle;
     std::map<int, LocalIndex> local;
     for (int t = count * id / pieces; t < count * (id + 1) / pieces; ++t) {
       for (const int v : soup.triangles[t]) {
@@ -52,7 +51,7 @@ mesh::DistributedMesh distribute(const Soup& soup, int pieces, const parallel::C
           piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
           if (pieces > 1) {
             piece.shared_vertices.push_back(at->second);
-            piece.shared_keys.push_back(static_cast<mesh::SharedVertexKey>(v) + 1000);
+            piece.shared_keys.push_back(static_cast<SharedVertexKey>(v) + 1000);
           }
         }
         piece.cells.push_back(at->second);
@@ -259,10 +258,10 @@ TEST(FindIntersections, GivesTheSameHitsOnAnyRankCount) {
 
 TEST(FindIntersections, RefusesTetrahedraOnAllRanks) {
   const auto world = parallel::Communicator::world();
-  mesh::DistributedMesh volume;
-  if (world.rank() != world.size() - 1) volume.kind = mesh::CellKind::triangle;
+  DistributedMesh volume;
+  if (world.rank() != world.size() - 1) volume.kind = CellKind::triangle;
   EXPECT_THROW(intersections_of(world, volume), std::runtime_error);
 }
 
 }  // namespace
-}  // namespace aeroloom::surface
+}  // namespace aeroloom::mesh

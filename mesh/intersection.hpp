@@ -4,18 +4,19 @@
 #include "aeroloom/mesh/distributed_mesh.hpp"
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/parallel/observation/timers.hpp"
+#include "mesh/triangle_contact.hpp"
 
 #include <tuple>
 #include <vector>
 
-namespace aeroloom::surface {
+namespace aeroloom::mesh {
 
 /// Two triangles that meet elsewhere than in a common vertex or edge.
 struct TriangleHit {
-  mesh::PieceId first_piece, second_piece;  ///< first <= second
-  mesh::LocalIndex first, second;           ///< cells of those pieces
-  geometry::Vec3 center;                    ///< of the first triangle
-  double size;                              ///< shortest edge of both
+  PieceId first_piece, second_piece;  ///< first <= second
+  LocalIndex first, second;           ///< cells of those pieces
+  geometry::Vec3 center;              ///< of the first triangle
+  double size;                        ///< shortest edge of both
   double first_area, second_area;
 
   static constexpr auto fields() {
@@ -25,11 +26,13 @@ struct TriangleHit {
   }
 };
 
+/// The names of a piece's vertices over all pieces: their keys where they have one.
+std::vector<VertexName> name_vertices(const Piece& piece);
+
 /// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.
 /// Vertices are the same when their shared-vertex keys are (across pieces) or their indices (within one).
 /// Collective.
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const mesh::DistributedMesh& surface,
-                                            parallel::StageClock& clock);
+                                            const DistributedMesh& surface, parallel::StageClock& clock);
 
-}  // namespace aeroloom::surface
+}  // namespace aeroloom::mesh

@@ -1,0 +1,48 @@
+#include "layers/column_heights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::layers {
+
+std::int32_t wanted_count(const WallLayers& wanted, double mean_edge) {
+  constexpr double isotropic = 0.7;  // height over mean edge of a prism about as good as a tetrahedron
+  std::int32_t count = most_layers;
+  if (wanted.count > 0) count = std::min(count, wanted.count);
+  if (wanted.growth > 1) {
+    const double steps = std::log(isotropic * mean_edge / wanted.first) / std::log(wanted.growth);
+    const double layers = steps < 0 ? 1 : wanted.constant + std::min<double>(std::round(steps), most_layers);
+    count = std::min(count, static_cast<std::int32_t>(layers));
+  }
+  if (wanted.total > 0) {
+    std::int32_t fitting = 0;
+    const Heights heights{wanted.first, wanted.growth, wanted.constant};
+    heights.for_each_node(count, [&](std::int32_t k, double height) {
+      if (height <= wanted.total) fitting = k;
+    });
+    count = fitting;
+  }
+  return std::max(count, 1);
+}
+
+Squeezed squeeze(const Heights& heights, std::int32_t count, double limit) {
+  if (heights.total(count) <= limit) return {heights.growth, count};
+  Heights slower = heights;
+  slower.growth = 1;
+  if (slower.total(count) > limit) {
+    std::int32_t fitting = 0;
+    slower.for_each_node(count, [&](std::int32_t k, double height) {
+      if (height <= limit) fitting = k;
+    });
+    return {1, fitting};
+  }
+  constexpr int halvings = 40;
+  double low = 1, high = heights.growth;
+  for (int i = 0; i < halvings; ++i) {
+    slower.growth = 0.5 * (low + high);
+    (slower.total(count) <= limit ? low : high) = slower.growth;
+  }
+  return {low, count};
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,168 @@
+#include "layers/column_limits.hpp"
+
+#include "layers/wanted_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace aeroloom::layers {
+namespace {
+
+/// By how much more than an edge the totals at its ends may differ: where layers grow slower than 1.2 they
+/// are 0.7 g / (g - 1) edges high together when the last is as high as an edge asks, and spread alike.
+double slope_of(double growth) {
+  constexpr double ratio_at_1_2 = 6;  // g / (g - 1)
+  return std::max(1.0, growth / (growth - 1) / ratio_at_1_2);
+}
+
+/// First heights count along the normals of the triangles: columns that lean are longer, up to this ratio.
+constexpr double most_lengthening = 2;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
+
+}  // namespace
+
+ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, const Fans& fans,
+                           const Directions& directions)
+    : _wall(wall), _stairs(options.stairs) {
+  const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
+  const std::size_t n = all_wanted.size();
+  _first.assign(n, 0), _growth.assign(n, 1), _mean_edges.assign(n, 0), _slopes.assign(n, 1),
+      _limits.assign(n, 0);
+  _constant.assign(n, 1), _counts.assign(n, 0), _causes.assign(n, LayerLimit::none), _changed.assign(n, 0);
+  _wanted_counts.assign(n, 0);
+  for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
+    const VertexLayers& asked = all_wanted[v];
+    if (asked.edges == 0) continue;
+    _mean_edges[v] = asked.mean_edge();
+    const double total = asked.total < unlimited ? asked.total : 0;
+    const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
+                            static_cast<std::int32_t>(asked.count), total};
+    _wanted_counts[v] = layers::wanted_count(wanted, _mean_edges[v]);
+    if (fans.kinds[v] != FanKind::plain || directions.visibility[v] == 0) {
+      _causes[v] = fans.kinds[v] == FanKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
+      _lower_counts.push_back(v), _lower_totals.push_back(v);
+      continue;
+    }
+    _first[v] = asked.first * std::min(most_lengthening, 1 / directions.slants[v]);
+    _growth[v] = asked.growth;
+    _constant[v] = wanted.constant;
+    _slopes[v] = slope_of(asked.growth);
+    _counts[v] = _wanted_counts[v];
+    _limits[v] = this->total(v);
+    _lower_counts.push_back(v), _lower_totals.push_back(v);
+    note_change(v, LayerLimit::none);
+  }
+  _wanted_growth = _growth;
+}
+
+void ColumnLimits::note_change(std::int32_t v, LayerLimit cause) {
+  _causes[v] = cause;
+  if (_changed[v] == 0) _changed_vertices.push_back(v);
+  _changed[v] = 1;
+}
+
+std::vector<std::int32_t> ColumnLimits::take_changed() {
+  for (const std::int32_t v : _changed_vertices) _changed[v] = 0;
+  return std::exchange(_changed_vertices, {});
+}
+
+void ColumnLimits::cut_count(std::int32_t v, std::int32_t count, LayerLimit cause) {
+  _counts[v] = count;
+  _limits[v] = std::min(_limits[v], total(v));
+  _lower_counts.push_back(v), _lower_totals.push_back(v);
+  note_change(v, cause);
+}
+
+void ColumnLimits::fit(std::int32_t v, LayerLimit cause) {
+  const Squeezed fitting = squeeze(heights(v), _counts[v], _limits[v]);
+  if (fitting.growth < _growth[v]) note_change(v, cause);
+  _growth[v] = fitting.growth;
+  if (fitting.count < _counts[v]) cut_count(v, fitting.count, cause);
+}
+
+void ColumnLimits::limit_totals(std::vector<double> limits, LayerLimit cause) {
+  _wall.combine(limits, smaller);
+  for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+    if (!(limits[v] < _limits[v])) continue;
+    _limits[v] = limits[v];
+    _lower_totals.push_back(v);
+    fit(v, cause);
+  }
+}
+
+void ColumnLimits::limit_counts(std::vector<std::int32_t> counts, LayerLimit cause) {
+  _wall.combine(counts, smaller);
+  for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+    if (counts[v] < _counts[v]) cut_count(v, counts[v], cause);
+  }
+}
+
+template <class T, class Follow>
+void ColumnLimits::propagate(const parallel::Communicator& communicator, std::vector<T>& values,
+                             std::vector<std::int32_t> from, const Follow& follow) const {
+  std::vector<std::uint8_t> waits(values.size(), 0);
+  std::vector<std::int32_t> next;
+  const auto lower = [&](std::int32_t v, T value) {
+    if (!(value < values[v])) return;
+    values[v] = value;
+    if (waits[v] == 0) next.push_back(v);
+    waits[v] = 1;
+  };
+  for (bool changes = true; changes;) {
+    while (!from.empty()) {
+      for (const std::int32_t v : from) waits[v] = 0;
+      for (const std::int32_t v : from) {
+        _wall.for_each_neighbour(v, [&](std::int32_t u) { lower(u, follow(v, u, values[v])); });
+      }
+      from.swap(next);
+      next.clear();
+    }
+    std::vector<T> combined = values;
+    _wall.combine(combined, smaller);
+    for (const std::int32_t v : _wall.vertex_of_copy) lower(v, combined[v]);
+    from.swap(next);
+    next.clear();
+    changes = communicator.sum(static_cast<std::int64_t>(from.size())) > 0;
+  }
+}
+
+bool ColumnLimits::converge_counts(const parallel::Communicator& communicator) {
+  std::vector<std::int32_t> counts = _counts;
+  propagate(communicator, counts, std::exchange(_lower_counts, {}),
+            [&](std::int32_t, std::int32_t, std::int32_t count) { return count + _stairs; });
+  std::int64_t cut = 0;
+  for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+    if (counts[v] == _counts[v]) continue;
+    cut_count(v, counts[v], LayerLimit::stairs);
+    ++cut;
+  }
+  _lower_counts.clear();  // at a fixed point
+  return communicator.sum(cut) > 0;
+}
+
+void ColumnLimits::converge_totals(const parallel::Communicator& communicator) {
+  std::vector<double> limits = _limits;
+  propagate(communicator, limits, std::exchange(_lower_totals, {}),
+            [&](std::int32_t v, std::int32_t u, double limit) {
+              return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
+            });
+  for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+    if (!(limits[v] < _limits[v])) continue;
+    _limits[v] = limits[v];
+    fit(v, LayerLimit::slope);
+  }
+}
+
+void ColumnLimits::converge(const parallel::Communicator& communicator) {
+  do {
+    converge_counts(communicator);
+    converge_totals(communicator);
+  } while (communicator.sum(static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
+}
+
+}  // namespace aeroloom::layers

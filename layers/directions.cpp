@@ -1,0 +1,74 @@
+#include "layers/directions.hpp"
+
+#include "layers/cone.hpp"
+#include "layers/end_planes.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+
+/// The scaled Jacobian of flat prisms at an equilateral triangle is the visibility, and columns may rise
+/// until half of it is left: 0.01. Closed trailing edges of 2.3 degrees have it.
+constexpr double least_visibility = 0.02;
+/// Smoothing leaves at least so much of the visibility of the most normal direction: 26 degrees on a flat
+/// wall. Chosen, not measured.
+constexpr double kept_visibility = 0.9;
+/// Smoothing reaches about as many edges from a ridge as columns are high. Chosen, not measured.
+constexpr int smoothing_sweeps = 8;
+
+/// The direction between the present one and the mean of its neighbours' that is farthest on the way of those
+/// tried and keeps the visibility; along the planes of the vertex.
+Vec3 move_towards(Vec3 mean, Vec3 present, double least, const Fans& fans, std::int32_t v) {
+  for (const double step : {0.5, 0.25, 0.125}) {
+    const Vec3 moved = normalized(along_planes((1 - step) * present + step * mean, fans.planes_at(v)));
+    if (visibility_of(moved, fans.normals_at(v)) >= least) return moved;
+  }
+  return present;
+}
+
+}  // namespace
+
+Directions find_directions(const WallShare& wall, const Fans& fans) {
+  const std::int32_t count = wall.vertex_count();
+  Directions directions;
+  directions.most_normal.assign(count, Vec3{});
+  directions.visibility.assign(count, 0);
+  for (std::int32_t v = 0; v < count; ++v) {
+    if (fans.kinds[v] != FanKind::plain) continue;
+    const Vec3 axis = normalized(along_planes(smallest_cone(fans.normals_at(v)).axis, fans.planes_at(v)));
+    const double visibility = visibility_of(axis, fans.normals_at(v));
+    if (!(visibility >= least_visibility)) continue;
+    directions.most_normal[v] = axis;
+    directions.visibility[v] = visibility;
+  }
+  directions.smoothed = directions.most_normal;
+  std::vector<Vec3> sums(count);
+  for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
+    for (std::int32_t v = 0; v < count; ++v) {
+      sums[v] = {};
+      wall.for_each_neighbour(v, [&](std::int32_t u) { sums[v] += directions.smoothed[u]; });
+    }
+    wall.combine(sums, std::plus<>());
+    for (std::int32_t v = 0; v < count; ++v) {
+      if (directions.visibility[v] == 0) continue;
+      const double least = std::max(least_visibility, kept_visibility * directions.visibility[v]);
+      directions.smoothed[v] = move_towards(normalized(sums[v]), directions.smoothed[v], least, fans, v);
+    }
+  }
+  directions.slants.assign(count, 1);
+  for (std::int32_t v = 0; v < count; ++v) {
+    if (directions.visibility[v] == 0) continue;
+    const Vec3 direction = directions.smoothed[v];
+    double largest = -1;
+    for (const Vec3 normal : fans.normals_at(v)) largest = std::max(largest, dot(direction, normal));
+    directions.visibility[v] = visibility_of(direction, fans.normals_at(v));
+    directions.slants[v] = 0.5 * (directions.visibility[v] + largest);
+  }
+  return directions;
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,191 @@
+#include "layers/fans.hpp"
+
+#include "mesh/intersection.hpp"
+#include "mesh/rendezvous.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+using mesh::VertexName;
+
+/// A triangle as a corner of it sees it: the other two in its order, and whose triangle it is.
+struct FanTriangle {
+  Vec3 normal;
+  VertexName next, previous;
+  std::int32_t piece, cell, role, face;
+
+  static constexpr auto fields() {
+    return std::tuple(&FanTriangle::normal, &FanTriangle::next, &FanTriangle::previous, &FanTriangle::piece,
+                      &FanTriangle::cell, &FanTriangle::role, &FanTriangle::face);
+  }
+};
+
+/// A triangle at the rendezvous of its vertex, which is known here by that number.
+struct FanGuest {
+  mesh::SharedVertexKey key;
+  std::int64_t vertex;
+  FanTriangle triangle;
+
+  static constexpr auto fields() {
+    return std::tuple(&FanGuest::key, &FanGuest::vertex, &FanGuest::triangle);
+  }
+};
+
+/// What comes back: a triangle around a vertex of this rank.
+struct FanAnswer {
+  std::int64_t vertex;
+  FanTriangle triangle;
+
+  static constexpr auto fields() { return std::tuple(&FanAnswer::vertex, &FanAnswer::triangle); }
+  auto place() const { return std::tie(vertex, triangle.piece, triangle.cell); }
+};
+
+Vec3 normal_of(const WallShare& wall, std::int32_t t) {
+  const auto& [a, b, c] = wall.triangles[t];
+  return normalized(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
+}
+
+/// The triangles of one piece as their corners see them.
+class PieceFans {
+public:
+  PieceFans(const WallShare& wall, std::size_t position)
+      : _wall(wall), _position(position), _names(mesh::name_vertices(wall.mesh.pieces[position])) {}
+
+  FanTriangle triangle(std::int32_t t, std::int32_t vertex) const {
+    const WallShare::Corners& corners = _wall.triangles[t];
+    const int at = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    const std::int32_t base = _wall.first_vertex[_position];
+    return {normal_of(_wall, t),
+            _names[corners[(at + 1) % 3] - base],
+            _names[corners[(at + 2) % 3] - base],
+            _wall.mesh.pieces[_position].id,
+            t - _wall.first_triangle[_position],
+            static_cast<std::int32_t>(_wall.roles[t]),
+            _wall.faces[t]};
+  }
+
+private:
+  const WallShare& _wall;
+  std::size_t _position;
+  std::vector<VertexName> _names;
+};
+
+/// Whether each triangle's last edge is another one's first, and one way round leads through all of them.
+bool is_closed_fan(std::span<const FanTriangle> fan) {
+  std::size_t at = 0;
+  for (std::size_t step = 0; step < fan.size(); ++step) {
+    std::size_t following = fan.size();
+    for (std::size_t i = 0; i < fan.size(); ++i) {
+      if (!(fan[i].next == fan[at].previous)) continue;
+      if (following != fan.size()) return false;
+      following = i;
+    }
+    if (following == fan.size()) return false;
+    at = following;
+    if (at == 0) return step + 1 == fan.size();
+  }
+  return false;
+}
+
+FanKind kind_of(std::span<const FanTriangle> fan) {
+  const auto has = [&](WallRole role) {
+    return std::any_of(fan.begin(), fan.end(),
+                       [&](const FanTriangle& t) { return static_cast<WallRole>(t.role) == role; });
+  };
+  if (!has(WallRole::layered)) return FanKind::off_wall;
+  if (has(WallRole::other)) return FanKind::ending;
+  return is_closed_fan(fan) ? FanKind::plain : FanKind::broken;
+}
+
+/// Normals of the different planes around a vertex that layers end on.
+std::vector<Vec3> planes_around(const WallShare& wall, std::span<const FanTriangle> fan) {
+  constexpr double same_plane = 1 - 1e-12;  // cosine; as planes are told from other faces
+  std::vector<Vec3> planes;
+  for (const FanTriangle& t : fan) {
+    if (static_cast<WallRole>(t.role) != WallRole::plane) continue;
+    const Vec3 normal = wall.end_planes[t.face];
+    const bool known = std::any_of(planes.begin(), planes.end(),
+                                   [&](Vec3 other) { return std::abs(dot(other, normal)) >= same_plane; });
+    if (!known) planes.push_back(normal);
+  }
+  return planes;
+}
+
+/// Appends the normals of layered triangles, and their mirror images at the planes.
+void append_normals(std::span<const FanTriangle> fan, std::span<const Vec3> planes,
+                    std::vector<Vec3>& normals) {
+  const std::size_t first = normals.size();
+  for (const FanTriangle& t : fan) {
+    if (static_cast<WallRole>(t.role) == WallRole::layered) normals.push_back(t.normal);
+  }
+  for (const Vec3 plane : planes) {
+    for (std::size_t i = first, end = normals.size(); i < end; ++i)
+      normals.push_back(normals[i] - 2 * dot(plane, normals[i]) * plane);
+  }
+}
+
+/// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
+std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& communicator,
+                                               const WallShare& wall) {
+  std::vector<FanGuest> guests;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    const PieceFans of_piece(wall, p);
+    for (std::size_t c = wall.shared.first(p); c < wall.shared.first(p + 1); ++c) {
+      if (!wall.shared.is_shared(c)) continue;
+      const std::int32_t v = wall.vertex_of_copy[c];
+      const mesh::SharedVertexKey key = wall.mesh.pieces[p].shared_keys[c - wall.shared.first(p)];
+      for (const std::int32_t t : wall.triangles_around(v))
+        guests.push_back({key, v, of_piece.triangle(t, v)});
+    }
+  }
+  const mesh::Rendezvous meeting(communicator, guests, &FanGuest::key, [](const FanGuest& guest) {
+    return std::pair(guest.triangle.piece, guest.triangle.cell);
+  });
+  std::vector<FanAnswer> answers = meeting.answer<FanAnswer>([](const auto& group, const auto& reply) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (i > 0 && group[i].item.triangle.piece == group[i - 1].item.triangle.piece) continue;
+      for (const auto& other : group) reply(group[i], {group[i].item.vertex, other.item.triangle});
+    }
+  });
+  std::sort(answers.begin(), answers.end(),
+            [](const FanAnswer& a, const FanAnswer& b) { return a.place() < b.place(); });
+  return answers;
+}
+
+}  // namespace
+
+Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wall) {
+  const std::vector<FanAnswer> met = meet_at_shared_vertices(communicator, wall);
+  Fans fans;
+  fans.first.reserve(wall.points.size() + 1);
+  fans.first.push_back(0);
+  fans.first_plane.push_back(0);
+  std::vector<FanTriangle> fan;
+  std::size_t next = 0;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    const PieceFans of_piece(wall, p);
+    for (std::int32_t v = wall.first_vertex[p]; v < wall.first_vertex[p + 1]; ++v) {
+      fan.clear();
+      for (; next < met.size() && met[next].vertex == v; ++next) fan.push_back(met[next].triangle);
+      if (fan.empty()) {
+        for (const std::int32_t t : wall.triangles_around(v)) fan.push_back(of_piece.triangle(t, v));
+      }
+      fans.kinds.push_back(kind_of(fan));
+      std::vector<Vec3> planes = planes_around(wall, fan);
+      if (fans.kinds.back() != FanKind::plain) planes.clear();
+      if (planes.size() > 2) fans.kinds.back() = FanKind::ending, planes.clear();
+      append_normals(fan, planes, fans.normals);
+      fans.plane_normals.insert(fans.plane_normals.end(), planes.begin(), planes.end());
+      fans.first.push_back(static_cast<std::int64_t>(fans.normals.size()));
+      fans.first_plane.push_back(static_cast<std::int64_t>(fans.plane_normals.size()));
+    }
+  }
+  return fans;
+}
+
+}  // namespace aeroloom::layers

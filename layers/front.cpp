@@ -1,0 +1,159 @@
+#include "layers/front.hpp"
+
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "layers/good_columns.hpp"
+#include "mesh/intersection.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <utility>
+
+namespace aeroloom::layers {
+namespace {
+
+/// Rounds in which counts fall by a third; in those after them columns are emptied. Chosen, not measured:
+/// from 79 layers it takes ten to zero.
+constexpr int rounds_of_thirds = 10;
+
+std::int32_t lowered(std::int32_t count, int round) {
+  return round <= rounds_of_thirds ? 2 * count / 3 : 0;
+}
+
+}  // namespace
+
+Columns make_columns(const WallShare& wall, const Directions& directions, const ColumnLimits& limits) {
+  Columns columns;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    PieceColumns& of_piece = columns.pieces.emplace_back();
+    for (std::int32_t v = wall.first_vertex[p]; v < wall.first_vertex[p + 1]; ++v) {
+      const Heights heights = limits.heights(v);
+      of_piece.directions.push_back(directions.smoothed[v]);
+      of_piece.counts.push_back(limits.count(v));
+      of_piece.constant.push_back(heights.constant);
+      of_piece.first.push_back(heights.first);
+      of_piece.growth.push_back(heights.growth);
+    }
+  }
+  return columns;
+}
+
+mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Columns& columns) {
+  mesh::DistributedMesh front = wall;
+  for (std::size_t p = 0; p < front.pieces.size(); ++p) {
+    mesh::Piece& piece = front.pieces[p];
+    const PieceColumns& of_piece = columns.pieces[p];
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (of_piece.counts[v] > 0) piece.set_point(v, node(wall.pieces[p], of_piece, v, of_piece.counts[v]));
+    }
+  }
+  return front;
+}
+
+/// Counts that columns of this rank fall to, if any.
+class FrontClearing::LoweredCounts {
+public:
+  LoweredCounts(const WallShare& wall, const ColumnLimits& limits, int round)
+      : _wall(wall), _limits(limits), _round(round), _counts(wall.points.size(), unchanged) {}
+
+  void add(std::int32_t v) {
+    if (_limits.count(v) == 0) return;
+    if (_counts[v] == unchanged) ++_lowered;
+    _counts[v] = lowered(_limits.count(v), _round);
+  }
+  /// The columns over a triangle of the wall, if its piece is here.
+  void add(mesh::PieceId piece, mesh::LocalIndex cell) {
+    const auto& pieces = _wall.mesh.pieces;
+    const std::size_t p = mesh::position_of(_wall.mesh, piece);
+    if (p == pieces.size() || pieces[p].id != piece) return;
+    for (const std::int32_t v : _wall.triangles[_wall.first_triangle[p] + cell]) add(v);
+  }
+  std::int64_t lowered_here() const { return _lowered; }
+  std::vector<std::int32_t> take() { return std::move(_counts); }
+
+private:
+  static constexpr std::int32_t unchanged = std::numeric_limits<std::int32_t>::max();
+
+  const WallShare& _wall;
+  const ColumnLimits& _limits;
+  int _round;
+  std::vector<std::int32_t> _counts;
+  std::int64_t _lowered = 0;
+};
+
+FrontClearing::FrontClearing(const parallel::Communicator& communicator, const WallShare& wall,
+                             const Directions& directions, const PlaneRemesher& remesh_planes)
+    : _communicator(communicator), _wall(wall), _directions(directions), _remesh_planes(remesh_planes) {
+  std::vector<std::int32_t> on_plane;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    const auto roles =
+        std::span(wall.roles)
+            .subspan(wall.first_triangle[p], wall.first_triangle[p + 1] - wall.first_triangle[p]);
+    on_plane.push_back(std::count(roles.begin(), roles.end(), WallRole::plane) > 0);
+  }
+  on_plane = mesh::gather_by_piece(communicator, wall.mesh, on_plane);
+  for (mesh::PieceId piece = 0; piece < wall.mesh.piece_count; ++piece) {
+    if (on_plane[piece] == 0) _kept.push_back(piece);
+  }
+  const bool has_planes = _kept.size() < on_plane.size();
+  if (has_planes && !remesh_planes)
+    throw parallel::CollectiveError(parallel::FailureKind::bug,
+                                    "layers end on planes that nobody meshes again");
+}
+
+void FrontClearing::lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault,
+                                    LoweredCounts& lower) const {
+  _wall.shared.for_each([&](std::size_t p, mesh::LocalIndex, std::size_t copy) {
+    const mesh::SharedVertexKey key = _wall.mesh.pieces[p].shared_keys[copy - _wall.shared.first(p)];
+    if (std::binary_search(at_fault.begin(), at_fault.end(), key)) lower.add(_wall.vertex_of_copy[copy]);
+  });
+  if (_communicator.sum(lower.lowered_here()) > 0) return;
+  for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
+    if (_wall.roles[t] != WallRole::plane) continue;
+    for (const std::int32_t v : _wall.triangles[t]) lower.add(v);
+  }
+  if (_communicator.sum(lower.lowered_here()) > 0) return;
+  throw parallel::CollectiveError(
+      parallel::FailureKind::bug,
+      "layers: planes cannot be meshed again within boundaries that did not move");
+}
+
+bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report,
+                             parallel::StageClock& clock) const {
+  const bool has_planes = static_cast<mesh::PieceId>(_kept.size()) < _wall.mesh.piece_count;
+  std::vector<mesh::SharedVertexKey> at_fault;
+  if (has_planes) at_fault = _remesh_planes(front);
+  if (!at_fault.empty()) {
+    std::sort(at_fault.begin(), at_fault.end());
+    lower_on_planes(at_fault, lower);
+    return false;
+  }
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(_communicator, front, clock);
+  const auto add = [&](mesh::PieceId piece, mesh::LocalIndex cell) {
+    if (static_cast<std::size_t>(piece) < _kept.size()) lower.add(_kept[piece], cell);
+  };
+  for (const mesh::TriangleHit& hit : hits) {
+    add(hit.first_piece, hit.first);
+    add(hit.second_piece, hit.second);
+  }
+  if (_communicator.sum(lower.lowered_here()) == 0) return true;
+  report.crossings += static_cast<std::int64_t>(hits.size());
+  return false;
+}
+
+mesh::DistributedMesh FrontClearing::run(ColumnLimits& limits, LayerReport& report,
+                                         parallel::StageClock& clock) const {
+  for (int round = 1;; ++round) {
+    mesh::DistributedMesh front = make_front(_wall.mesh, make_columns(_wall, _directions, limits));
+    LoweredCounts lower(_wall, limits, round);
+    if (is_clear(front, lower, report, clock)) return front;
+    report.crossing_rounds = round;
+    if (round > rounds_of_thirds) report.zeroed_by_force += _communicator.sum(lower.lowered_here());
+    limits.limit_counts(lower.take(), LayerLimit::crossing);
+    limits.converge(_communicator);
+    report.validity_rounds += shrink_to_good(_communicator, _wall, _directions, limits);
+  }
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,44 @@
+/// The front, and columns that shrink until it is free of intersections.
+#pragma once
+
+#include "layers/column_limits.hpp"
+
+#include <vector>
+
+namespace aeroloom::layers {
+
+/// The columns of all pieces of this rank.
+Columns make_columns(const WallShare& wall, const Directions& directions, const ColumnLimits& limits);
+
+/// The wall mesh with its vertices moved to the ends of their columns.
+mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Columns& columns);
+
+/// Makes fronts free of intersections.
+class FrontClearing {
+public:
+  /// Refers to all of them. Where layers end on planes `remesh_planes` is not empty. Collective.
+  FrontClearing(const parallel::Communicator& communicator, const WallShare& wall,
+                const Directions& directions, const PlaneRemesher& remesh_planes);
+
+  /// Where triangles of the front meet, or planes cannot be meshed again, counts of their columns fall by a
+  /// third, neighbours follow, cells are made good again, until no triangles meet. After some rounds columns
+  /// whose triangles still meet are emptied. What a wall has of intersections itself stays. Writes rounds and
+  /// counts to the report, and returns the front. Collective.
+  mesh::DistributedMesh run(ColumnLimits& limits, LayerReport& report, parallel::StageClock& clock) const;
+
+private:
+  class LoweredCounts;
+  /// Lowers the columns of vertices at fault; where none of them has layers, all on planes.
+  void lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault, LoweredCounts& lower) const;
+  /// Lowers what is in the way of a front; returns whether that is nothing.
+  bool is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report,
+                parallel::StageClock& clock) const;
+
+  const parallel::Communicator& _communicator;
+  const WallShare& _wall;
+  const Directions& _directions;
+  const PlaneRemesher& _remesh_planes;
+  std::vector<mesh::PieceId> _kept;  ///< pieces of the wall that are not of planes, as the front counts them
+};
+
+}  // namespace aeroloom::layers

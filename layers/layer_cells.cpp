@@ -1,0 +1,267 @@
+#include "aeroloom/layers/layer_cells.hpp"
+
+#include "aeroloom/mesh/piece_faces.hpp"
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "layers/layer_piece.hpp"
+#include "mesh/distributed_table.hpp"
+#include "mesh/shared_vertex_keys.hpp"
+#include "mesh/shared_vertices.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace aeroloom::layers {
+
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using mesh::Piece;
+using mesh::PieceId;
+using parallel::Communicator;
+
+namespace {
+
+/// The place in the front of each piece of the wall on this rank; none of planes that were meshed again.
+/// Whatever else is there comes first, in its order.
+std::vector<std::optional<std::size_t>> places_in_front(const mesh::DistributedMesh& wall,
+                                                        const mesh::DistributedMesh& front) {
+  std::vector<std::optional<std::size_t>> places(wall.pieces.size());
+  std::size_t next = 0;
+  for (std::size_t p = 0; p < places.size() && next < front.pieces.size(); ++p) {
+    const Piece &of_wall = wall.pieces[p], &of_front = front.pieces[next];
+    if (of_wall.triangle_face == of_front.triangle_face && of_wall.cells == of_front.cells)
+      places[p] = next++;
+  }
+  return places;
+}
+
+/// What pieces of the volume ask of a vertex of the front.
+struct FrontVertex {
+  std::int32_t count;              ///< of layers before it
+  std::int32_t dimension, entity;  ///< its classification; as wide as each other, so that there is no padding
+
+  static constexpr auto fields() {
+    return std::tuple(&FrontVertex::count, &FrontVertex::dimension, &FrontVertex::entity);
+  }
+};
+using FrontTable = mesh::DistributedTable<FrontVertex>;
+
+FrontTable make_table(const Communicator& communicator, const Columns& columns, const NamedFront& front,
+                      const std::vector<std::optional<std::size_t>>& places) {
+  std::vector<const PieceColumns*> columns_of(front.mesh.pieces.size(), nullptr);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
+  }
+  std::vector<FrontTable::KeyedValue> rows;
+  for (std::size_t p = 0; p < front.mesh.pieces.size(); ++p) {
+    const Piece& piece = front.mesh.pieces[p];
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (!front.numbering.owned[p][v]) continue;
+      rows.push_back({front.numbering.vertices[p][v],
+                      {columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0,
+                       static_cast<std::int32_t>(piece.vertex_dimension[v]), front.entities[p][v]}});
+    }
+  }
+  return {communicator, mesh::even_ranges(communicator.size(), front.numbering.vertex_count),
+          std::move(rows)};
+}
+
+/// The pieces behind the front: their vertices on it get keys that layers know, and their classification; the
+/// triangles that layers lie before are boundary no more.
+class BehindFront {
+public:
+  /// Collective.
+  BehindFront(const mesh::DistributedMesh& wall, const FrontTable& table, const mesh::DistributedMesh& volume)
+      : _wall(wall) {
+    for (const Piece& piece : volume.pieces) {
+      for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+        if (is_on_boundary(piece.vertex_dimension[v])) _asked.push_back(piece.vertex_entity[v]);
+      }
+    }
+    std::sort(_asked.begin(), _asked.end());
+    _asked.erase(std::unique(_asked.begin(), _asked.end()), _asked.end());
+    const FrontTable::Fetched found = table.fetch(_asked);
+    if (found.missing >= 0)
+      throw parallel::CollectiveError(
+          parallel::FailureKind::bug,
+          fmt::format("layers: the volume has a vertex of the front, {}, that there is not", found.missing));
+    _rows = found.values;
+  }
+
+  void join(mesh::DistributedMesh& volume) const {
+    for (Piece& piece : volume.pieces) join(piece);
+  }
+
+private:
+  const FrontVertex& row(GlobalIndex number) const {
+    return _rows[std::lower_bound(_asked.begin(), _asked.end(), number) - _asked.begin()];
+  }
+
+  void join(Piece& piece) const {
+    std::vector<std::uint8_t> grows(piece.vertex_count(), 0);
+    std::vector<std::pair<LocalIndex, mesh::SharedVertexKey>> keys;
+    for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
+      if (!is_on_boundary(piece.vertex_dimension[piece.shared_vertices[s]]))
+        keys.emplace_back(piece.shared_vertices[s], piece.shared_keys[s]);
+    }
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (!is_on_boundary(piece.vertex_dimension[v])) continue;
+      const GlobalIndex number = piece.vertex_entity[v];
+      const FrontVertex& of_front = row(number);
+      keys.emplace_back(v, mesh::running_key(number));
+      grows[v] = of_front.count > 0 ? 1 : 0;
+      piece.vertex_dimension[v] =
+          grows[v] ? mesh::CadDimension::region : static_cast<mesh::CadDimension>(of_front.dimension);
+      piece.vertex_entity[v] = grows[v] ? piece.region : of_front.entity;
+    }
+    std::sort(keys.begin(), keys.end());
+    piece.shared_vertices.clear(), piece.shared_keys.clear();
+    for (const auto& [vertex, key] : keys) {
+      piece.shared_vertices.push_back(vertex);
+      piece.shared_keys.push_back(key);
+    }
+    keep_bare_triangles(piece, grows);
+  }
+
+  void keep_bare_triangles(Piece& piece, const std::vector<std::uint8_t>& grows) const {
+    std::size_t kept = 0;
+    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+      const LocalIndex* v = piece.boundary_triangle(t);
+      const bool covered = bears_layers(_wall, piece.triangle_patch[t]) &&
+                           std::any_of(v, v + 3, [&](LocalIndex each) { return grows[each] != 0; });
+      if (covered) continue;
+      std::copy_n(v, 3, piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
+      piece.triangle_face[kept] = piece.triangle_face[t];
+      piece.triangle_patch[kept] = piece.triangle_patch[t];
+      ++kept;
+    }
+    piece.boundary.resize(3 * kept);
+    piece.triangle_face.resize(kept);
+    piece.triangle_patch.resize(kept);
+  }
+
+  const mesh::DistributedMesh& _wall;
+  std::vector<GlobalIndex> _asked;  // ascending
+  std::vector<FrontVertex> _rows;   // of those
+};
+
+std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, const Piece& piece) {
+  std::vector<std::uint8_t> bears;
+  bears.reserve(piece.triangle_patch.size());
+  for (const std::int32_t patch : piece.triangle_patch) bears.push_back(bears_layers(wall, patch) ? 1 : 0);
+  return bears;
+}
+
+/// The pieces of the layers over the pieces of the wall on this rank, by piece of the wall, without ids.
+std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, const Columns& columns,
+                                            const NamedFront& front,
+                                            const std::vector<std::optional<std::size_t>>& places,
+                                            const std::vector<LateralEdge>& laterals,
+                                            std::int64_t most_cells) {
+  std::vector<std::vector<Piece>> made(wall.mesh.pieces.size());
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    if (!places[p]) continue;
+    const Piece& piece = wall.mesh.pieces[p];
+    const auto [first, last] =
+        std::equal_range(laterals.begin(), laterals.end(), LateralEdge{piece.id, 0, 0, 0},
+                         [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
+    const std::vector<std::uint8_t> bears = bearing_triangles(wall.mesh, piece);
+    const LayeredPiece source{piece,
+                              front.mesh.pieces[*places[p]],
+                              columns.pieces[p],
+                              front.numbering.vertices[*places[p]],
+                              bears,
+                              {first, last},
+                              wall.mesh.sides_of(piece.common_face()).front};
+    const std::vector<TriangleRange> ranges = cut_into_ranges(source, most_cells);
+    const std::vector<std::uint8_t> shared = find_shared(source, ranges);
+    for (const TriangleRange range : ranges) made[p].push_back(make_layer_piece(source, range, shared));
+  }
+  return made;
+}
+
+/// Vertices off the wall that lie on a boundary face are on its plane; where two planes meet, on that of the
+/// lower number. All pieces agree. Collective.
+void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& volume) {
+  struct Place {
+    std::int32_t dimension, entity;
+    static constexpr auto fields() { return std::tuple(&Place::dimension, &Place::entity); }
+    bool operator<(const Place& other) const {
+      return std::tie(dimension, entity) < std::tie(other.dimension, other.entity);
+    }
+  };
+  constexpr auto on_face = static_cast<std::int32_t>(mesh::CadDimension::face);
+  std::vector<std::vector<Place>> places;
+  for (const Piece& piece : volume.pieces) {
+    std::vector<Place>& of_piece = places.emplace_back();
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v)
+      of_piece.push_back({static_cast<std::int32_t>(piece.vertex_dimension[v]), piece.vertex_entity[v]});
+    for (LocalIndex f = 0; f < mesh::boundary_face_count(piece); ++f) {
+      for (const LocalIndex v : mesh::corners_of_boundary(piece, f))
+        of_piece[v] = std::min(of_piece[v], Place{on_face, mesh::cad_face_of(piece, f)});
+    }
+  }
+  std::vector<Place> copies(shared.size());
+  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { copies[copy] = places[p][v]; });
+  shared.reduce_and_scatter(copies, [](const Place& a, const Place& b) { return std::min(a, b); });
+  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { places[p][v] = copies[copy]; });
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    Piece& piece = volume.pieces[p];
+    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      piece.vertex_dimension[v] = static_cast<mesh::CadDimension>(places[p][v].dimension);
+      piece.vertex_entity[v] = places[p][v].entity;
+    }
+  }
+}
+
+}  // namespace
+
+NamedFront name_front(const Communicator& communicator, mesh::DistributedMesh front) {
+  NamedFront named{{std::move(front), {}}, {}};
+  named.numbering = mesh::number_mesh(communicator, named.mesh);
+  parallel::agree(communicator, [&] {
+    if (named.numbering.vertex_count > std::numeric_limits<std::int32_t>::max())
+      throw std::runtime_error("layers: the surface has more vertices than 2^31");
+    for (std::size_t p = 0; p < named.mesh.pieces.size(); ++p) {
+      Piece& piece = named.mesh.pieces[p];
+      named.entities.push_back(piece.vertex_entity);
+      for (LocalIndex v = 0; v < piece.vertex_count(); ++v)
+        piece.vertex_entity[v] = static_cast<std::int32_t>(named.numbering.vertices[p][v]);
+    }
+  });
+  return named;
+}
+
+void append_layers(const Communicator& communicator, const mesh::NumberedMesh& wall, const Columns& columns,
+                   const NamedFront& front, std::int64_t most_cells_per_piece,
+                   mesh::DistributedMesh& volume) {
+  const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
+  BehindFront(wall.mesh, make_table(communicator, columns, front, places), volume).join(volume);
+  const std::vector<LateralEdge> laterals = find_lateral_edges(communicator, wall, columns);
+  std::vector<std::vector<Piece>> made;
+  parallel::agree(communicator,
+                  [&] { made = make_pieces(wall, columns, front, places, laterals, most_cells_per_piece); });
+  std::vector<GlobalIndex> counts;
+  counts.reserve(made.size());
+  for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
+  const std::vector<GlobalIndex> first = mesh::first_by_piece(communicator, wall.mesh, counts);
+  for (std::size_t p = 0; p < made.size(); ++p) {
+    auto id = static_cast<PieceId>(volume.piece_count + first[p]);
+    for (Piece& piece : made[p]) {
+      piece.id = id++;
+      volume.pieces.push_back(std::move(piece));
+    }
+  }
+  volume.piece_count += static_cast<PieceId>(first.back());
+  mesh::SharedVertices shared(communicator, volume);
+  shared.drop_unshared(volume);
+  if (communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0) classify_on_planes(shared, volume);
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,80 @@
+#include "layers/layer_report.hpp"
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+
+namespace aeroloom::layers {
+namespace {
+
+/// What a piece has of a patch.
+struct PieceRow {
+  PatchLayers layers;
+  std::int32_t patch = 0;
+  mesh::PieceId piece = 0;
+
+  static constexpr auto fields() { return std::tuple(&PieceRow::layers, &PieceRow::patch, &PieceRow::piece); }
+};
+
+constexpr double isotropic_enough = 0.35;  // of the mean edge: half of what is aimed at
+
+/// A third of a triangle's area, under one of its columns.
+void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLayers& patch) {
+  const std::int32_t count = limits.count(v);
+  const bool full = count >= limits.wanted_count(v), squeezed = count > 0 && limits.is_squeezed(v);
+  (full ? patch.full_area : count > 0 ? patch.partial_area : patch.empty_area) += area;
+  if (full && limits.last_height(v) >= isotropic_enough * limits.mean_edge(v)) patch.isotropic_area += area;
+  if (squeezed) patch.squeezed_area += area;
+  if (!full || squeezed) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
+  patch.layers_area += area * count;
+  patch.most_layers = std::max<std::int64_t>(patch.most_layers, count);
+}
+
+void add_triangle(const WallShare& wall, const ColumnLimits& limits, std::int32_t t, PatchLayers& patch) {
+  const auto& [a, b, c] = wall.triangles[t];
+  const double area = 0.5 * norm(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
+  std::array<std::int32_t, 3> counts{limits.count(a), limits.count(b), limits.count(c)};
+  std::sort(counts.begin(), counts.end());
+  ++patch.triangles;
+  patch.area += area;
+  patch.prisms += counts[0];
+  patch.pyramids += counts[1] - counts[0];
+  patch.tetrahedra += counts[2] - counts[1];
+  for (const std::int32_t v : {a, b, c}) add_column(limits, v, area / 3, patch);
+}
+
+void add_row(const PatchLayers& row, PatchLayers& sum) {
+  for (double PatchLayers::*member :
+       {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
+        &PatchLayers::isotropic_area, &PatchLayers::squeezed_area, &PatchLayers::layers_area})
+    sum.*member += row.*member;
+  for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
+  for (std::int64_t PatchLayers::*member :
+       {&PatchLayers::triangles, &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra})
+    sum.*member += row.*member;
+  sum.most_layers = std::max(sum.most_layers, row.most_layers);
+}
+
+}  // namespace
+
+std::vector<PatchLayers> report_patches(const parallel::Communicator& communicator, const WallShare& wall,
+                                        const ColumnLimits& limits) {
+  std::vector<PieceRow> rows;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    std::vector<PatchLayers> patches(wall.mesh.patches.size());
+    for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
+      if (wall.roles[t] == WallRole::layered) add_triangle(wall, limits, t, patches[wall.patches[t]]);
+    }
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (patches[i].triangles > 0)
+        rows.push_back({patches[i], static_cast<std::int32_t>(i), wall.mesh.pieces[p].id});
+    }
+  }
+  rows = communicator.all_gather_items(std::span<const PieceRow>(rows));
+  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+  std::vector<PatchLayers> patches(wall.mesh.patches.size());
+  for (const PieceRow& row : rows) add_row(row.layers, patches[row.patch]);
+  return patches;
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,179 @@
+#include "layers/layer_validity.hpp"
+
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::has_positive_volume;
+using geometry::Vec3;
+
+using Level = std::array<Vec3, 3>;
+
+constexpr double kept_jacobian = 0.5;  // of the scaled Jacobian at vanishing height
+constexpr double kept_angle = 0.6;     // of the wall triangle's smallest angle
+
+bool is_good_prism(const Level& q, const Level& t) {
+  for (int i = 0; i < 3; ++i) {
+    if (!has_positive_volume(q[0], q[1], q[2], t[i]) || !has_positive_volume(t[0], t[2], t[1], q[i]))
+      return false;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    if (!has_positive_volume(q[j], q[i], t[j], t[k]) || !has_positive_volume(q[j], q[i], t[i], t[k]))
+      return false;
+  }
+  return true;
+}
+
+/// Columns i and the next one are live, the third is not.
+bool is_good_pyramid(const Level& q, const Level& t, int i) {
+  const int j = (i + 1) % 3;
+  const Vec3 apex = q[(i + 2) % 3];
+  return has_positive_volume(q[j], q[i], t[j], apex) && has_positive_volume(q[j], q[i], t[i], apex) &&
+         has_positive_volume(q[i], t[i], t[j], apex) && has_positive_volume(q[j], t[i], t[j], apex);
+}
+
+/// The smallest determinant of unit vectors at the corners of a triangle: along its sides and the column.
+double corner_determinant(const Level& level, const TriangleColumns& columns) {
+  const Vec3 sides[3] = {normalized(level[1] - level[0]), normalized(level[2] - level[1]),
+                         normalized(level[0] - level[2])};
+  double least = 1;
+  for (int i = 0; i < 3; ++i)
+    least = std::min(least, dot(cross(sides[i], -sides[(i + 2) % 3]), columns[i].direction));
+  return least;
+}
+
+/// The largest cosine of a triangle's angles; of a degenerate one, 1.
+double largest_cosine(const Level& level) {
+  double largest = -1;
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 u = level[(i + 1) % 3] - level[i], w = level[(i + 2) % 3] - level[i];
+    const double lengths = norm(u) * norm(w);
+    largest = std::max(largest, lengths > 0 ? dot(u, w) / lengths : 1.0);
+  }
+  return std::min(largest, 1.0);
+}
+
+/// The nodes of the columns layer by layer.
+class Levels {
+public:
+  explicit Levels(const TriangleColumns& columns) : _columns(columns) {
+    for (int i = 0; i < 3; ++i) {
+      _level[i] = columns[i].point;
+      _layers[i] = columns[i].heights.first;
+    }
+  }
+  const Level& level() const { return _level; }
+  /// One layer on; columns that end here stay.
+  void advance() {
+    ++_k;
+    for (int i = 0; i < 3; ++i) {
+      const CornerColumn& column = _columns[i];
+      if (_k > column.count) continue;
+      if (_k > column.heights.constant) _layers[i] *= column.heights.growth;
+      _sums[i] += _layers[i];
+      _level[i] = column.point + _sums[i] * column.direction;
+    }
+  }
+
+private:
+  const TriangleColumns& _columns;
+  Level _level;
+  std::array<double, 3> _layers{}, _sums{};
+  std::int32_t _k = 0;
+};
+
+/// The cell of layer k between two levels, by how many of its columns are live there.
+bool is_good_cell(const TriangleColumns& columns, std::int32_t k, const Level& lower, const Level& upper) {
+  const bool live[3] = {columns[0].count >= k, columns[1].count >= k, columns[2].count >= k};
+  const int count = live[0] + live[1] + live[2];
+  if (count == 3) return is_good_prism(lower, upper);
+  if (count == 2) return is_good_pyramid(lower, upper, !live[2] ? 0 : !live[0] ? 1 : 2);
+  const int alone = live[0] ? 0 : live[1] ? 1 : 2;
+  return has_positive_volume(lower[0], lower[1], lower[2], upper[alone]);
+}
+
+/// What cells may not fall below, of the wall triangle.
+struct Least {
+  double determinant, cosine;
+
+  explicit Least(const TriangleColumns& columns) {
+    const Level wall{columns[0].point, columns[1].point, columns[2].point};
+    determinant = kept_jacobian * corner_determinant(wall, columns);
+    cosine = std::cos(kept_angle * std::acos(largest_cosine(wall)));
+  }
+};
+
+/// The heights of the columns' ends, and of the uppermost prism.
+struct Ends {
+  std::array<double, 3> totals, of_prisms;
+
+  explicit Ends(const TriangleColumns& columns) {
+    const std::int32_t prisms = std::min({columns[0].count, columns[1].count, columns[2].count});
+    for (int i = 0; i < 3; ++i) {
+      totals[i] = columns[i].heights.total(columns[i].count);
+      of_prisms[i] = columns[i].count == prisms ? totals[i] : columns[i].heights.total(prisms);
+    }
+  }
+  double highest() const { return std::max({totals[0], totals[1], totals[2]}); }
+};
+
+/// Whether front and uppermost prism are good where all columns shrink to a height.
+bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least& least, double height) {
+  Level front, prism;
+  for (int i = 0; i < 3; ++i) {
+    const double ratio = ends.totals[i] > height ? height / ends.totals[i] : 1;
+    front[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
+    prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
+  }
+  return largest_cosine(front) <= least.cosine && corner_determinant(prism, columns) >= least.determinant;
+}
+
+}  // namespace
+
+std::int32_t good_layers(const TriangleColumns& columns) {
+  const std::int32_t most = std::max({columns[0].count, columns[1].count, columns[2].count});
+  const std::int32_t prisms = std::min({columns[0].count, columns[1].count, columns[2].count});
+  const Least least(columns);
+  Levels levels(columns);
+  Level lower = levels.level();
+  for (std::int32_t k = 1; k <= most; ++k) {
+    levels.advance();
+    if (!is_good_cell(columns, k, lower, levels.level())) return k - 1;
+    if (k <= prisms && corner_determinant(levels.level(), columns) < least.determinant) return k - 1;
+    lower = levels.level();
+  }
+  return most;
+}
+
+bool has_good_front(const TriangleColumns& columns) {
+  return is_good_below(columns, Ends(columns), Least(columns), std::numeric_limits<double>::infinity());
+}
+
+double fitting_height(const TriangleColumns& columns) {
+  constexpr double step = 0.95;  // between heights that are tried; chosen, not measured
+  constexpr double lowest = 0.01;
+  const Ends ends(columns);
+  const Least least(columns);
+  const double highest = ends.highest();
+  if (!is_good_below(columns, ends, least, highest)) {
+    double height = step * highest;
+    while (height > lowest * highest && !is_good_below(columns, ends, least, height)) height *= step;
+    return height;
+  }
+  const std::int32_t good = good_layers(columns);
+  double below = 0;
+  bool all = true;
+  for (const CornerColumn& column : columns) {
+    below = std::max(below, column.heights.total(std::min(good, column.count)));
+    all = all && column.count <= good;
+  }
+  return all ? std::numeric_limits<double>::infinity() : std::min(below, step * highest);
+}
+
+}  // namespace aeroloom::layers

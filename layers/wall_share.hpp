@@ -1,0 +1,86 @@
+/// The wall mesh as the pieces of one rank have it, in flat arrays over all of them.
+#pragma once
+
+#include "aeroloom/layers/columns.hpp"
+#include "mesh/shared_vertices.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::layers {
+
+/// What a triangle means to the columns of its corners.
+enum class WallRole : std::int8_t {
+  layered,  ///< asks for layers
+  plane,    ///< of a plane that layers end on
+  other     ///< layers may not end here
+};
+
+/// The pieces of this rank, one after another: vertex v of piece p is number first_vertex[p] + v here,
+/// triangles alike. What several pieces know of a vertex has a place for each of them, and equal values in
+/// all.
+struct WallShare {
+  using Corners = std::array<std::int32_t, 3>;
+
+  /// Refers to the mesh. Throws CollectiveError where options do not fit it. Collective.
+  WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
+            const LayerOptions& options);
+
+  std::int32_t vertex_count() const { return static_cast<std::int32_t>(points.size()); }
+  std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }
+  std::span<const std::int32_t> triangles_around(std::int32_t vertex) const {
+    return std::span(around).subspan(first_around[vertex], first_around[vertex + 1] - first_around[vertex]);
+  }
+  /// Calls visit(neighbour) for the other corners of the layered triangles around a vertex, most of them
+  /// twice.
+  template <class Visit>
+  void for_each_neighbour(std::int32_t vertex, const Visit& visit) const {
+    for (const std::int32_t t : triangles_around(vertex)) {
+      if (roles[t] != WallRole::layered) continue;
+      for (const std::int32_t corner : triangles[t]) {
+        if (corner != vertex) visit(corner);
+      }
+    }
+  }
+
+  /// Replaces the values of a vertex in all pieces by their combination in the order of pieces. Collective.
+  template <parallel::Flat T, class Op>
+  void combine(std::vector<T>& values, const Op& op) const {
+    std::vector<T> copies = values_of_copies(values);
+    shared.reduce_and_scatter(copies, op);
+    for (std::size_t c = 0; c < copies.size(); ++c) values[vertex_of_copy[c]] = copies[c];
+  }
+  /// Replaces the values of a vertex in all pieces by that of the lowest of them. Collective.
+  template <parallel::Flat T>
+  void spread(std::vector<T>& values) const {
+    std::vector<T> copies = values_of_copies(values);
+    shared.scatter(copies);
+    for (std::size_t c = 0; c < copies.size(); ++c) values[vertex_of_copy[c]] = copies[c];
+  }
+
+  const mesh::DistributedMesh& mesh;
+  std::vector<std::int32_t> first_vertex{0}, first_triangle{0};  ///< by piece; the ends come last
+  std::vector<geometry::Vec3> points;
+  std::vector<Corners> triangles;  ///< counter-clockwise seen from the fluid: not as the mesh has them
+  std::vector<std::int32_t> patches, faces;  ///< by triangle; CAD faces
+  std::vector<WallRole> roles;
+  std::vector<geometry::Vec3> end_planes;  ///< by CAD face: normals of planes that layers end on, else zero
+  std::vector<std::int32_t> first_around,
+      around;  ///< triangles by vertex, ascending; lists end at the next first
+  mesh::SharedVertices shared;
+  std::vector<std::int32_t> vertex_of_copy;
+  std::vector<std::uint8_t> owned;  ///< 1: the vertex's own piece is the lowest that knows it
+
+private:
+  template <class T>
+  std::vector<T> values_of_copies(const std::vector<T>& values) const {
+    std::vector<T> copies(vertex_of_copy.size());
+    for (std::size_t c = 0; c < copies.size(); ++c) copies[c] = values[vertex_of_copy[c]];
+    return copies;
+  }
+};
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,52 @@
+#include "layers/wanted_layers.hpp"
+
+#include "layers/column_heights.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace aeroloom::layers {
+namespace {
+
+VertexLayers layers_of(const WallLayers& wanted) {
+  VertexLayers asked;
+  asked.first = wanted.first;
+  asked.growth = wanted.growth;
+  asked.total = wanted.total > 0 ? wanted.total : std::numeric_limits<double>::infinity();
+  asked.count = wanted.count > 0 ? wanted.count : most_layers;
+  asked.constant = wanted.constant;
+  return asked;
+}
+
+VertexLayers both(const VertexLayers& a, const VertexLayers& b) {
+  if (a.edges == 0) return b;
+  if (b.edges == 0) return a;
+  return {std::min(a.first, b.first),
+          std::min(a.growth, b.growth),
+          std::min(a.total, b.total),
+          a.edge_sum + b.edge_sum,
+          a.edges + b.edges,
+          std::min(a.count, b.count),
+          std::min(a.constant, b.constant)};
+}
+
+}  // namespace
+
+std::vector<VertexLayers> gather_wanted_layers(const WallShare& wall, const LayerOptions& options) {
+  std::vector<VertexLayers> all_wanted(wall.points.size());
+  for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
+    if (wall.roles[t] != WallRole::layered) continue;
+    VertexLayers asked = layers_of(options.patches[wall.patches[t]]);
+    asked.edges = 2;
+    const auto& [a, b, c] = wall.triangles[t];
+    const double ab = distance(wall.points[a], wall.points[b]), bc = distance(wall.points[b], wall.points[c]),
+                 ca = distance(wall.points[c], wall.points[a]);
+    asked.edge_sum = ca + ab, all_wanted[a] = both(all_wanted[a], asked);
+    asked.edge_sum = ab + bc, all_wanted[b] = both(all_wanted[b], asked);
+    asked.edge_sum = bc + ca, all_wanted[c] = both(all_wanted[c], asked);
+  }
+  wall.combine(all_wanted, both);
+  return all_wanted;
+}
+
+}  // namespace aeroloom::layers

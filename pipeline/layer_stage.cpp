@@ -1,0 +1,121 @@
+#include "pipeline/layer_stage.hpp"
+
+#include "aeroloom/sizing/sources.hpp"
+#include "aeroloom/surface/plane_remesher.hpp"
+#include "layers/end_planes.hpp"
+#include "pipeline/stage_log.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+
+namespace {
+
+/// The mean length of the edges at each vertex of a piece.
+std::vector<double> mean_edges(const mesh::Piece& piece) {
+  std::vector<double> sum(piece.vertex_count(), 0);
+  std::vector<int> count(piece.vertex_count(), 0);
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex a = piece.cell(t)[i], b = piece.cell(t)[(i + 1) % 3];
+      const double length = distance(piece.point(a), piece.point(b));
+      for (const LocalIndex v : {a, b}) sum[v] += length, ++count[v];
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) sum[v] /= std::max(1, count[v]);
+  return sum;
+}
+
+/// The places of the front where layers end: a function of the wall and its columns, for planes that were
+/// meshed again are other pieces in the front.
+struct FrontEnd {
+  Vec3 at;
+  double edge;  ///< mean length at the vertex of the front
+};
+
+std::vector<FrontEnd> ends_of_columns(const mesh::DistributedMesh& wall, const layers::Columns& columns) {
+  std::vector<FrontEnd> ends;
+  for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
+    mesh::Piece moved = wall.pieces[p];
+    const layers::PieceColumns& of_piece = columns.pieces[p];
+    for (LocalIndex v = 0; v < moved.vertex_count(); ++v)
+      moved.set_point(v, layers::node(wall.pieces[p], of_piece, v, of_piece.counts[v]));
+    const std::vector<double> edges = mean_edges(moved);
+    for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
+      if (of_piece.counts[v] > 0) ends.push_back({moved.point(v), edges[v]});
+    }
+  }
+  return ends;
+}
+
+/// What the front asks of the sizes: its own edges, where the field is well above them. Sources are thinned
+/// as if they asked for twice their size: in between the field grows by less than what counts as well above.
+std::vector<sizing::SizeSource> sizes_of_front(const parallel::Communicator& communicator,
+                                               const mesh::DistributedMesh& wall,
+                                               const layers::Columns& columns, const sizing::SizeField& field,
+                                               parallel::StageClock& clock) {
+  constexpr double well_above = 1.3, thinning = 2;
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  std::vector<sizing::SizeSource> sources;
+  for (const FrontEnd& end : ends_of_columns(wall, columns)) {
+    if (field(end.at) > well_above * end.edge) sources.push_back({end.at, thinning * end.edge});
+  }
+  const sizing::RootCube root(field.domain());
+  sources = sizing::thin_sources(root, sources);
+  sources =
+      sizing::thin_sources(root, communicator.all_gather_items(std::span<const sizing::SizeSource>(sources)));
+  for (sizing::SizeSource& source : sources) source.size /= thinning;
+  return sources;
+}
+
+/// Ascending.
+std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communicator,
+                                         const mesh::DistributedMesh& wall,
+                                         const layers::LayerOptions& options) {
+  std::vector<cad::FaceId> faces;
+  const std::vector<Vec3> normals = layers::find_end_planes(communicator, wall, options);
+  for (std::size_t face = 0; face < normals.size(); ++face) {
+    if (!(normals[face] == Vec3{})) faces.push_back(static_cast<cad::FaceId>(face));
+  }
+  return faces;
+}
+
+}  // namespace
+
+LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
+                            const cad::Model& model, FinishedSurface& surface, report::RunRecord& record) {
+  surface.mesh.patch_types = record.patch_types;
+  const layers::LayerOptions options =
+      cases::layer_options(input.layers, input.sizing, surface.mesh.patches, record.patch_types);
+  const surface::PlanesToRemesh planes{faces_of_planes(communicator, surface.mesh, options), input.surface};
+  const auto remesh = [&](mesh::DistributedMesh& front) {
+    surface::PlaneConflicts conflicts =
+        surface::remesh_planes(communicator, model, surface.field, planes, front, record.clock);
+    return std::move(conflicts.vertices);
+  };
+  layers::Layers made = layers::build_layers(communicator, surface, options, record.clock, remesh);
+  record.layers.emplace(report::LayerRecord{options, std::move(made.report), !planes.faces.empty()});
+  log_layers(record);
+  const std::vector<sizing::SizeSource> sizes =
+      sizes_of_front(communicator, surface.mesh, made.columns, surface.field, record.clock);
+  sizing::SizeField field =
+      sizes.empty() ? surface.field : surface.field.refined(communicator, sizes, record.clock);
+  return {std::move(made.columns), layers::name_front(communicator, std::move(made.front)), std::move(field)};
+}
+
+void append_layers(const parallel::Communicator& communicator, const cases::Case& input,
+                   const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+                   mesh::DistributedMesh& volume, report::RunRecord& record) {
+  constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
+  const parallel::ScopedCpu task(record.clock, parallel::ScopedCpu::As::task);
+  layers::append_layers(communicator, surface, layered.columns, layered.front,
+                        input.volume.piece_tets.value_or(most_cells), volume);
+}
+
+}  // namespace aeroloom::pipeline

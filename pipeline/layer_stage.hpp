@@ -1,0 +1,28 @@
+/// Boundary layers in a run: between the surface and the volume, which fills what is behind their front.
+#pragma once
+
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/layers/layer_cells.hpp"
+#include "pipeline/finished_surface.hpp"
+#include "pipeline/run.hpp"
+
+namespace aeroloom::pipeline {
+
+/// The layers on a surface, and what the volume starts from: their front, and sizes that go with it.
+struct LayeredSurface {
+  layers::Columns columns;
+  layers::NamedFront front;
+  sizing::SizeField field;
+};
+
+/// Columns on the walls of the surface; planes that layers end on are meshed again. Collective. Throws
+/// std::invalid_argument for layers of patches that there are not.
+LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
+                            const cad::Model& model, FinishedSurface& surface, report::RunRecord& record);
+
+/// Puts the layers before the tetrahedra behind their front. Collective.
+void append_layers(const parallel::Communicator& communicator, const cases::Case& input,
+                   const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+                   mesh::DistributedMesh& volume, report::RunRecord& record);
+
+}  // namespace aeroloom::pipeline

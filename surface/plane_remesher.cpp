@@ -1,0 +1,226 @@
+#include "aeroloom/surface/plane_remesher.hpp"
+
+#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "mesh/shared_vertices.hpp"
+#include "surface/face_loops.hpp"
+#include "surface/free_curves.hpp"
+#include "surface/piece_mesher.hpp"
+#include "surface/plane_support.hpp"
+#include "surface/subface_dealer.hpp"
+#include "surface/support_mesher.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::surface {
+namespace {
+
+using cad::FaceId;
+using parallel::ScopedCpu;
+
+void make_unique(std::vector<mesh::SharedVertexKey>& keys) {
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+/// New pieces of some faces.
+class PlaneRemesher {
+public:
+  PlaneRemesher(const parallel::Communicator& communicator, const cad::Model& model,
+                const sizing::SizeField& field, const PlanesToRemesh& planes, parallel::StageClock& clock)
+      : _communicator(communicator),
+        _model(model),
+        _field(field),
+        _faces(planes.faces),
+        _options{planes.options},
+        _clock(clock),
+        _dealer(communicator, model, _options, clock) {}
+
+  /// Pieces of all faces, unless there are conflicts.
+  PlaneConflicts mesh(const mesh::DistributedMesh& surface) {
+    _loops = gather_loops(_communicator, surface, _faces);
+    parallel::agree(_communicator, [&] {
+      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
+    });
+    for (std::vector<FaceId> faces = _faces; !faces.empty();) {
+      Subfaces whole = make_whole_subfaces(faces);
+      if (PlaneConflicts found = gather_conflicts(); !found.empty()) return found;
+      DealtSubfaces dealt = _dealer.deal(std::move(whole), _costs, _field);
+      for (const FaceId face : faces) _parts[face] = 0;
+      for (const auto& [key, place] : dealt.places) ++_parts[key[0]];
+      parallel::agree(_communicator, [&] { mesh_subfaces(dealt); });
+      if (PlaneConflicts found = gather_conflicts(); !found.empty()) return found;
+      faces = leave_whole();
+    }
+    return {};
+  }
+
+  /// Puts the new pieces in the place of the old ones.
+  void replace(mesh::DistributedMesh& surface) {
+    const mesh::PieceId kept = drop_old(surface);
+    std::map<FaceId, mesh::PieceId> first;
+    surface.piece_count = kept;
+    for (const auto& [face, parts] : _parts) {
+      first[face] = surface.piece_count;
+      surface.piece_count += parts;
+    }
+    for (auto& [place, piece] : _pieces) {
+      piece.id = first[place.first] + place.second;
+      surface.pieces.push_back(std::move(piece));
+    }
+    classify_like_others(kept, surface);
+  }
+
+private:
+  /// Of faces whose loops are on this rank.
+  Subfaces make_whole_subfaces(const std::vector<FaceId>& faces) {
+    constexpr double seconds_per_triangle = 3e-6;  // about; no result depends on it
+    Subfaces subfaces;
+    _costs.clear();
+    parallel::agree(_communicator, [&] {
+      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      for (const auto& [face, loops] : _loops) {
+        if (!std::binary_search(faces.begin(), faces.end(), face)) continue;
+        const double begin = parallel::cpu_seconds();
+        const SubfaceKey key{face, 0, 0};
+        try {
+          subfaces.emplace(key, subface_of_plane(_model, face, loops, _field));
+        } catch (const FaceConflict& conflict) {
+          blame(conflict.vertices(), conflict.what());
+        }
+        _costs[key] = (parallel::cpu_seconds() - begin) / seconds_per_triangle;
+      }
+    });
+    return subfaces;
+  }
+
+  void mesh_subfaces(const DealtSubfaces& dealt) {
+    for (const auto& [key, subface] : dealt.subfaces) {
+      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      const double begin = parallel::cpu_seconds();
+      const FaceId face = key[0];
+      try {
+        mesh::Piece piece = mesh_piece(_model, subface, _field, _options);
+        _clock.note_task({"surface piece", face,
+                          load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
+                          parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
+        _pieces.insert_or_assign({face, dealt.places.at(key)}, std::move(piece));
+      } catch (const FaceConflict& conflict) {
+        reject(face, subface, conflict.vertices(), conflict.what());
+      } catch (const SurfaceError& error) {
+        reject(face, subface, {}, error.what());
+      }
+    }
+  }
+
+  /// A face that its pieces make fail is left whole; else the vertices on its loops are to blame, all where
+  /// nobody knows which.
+  void reject(FaceId face, const Subface& subface, const std::vector<mesh::SharedVertexKey>& vertices,
+              const std::string& complaint) {
+    if (_parts[face] > 1) {
+      _undivided.push_back(face);
+    } else {
+      blame(vertices.empty() ? subface.vertices.vertex_keys : vertices, complaint);
+    }
+  }
+
+  void blame(const std::vector<mesh::SharedVertexKey>& vertices, const std::string& complaint) {
+    _mine.vertices.insert(_mine.vertices.end(), vertices.begin(), vertices.end());
+    if (_mine.complaint.empty()) _mine.complaint = complaint;
+  }
+
+  /// Those of all ranks; the complaint of the lowest rank that has one.
+  PlaneConflicts gather_conflicts() const {
+    PlaneConflicts all;
+    all.vertices = _communicator.all_gather_items<mesh::SharedVertexKey>(_mine.vertices);
+    make_unique(all.vertices);
+    for (const std::string& complaint : _communicator.all_gather_values(_mine.complaint)) {
+      if (all.complaint.empty()) all.complaint = complaint;
+    }
+    return all;
+  }
+
+  /// The faces that are to be made again in one piece each, ascending, the same on every rank.
+  std::vector<FaceId> leave_whole() {
+    std::vector<FaceId> faces = _communicator.all_gather_items<FaceId>(_undivided);
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    _undivided.clear();
+    _dealer.leave_whole(faces);
+    std::erase_if(_pieces, [&](const auto& entry) {
+      return std::binary_search(faces.begin(), faces.end(), entry.first.first);
+    });
+    return faces;
+  }
+
+  /// Takes the pieces of the faces away; others get the numbers from 0 on. Returns how many these are.
+  mesh::PieceId drop_old(mesh::DistributedMesh& surface) const {
+    const auto is_old = [&](const mesh::Piece& piece) {
+      return std::binary_search(_faces.begin(), _faces.end(), piece.common_face());
+    };
+    std::vector<mesh::PieceId> old;
+    for (const mesh::Piece& piece : surface.pieces) {
+      if (is_old(piece)) old.push_back(piece.id);
+    }
+    old = _communicator.all_gather_items<mesh::PieceId>(old);
+    std::sort(old.begin(), old.end());
+    std::erase_if(surface.pieces, is_old);
+    for (mesh::Piece& piece : surface.pieces) {
+      piece.id -=
+          static_cast<mesh::PieceId>(std::lower_bound(old.begin(), old.end(), piece.id) - old.begin());
+    }
+    return surface.piece_count - static_cast<mesh::PieceId>(old.size());
+  }
+
+  /// Vertices of the new pieces, from `first_new` on, that older ones know are classified as there.
+  void classify_like_others(mesh::PieceId first_new, mesh::DistributedMesh& surface) const {
+    struct Place {
+      std::int32_t dimension, entity;
+      static constexpr auto fields() { return std::tuple(&Place::dimension, &Place::entity); }
+    };
+    const mesh::SharedVertices shared(_communicator, surface);
+    std::vector<Place> places(shared.size());
+    shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
+      const mesh::Piece& piece = surface.pieces[p];
+      places[copy] = {static_cast<std::int32_t>(piece.vertex_dimension[v]), piece.vertex_entity[v]};
+    });
+    shared.scatter(places);
+    shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
+      mesh::Piece& piece = surface.pieces[p];
+      if (piece.id < first_new) return;
+      piece.vertex_dimension[v] = static_cast<mesh::CadDimension>(places[copy].dimension);
+      piece.vertex_entity[v] = places[copy].entity;
+    });
+  }
+
+  const parallel::Communicator& _communicator;
+  const cad::Model& _model;
+  const sizing::SizeField& _field;
+  const std::vector<FaceId>& _faces;
+  CutOptions _options;
+  parallel::StageClock& _clock;
+  SubfaceDealer _dealer;
+  std::map<FaceId, FaceLoops> _loops;     // on this rank
+  std::map<SubfaceKey, double> _costs;    // of the subfaces made here, in triangles to mesh
+  std::map<FaceId, std::int32_t> _parts;  // of each face: pieces
+  std::map<std::pair<FaceId, std::int32_t>, mesh::Piece> _pieces;  // on this rank, by face and place there
+  PlaneConflicts _mine;                                            // of this rank
+  std::vector<FaceId> _undivided;  // that had better stay whole, says this rank
+};
+
+}  // namespace
+
+PlaneConflicts remesh_planes(const parallel::Communicator& communicator, const cad::Model& model,
+                             const sizing::SizeField& field, const PlanesToRemesh& planes,
+                             mesh::DistributedMesh& surface, parallel::StageClock& clock) {
+  if (planes.faces.empty()) return {};
+  PlaneRemesher remesher(communicator, model, field, planes, clock);
+  PlaneConflicts conflicts = remesher.mesh(surface);
+  if (conflicts.empty()) remesher.replace(surface);
+  return conflicts;
+}
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,334 @@
+#include "aeroloom/layers/columns.hpp"
+#include "aeroloom/mesh/cell_measures.hpp"
+#include "aeroloom/mesh/delivery.hpp"
+#include "geometry/predicates.hpp"
+#include "mesh/intersection.hpp"
+#include "tests/layers/wall_meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::layers {
+namespace {
+
+using examples::Fluid;
+using examples::Shapes;
+using geometry::Vec3;
+using parallel::Communicator;
+
+/// Layers on patches by their index.
+LayerOptions options_for(std::vector<double> first) {
+  LayerOptions options;
+  options.patches.resize(first.size());
+  for (std::size_t p = 0; p < first.size(); ++p) options.patches[p].first = first[p];
+  return options;
+}
+
+Layers build(const Communicator& communicator, const mesh::DistributedMesh& mesh,
+             const LayerOptions& options) {
+  parallel::StageClock clock;
+  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(communicator, mesh)};
+  return build_layers(communicator, wall, options, clock);
+}
+
+double enclosed_volume(const mesh::DistributedMesh& mesh) {
+  double volume6 = 0;
+  for (const mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      volume6 += dot(piece.point(v[0]), cross(piece.point(v[1]), piece.point(v[2])));
+    }
+  }
+  return volume6 / 6;
+}
+
+/// All ways to cut a prism into tetrahedra: those of four corners that lie in no side, seen from the layers
+/// below and above. Written from the definition, not from what the stage does.
+void expect_good_prism(const std::array<Vec3, 6>& p) {
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a + 1; b < 6; ++b) {
+      for (int c = b + 1; c < 6; ++c) {
+        for (int d = c + 1; d < 6; ++d) {
+          const std::array<int, 4> corners{a, b, c, d};
+          const auto lower = std::count_if(corners.begin(), corners.end(), [](int i) { return i < 3; });
+          const bool is_side = lower == 2 && a == c - 3 && b == d - 3;
+          if (is_side) continue;
+          // The same corners of a right prism tell the orientation.
+          const auto right = [](int i) {
+            return Vec3{i % 3 == 1 ? 1.0 : 0.0, i % 3 == 2 ? 1.0 : 0.0, i < 3 ? 0.0 : 1.0};
+          };
+          const int expected = geometry::orient3d(right(a), right(b), right(c), right(d));
+          EXPECT_EQ(geometry::orient3d(p[a], p[b], p[c], p[d]), expected);
+        }
+      }
+    }
+  }
+}
+
+/// Volume of the cells over a triangle whose corners are counter-clockwise seen from the fluid; expects all
+/// to be valid.
+double check_cells(const mesh::Piece& piece, const PieceColumns& columns, std::array<mesh::LocalIndex, 3> v) {
+  const auto at = [&](int i, std::int32_t k) {
+    return node(piece, columns, v[i], std::min(k, columns.counts[v[i]]));
+  };
+  const std::int32_t most = std::max({columns.counts[v[0]], columns.counts[v[1]], columns.counts[v[2]]});
+  double volume = 0;
+  for (std::int32_t k = 1; k <= most; ++k) {
+    const std::array<Vec3, 6> p{at(0, k - 1), at(1, k - 1), at(2, k - 1), at(0, k), at(1, k), at(2, k)};
+    std::array<int, 3> live{};
+    int count = 0, dead = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (columns.counts[v[i]] >= k)
+        live[count++] = i;
+      else
+        dead = i;
+    }
+    if (count == 3) {
+      expect_good_prism(p);
+      volume += mesh::cell_volume(mesh::CellShape::prism, p.data());
+    } else if (count == 2) {
+      const int i = (dead + 1) % 3, j = (dead + 2) % 3;
+      const std::array<Vec3, 5> pyramid{p[i], p[i + 3], p[j + 3], p[j], p[dead]};
+      EXPECT_TRUE(mesh::has_positive_corners(mesh::CellShape::pyramid, pyramid.data()));
+      volume += mesh::cell_volume(mesh::CellShape::pyramid, pyramid.data());
+    } else {
+      const std::array<Vec3, 4> tetrahedron{p[0], p[1], p[2], p[live[0] + 3]};
+      EXPECT_TRUE(mesh::has_positive_corners(mesh::CellShape::tetrahedron, tetrahedron.data()));
+      volume += mesh::cell_volume(mesh::CellShape::tetrahedron, tetrahedron.data());
+    }
+  }
+  return volume;
+}
+
+/// All cells are valid and fill what lies between wall and front, which is free of intersections; counts of
+/// neighbours are within the stairs.
+void expect_valid(const Communicator& communicator, const mesh::DistributedMesh& wall, const Layers& layers,
+                  std::int32_t stairs = 3) {
+  ASSERT_EQ(layers.columns.pieces.size(), wall.pieces.size());
+  double volume = 0;
+  for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
+    const mesh::Piece& piece = wall.pieces[p];
+    const PieceColumns& columns = layers.columns.pieces[p];
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      volume += check_cells(piece, columns, {v[0], v[2], v[1]});
+      for (int i = 0; i < 3; ++i)
+        EXPECT_LE(std::abs(columns.counts[v[i]] - columns.counts[v[(i + 1) % 3]]), stairs);
+    }
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
+      EXPECT_EQ(layers.front.pieces[p].point(v), node(piece, columns, v, columns.counts[v]));
+  }
+  const double between = enclosed_volume(wall) - enclosed_volume(layers.front);
+  EXPECT_NEAR(communicator.sum(volume), communicator.sum(between),
+              1e-10 * std::abs(communicator.sum(enclosed_volume(wall))));
+  parallel::StageClock clock;
+  EXPECT_TRUE(mesh::find_intersections(communicator, layers.front, clock).empty());
+}
+
+void expect_same(const Shapes& shapes, int pieces, const LayerOptions& options) {
+  const auto world = Communicator::world(), self = Communicator::self();
+  const mesh::DistributedMesh mesh = shapes.distribute(world, pieces),
+                              whole = shapes.distribute(self, pieces);
+  const Layers spread = build(world, mesh, options), alone = build(self, whole, options);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const std::size_t other = mesh::position_of(whole, mesh.pieces[p].id);
+    const PieceColumns &a = spread.columns.pieces[p], &b = alone.columns.pieces[other];
+    EXPECT_EQ(a.directions, b.directions);
+    EXPECT_EQ(a.counts, b.counts);
+    EXPECT_EQ(a.growth, b.growth);
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(spread.front.pieces[p].coordinates, alone.front.pieces[other].coordinates);
+  }
+  EXPECT_EQ(spread.report.validity_rounds, alone.report.validity_rounds);
+  EXPECT_EQ(spread.report.crossings, alone.report.crossings);
+  for (std::size_t i = 0; i < spread.report.patches.size(); ++i) {
+    const PatchLayers &a = spread.report.patches[i], &b = alone.report.patches[i];
+    EXPECT_EQ(a.area, b.area);
+    EXPECT_EQ(a.full_area, b.full_area);
+    EXPECT_EQ(a.limited_area, b.limited_area);
+    EXPECT_EQ(a.prisms, b.prisms);
+  }
+}
+
+Shapes sphere_in_a_sphere() {
+  return Shapes().add_sphere({0, 0, 0}, 10, 8, Fluid::inside).add_sphere({0.1, 0, 0}, 1, 12, Fluid::outside);
+}
+Shapes cube_in_a_sphere() {
+  return Shapes()
+      .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
+      .add_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, Fluid::outside);
+}
+Shapes inside_of_a_box() {
+  return Shapes().add_box({0, 0, 0}, {1, 1, 1}, {9, 9, 9}, Fluid::inside);
+}
+/// Plates of thickness 0.5 with a slit between.
+Shapes slit(double width) {
+  return Shapes()
+      .add_sphere({1, 1, 0.5}, 12, 8, Fluid::inside)
+      .add_box({0, 0, -0.5 - width}, {2, 2, -width}, {10, 10, 3}, Fluid::outside)
+      .add_box({0, 0, 0}, {2, 2, 0.5}, {10, 10, 3}, Fluid::outside);
+}
+Shapes two_spheres(double distance) {
+  return Shapes()
+      .add_sphere({0, 0, 0}, 15, 8, Fluid::inside)
+      .add_sphere({-1 - distance / 2, 0, 0}, 1, 12, Fluid::outside)
+      .add_sphere({1 + distance / 2, 0, 0}, 1, 12, Fluid::outside);
+}
+/// The inside of a wedge of 10 degrees, cut off before its edge or not: a box whose height falls along x.
+Shapes inside_of_a_wedge() {
+  const double slope = std::tan(5 * M_PI / 180);
+  return Shapes().add_box({0, 0, -1}, {1, 1, 1}, {10, 10, 4}, Fluid::inside, [=](Vec3 p) {
+    return Vec3{p.x, p.y, p.z * slope * (p.x + 0.02)};
+  });
+}
+
+TEST(BuildLayers, CoverASphereInASphere) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = sphere_in_a_sphere().distribute(world, 5);
+  const Layers layers = build(world, mesh, options_for({0, 1e-3}));
+  expect_valid(world, mesh, layers);
+  const PatchLayers& patch = layers.report.patches[1];
+  EXPECT_EQ(patch.partial_area, 0);
+  EXPECT_GT(patch.isotropic_area, 0.9 * patch.area);
+  EXPECT_EQ(patch.triangles, 12 * 12 * 12);
+  EXPECT_EQ(layers.report.patches[0].area, 0);
+  EXPECT_GE(patch.most_layers, 24);
+  EXPECT_NEAR(patch.layers_area / patch.area, 25, 3);
+  EXPECT_EQ(layers.report.crossings, 0);
+  for (const PieceColumns& columns : layers.columns.pieces) {
+    for (std::size_t v = 0; v < columns.counts.size(); ++v) {
+      if (columns.counts[v] == 0) continue;
+      EXPECT_NEAR(columns.first[v], 1e-3, 2e-5) << "along the normals of the triangles";
+    }
+  }
+}
+
+TEST(BuildLayers, CoverTheEdgesAndCornersOfACube) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = cube_in_a_sphere().distribute(world, 5);
+  const Layers layers = build(world, mesh, options_for({0, 1e-4}));
+  expect_valid(world, mesh, layers);
+  const PatchLayers& patch = layers.report.patches[1];
+  EXPECT_EQ(patch.empty_area, 0);
+  EXPECT_GT(patch.full_area, 0.95 * patch.area);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 at = mesh.pieces[p].point(v);
+      const auto is_end = [](double x) { return x == 0 || x == 1; };
+      if (is_end(at.x) + is_end(at.y) + is_end(at.z) != 2) continue;
+      EXPECT_NEAR(layers.columns.pieces[p].first[v], std::sqrt(2.0) * 1e-4, 0.1e-4) << "on an edge they lean";
+    }
+  }
+}
+
+TEST(BuildLayers, FillTheCornersOfABox) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = inside_of_a_box().distribute(world, 5);
+  const Layers layers = build(world, mesh, options_for({1e-3}));
+  expect_valid(world, mesh, layers);
+  const PatchLayers& patch = layers.report.patches[0];
+  EXPECT_EQ(patch.empty_area, 0);
+  EXPECT_GT(patch.squeezed_area, 0) << "towards the edges";
+  EXPECT_GT(patch.full_area, 0.7 * patch.area);
+}
+
+TEST(BuildLayers, LeaveRoomInASlit) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = slit(0.3).distribute(world, 7);
+  const Layers layers = build(world, mesh, options_for({0, 1e-3, 1e-3}));
+  expect_valid(world, mesh, layers);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 from = mesh.pieces[p].point(v), to = layers.front.pieces[p].point(v);
+      const bool in_slit = from.x > 0.3 && from.x < 1.7 && from.y > 0.3 && from.y < 1.7;
+      if (!in_slit || (from.z != 0 && from.z != -0.3)) continue;
+      EXPECT_LT(std::abs(to.z - from.z), 0.4 * 0.3 * (1 + 1e-6));
+      EXPECT_GT(layers.columns.pieces[p].counts[v], 15) << "squeezed before layers are dropped";
+    }
+  }
+  EXPECT_GT(layers.report.patches[1].limited_area[static_cast<std::size_t>(LayerLimit::gap)], 1);
+}
+
+TEST(BuildLayers, EndWhereAWedgeIsTooSharp) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = inside_of_a_wedge().distribute(world, 4);
+  const Layers layers = build(world, mesh, options_for({1e-4}));
+  expect_valid(world, mesh, layers);
+  EXPECT_LT(layers.report.patches[0].empty_area, 0.1 * layers.report.patches[0].area);
+}
+
+TEST(BuildLayers, KeepTwoSpheresApart) {
+  const auto world = Communicator::world();
+  for (const double distance : {0.3, 0.02}) {
+    const mesh::DistributedMesh mesh = two_spheres(distance).distribute(world, 6);
+    const Layers layers = build(world, mesh, options_for({0, 1e-3, 1e-3}));
+    expect_valid(world, mesh, layers);
+    EXPECT_EQ(layers.report.patches[1].empty_area, 0);
+    EXPECT_GT(layers.report.patches[2].full_area, 0.7 * layers.report.patches[2].area);
+  }
+}
+
+TEST(BuildLayers, StepDownToFacesWhereTheyMayNotEnd) {
+  const auto world = Communicator::world();
+  mesh::DistributedMesh mesh = cube_in_a_sphere().distribute(world, 5);
+  mesh.patches.emplace_back("top");
+  for (mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const bool top = std::all_of(piece.cell(t), piece.cell(t) + 3,
+                                   [&](mesh::LocalIndex v) { return piece.point(v).z == 1; });
+      if (top) piece.triangle_patch[t] = 2;
+    }
+  }
+  LayerOptions options = options_for({0, 1e-3, 0});
+  options.stairs = 2;
+  const Layers layers = build(world, mesh, options);
+  expect_valid(world, mesh, layers, 2);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      if (mesh.pieces[p].point(v).z != 1) continue;
+      EXPECT_EQ(layers.columns.pieces[p].counts[v], 0);
+    }
+  }
+  const PatchLayers& patch = layers.report.patches[1];
+  EXPECT_GT(patch.limited_area[static_cast<std::size_t>(LayerLimit::stairs)], 0);
+  EXPECT_GT(patch.limited_area[static_cast<std::size_t>(LayerLimit::ending)], 0);
+  EXPECT_EQ(layers.report.patches[2].area, 0);
+}
+
+TEST(BuildLayers, LeaveAWallWithoutLayersAsItIs) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = sphere_in_a_sphere().distribute(world, 3);
+  const Layers layers = build(world, mesh, {});
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    EXPECT_EQ(layers.front.pieces[p].coordinates, mesh.pieces[p].coordinates);
+    EXPECT_EQ(layers.front.pieces[p].vertex_dimension, mesh.pieces[p].vertex_dimension);
+  }
+}
+
+TEST(BuildLayers, RefuseOptionsThatDoNotFit) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = sphere_in_a_sphere().distribute(world, 3);
+  const auto refused = [&](const std::function<void(LayerOptions&)>& change) {
+    LayerOptions options = options_for({0, 1e-3});
+    change(options);
+    EXPECT_THROW(build(world, mesh, options), std::runtime_error);
+  };
+  refused([](LayerOptions& o) { o.patches.resize(3); });
+  refused([](LayerOptions& o) { o.patches[1].first = -1; });
+  refused([](LayerOptions& o) { o.patches[1].growth = 0.9; });
+  refused([](LayerOptions& o) { o.patches[1].growth = 1; });
+  refused([](LayerOptions& o) { o.patches[1].constant = 0; });
+  refused([](LayerOptions& o) { o.stairs = 0; });
+}
+
+TEST(BuildLayers, GiveTheSameOnAnyNumberOfRanks) {
+  expect_same(cube_in_a_sphere(), 5, options_for({0, 1e-4}));
+  expect_same(slit(0.1), 7, options_for({0, 1e-3, 1e-3}));
+  expect_same(inside_of_a_wedge(), 4, options_for({1e-4}));
+}
+
+}  // namespace
+}  // namespace aeroloom::layers

@@ -1,0 +1,108 @@
+#include "layers/front.hpp"
+
+#include "layers/good_columns.hpp"
+#include "mesh/intersection.hpp"
+#include "tests/layers/wall_meshes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::layers {
+namespace {
+
+using parallel::Communicator;
+
+/// Two plates with a slit between that is narrower than layers from both sides.
+examples::Shapes narrow_slit() {
+  return examples::Shapes()
+      .add_box({-5, -5, -5}, {7, 7, 7}, {4, 4, 4}, examples::Fluid::inside)
+      .add_box({0, 0, -0.7}, {2, 2, -0.2}, {8, 8, 2}, examples::Fluid::outside)
+      .add_box({0, 0, 0}, {2, 2, 0.5}, {8, 8, 2}, examples::Fluid::outside);
+}
+
+LayerOptions layers_on_plates() {
+  LayerOptions options;
+  options.patches.resize(3);
+  options.patches[1].first = options.patches[2].first = 1e-3;
+  return options;
+}
+
+/// Columns of a wall that nobody has told of gaps.
+struct Unaware {
+  Unaware(const Communicator& communicator, const mesh::DistributedMesh& mesh)
+      : wall(communicator, mesh, layers_on_plates()),
+        fans(gather_fans(communicator, wall)),
+        directions(find_directions(wall, fans)),
+        limits(wall, layers_on_plates(), fans, directions) {
+    limits.converge(communicator);
+    shrink_to_good(communicator, wall, directions, limits);
+  }
+  mesh::DistributedMesh front() const {
+    return make_front(wall.mesh, make_columns(wall, directions, limits));
+  }
+
+  WallShare wall;
+  Fans fans;
+  Directions directions;
+  ColumnLimits limits;
+};
+
+mesh::DistributedMesh clear(const Communicator& communicator, Unaware& columns, LayerReport& report) {
+  parallel::StageClock clock;
+  const PlaneRemesher none;
+  return FrontClearing(communicator, columns.wall, columns.directions, none)
+      .run(columns.limits, report, clock);
+}
+
+TEST(Front, ShrinksUntilNoTrianglesMeet) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = narrow_slit().distribute(world, 5);
+  Unaware columns(world, mesh);
+  parallel::StageClock clock;
+  EXPECT_FALSE(mesh::find_intersections(world, columns.front(), clock).empty());
+  LayerReport report;
+  clear(world, columns, report);
+  EXPECT_TRUE(mesh::find_intersections(world, columns.front(), clock).empty());
+  EXPECT_GE(report.crossing_rounds, 1);
+  EXPECT_GT(report.crossings, 0);
+  EXPECT_EQ(report.zeroed_by_force, 0);
+  std::int64_t crossing = 0, live = 0;
+  for (std::int32_t v = 0; v < columns.wall.vertex_count(); ++v) {
+    crossing += columns.limits.cause(v) == LayerLimit::crossing;
+    live += columns.limits.count(v) > 0;
+  }
+  EXPECT_GT(world.sum(crossing), 0);
+  EXPECT_GT(world.sum(live), 100);
+}
+
+TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
+  const auto world = Communicator::world(), self = Communicator::self();
+  const auto cleared = [](const Communicator& communicator) {
+    const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);
+    Unaware columns(communicator, mesh);
+    LayerReport report;
+    const mesh::DistributedMesh front = clear(communicator, columns, report);
+    return mesh::hash_mesh(communicator, front, mesh::number_mesh(communicator, front));
+  };
+  EXPECT_EQ(cleared(world), cleared(self));
+}
+
+TEST(Front, LeavesCrossingsOfTheWallItself) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh =
+      examples::Shapes()
+          .add_box({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, examples::Fluid::outside)
+          .add_box({0.5, 0.3, 0.2}, {1.6, 1.5, 1.4}, {2, 2, 2}, examples::Fluid::outside)
+          .distribute(world, 3);
+  WallShare wall(world, mesh, {});
+  const Fans fans = gather_fans(world, wall);
+  const Directions directions = find_directions(wall, fans);
+  ColumnLimits limits(wall, {}, fans, directions);
+  LayerReport report;
+  parallel::StageClock clock;
+  const PlaneRemesher none;
+  FrontClearing(world, wall, directions, none).run(limits, report, clock);
+  EXPECT_EQ(report.crossing_rounds, 0);
+}
+
+}  // namespace
+}  // namespace aeroloom::layers

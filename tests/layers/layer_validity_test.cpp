@@ -1,0 +1,93 @@
+#include "layers/layer_validity.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+
+/// Equilateral, of edge 1, with `count` layers of `height` straight up.
+TriangleColumns upright(double height, std::int32_t count) {
+  TriangleColumns columns;
+  const Vec3 corners[3] = {{0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(0.75), 0}};
+  for (int i = 0; i < 3; ++i) columns[i] = {corners[i], {0, 0, 1}, {height, 1, 1}, count};
+  return columns;
+}
+
+TEST(GoodLayers, AreAllOfAnUprightColumn) {
+  EXPECT_EQ(good_layers(upright(0.1, 7)), 7);
+  EXPECT_EQ(good_layers(upright(1e-9, 7)), 7);
+  EXPECT_EQ(good_layers(upright(0.1, 0)), 0);
+}
+
+TEST(GoodLayers, EndWhereColumnsCross) {
+  TriangleColumns columns = upright(0.1, 20);
+  // Leans by 45 degrees towards the middle of the opposite side, so the prism is flat at a height of 0.87.
+  columns[2].direction = normalized(Vec3{0, -1, 1});
+  const std::int32_t good = good_layers(columns);
+  EXPECT_GT(good, 2);
+  EXPECT_LT(good, 10) << "0.87 / (0.1 sqrt(0.5)) = 12, and the Jacobian falls to half before";
+}
+
+TEST(GoodLayers, AreBadOnTheWrongSideOfTheWall) {
+  TriangleColumns columns = upright(0.1, 3);
+  for (CornerColumn& column : columns) column.direction = {0, 0, -1};
+  EXPECT_EQ(good_layers(columns), 0);
+  columns[1].count = columns[2].count = 0;
+  EXPECT_EQ(good_layers(columns), 0) << "tetrahedra";
+  columns[1].count = 3;
+  EXPECT_EQ(good_layers(columns), 0) << "pyramids";
+}
+
+TEST(GoodLayers, CountTheCellsOfClippedColumns) {
+  for (int alone = 0; alone < 3; ++alone) {
+    TriangleColumns columns = upright(0.1, 5);
+    columns[alone].count = 2;
+    EXPECT_EQ(good_layers(columns), 5) << "pyramids on prisms";
+    columns[(alone + 1) % 3].count = 4;
+    EXPECT_EQ(good_layers(columns), 5) << "and a tetrahedron";
+  }
+}
+
+TEST(FittingHeight, KeepsTheAngleOfTheFront) {
+  TriangleColumns columns = upright(0.1, 30);
+  columns[0].count = columns[1].count = 3;
+  // Sides of the front: 1, and the root of 1 + h^2 twice; its least angle falls below 36 degrees at h = 1.28.
+  EXPECT_EQ(good_layers(columns), 30);
+  EXPECT_FALSE(has_good_front(columns));
+  const double height = fitting_height(columns);
+  EXPECT_LT(height, 0.3 + 1.28);
+  EXPECT_GT(height, (0.3 + 1.28) * 0.95 - 1e-9);
+  columns[2].count = 14;
+  EXPECT_TRUE(has_good_front(columns));
+  EXPECT_EQ(fitting_height(columns), std::numeric_limits<double>::infinity());
+}
+
+TEST(FittingHeight, EndsBelowTheFirstBadLayer) {
+  TriangleColumns columns = upright(0.1, 20);
+  columns[2].direction = normalized(Vec3{0, -1, 1});
+  double height = fitting_height(columns);
+  EXPECT_LT(height, 2.0);
+  for (CornerColumn& column : columns) column.count = static_cast<std::int32_t>(height / 0.1);
+  while ((height = fitting_height(columns)) < 10) {
+    const std::int32_t count = columns[0].count;
+    for (CornerColumn& column : columns) column.count = static_cast<std::int32_t>(height / 0.1);
+    ASSERT_LT(columns[0].count, count);
+  }
+  EXPECT_GT(columns[0].count, 2);
+  EXPECT_EQ(good_layers(columns), columns[0].count);
+  EXPECT_TRUE(has_good_front(columns));
+}
+
+TEST(FittingHeight, IsZeroWhereNoLayerIsGood) {
+  TriangleColumns columns = upright(0.1, 3);
+  for (CornerColumn& column : columns) column.direction = normalized(Vec3{1, 1, -0.5});
+  EXPECT_LT(fitting_height(columns), 0.1);
+}
+
+}  // namespace
+}  // namespace aeroloom::layers

@@ -1,0 +1,103 @@
+/// Walls with columns as a test wants them, and the volume that is filled behind their front.
+#pragma once
+
+#include "aeroloom/improve/improver.hpp"
+#include "aeroloom/layers/layer_cells.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
+#include "aeroloom/volume/volume_mesher.hpp"
+#include "tests/volume/fields.hpp"
+#include "tests/volume/surfaces.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::layers {
+
+/// Silences the stages: what they do is checked, not read.
+class QuietLayers : public testing::Environment {
+  void SetUp() override {
+    parallel::configure_log(parallel::Communicator::world(), parallel::LogLevel::quiet);
+  }
+};
+inline const testing::Environment* const quiet = testing::AddGlobalTestEnvironment(new QuietLayers);
+
+/// The column of a vertex on the faces that bear layers.
+struct WantedColumn {
+  geometry::Vec3 direction;
+  std::int32_t count = 0;
+};
+using ColumnAt = std::function<WantedColumn(geometry::Vec3)>;
+
+/// A surface whose face `wall_face` is a wall, all others of another type; columns on the wall's vertices.
+struct Layered {
+  Layered(const parallel::Communicator& ranks, const volume::surfaces::Surface& surface,
+          std::int32_t wall_face, mesh::PatchType others)
+      : communicator(ranks) {
+    wall.mesh = volume::surfaces::spread(ranks, surface);
+    wall.mesh.patches = {"wall", "others"};
+    wall.mesh.patch_types = {mesh::PatchType::wall, others};
+    for (mesh::Piece& piece : wall.mesh.pieces) {
+      for (std::size_t t = 0; t < piece.triangle_face.size(); ++t)
+        piece.triangle_patch[t] = piece.triangle_face[t] == wall_face ? 0 : 1;
+    }
+    wall.numbering = mesh::number_mesh(ranks, wall.mesh);
+  }
+
+  /// Heights are `first`, twice, then half as much again each. Vertices with a direction that is not zero
+  /// have columns.
+  void grow(double first, const ColumnAt& column_at) {
+    mesh::DistributedMesh moved = wall.mesh;
+    columns.pieces.clear();
+    for (mesh::Piece& end : moved.pieces) {
+      const mesh::Piece piece = end;
+      PieceColumns& of_piece = columns.pieces.emplace_back();
+      for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+        const WantedColumn column = column_at(piece.point(v));
+        of_piece.directions.push_back(column.direction);
+        of_piece.counts.push_back(column.count);
+        of_piece.constant.push_back(2);
+        of_piece.first.push_back(first);
+        of_piece.growth.push_back(1.5);
+        end.set_point(v, node(piece, of_piece, v, column.count));
+      }
+    }
+    front = name_front(communicator, std::move(moved));
+  }
+
+  /// Tetrahedra behind the front, improved, and the layers before it.
+  void fill(const sizing::SizeField& field, std::int64_t most_cells_per_piece,
+            volume::VolumeOptions options = {}) {
+    parallel::StageClock clock;
+    volume::VolumeReport report;
+    const volume::VolumeInput input{front.mesh, front.numbering, field, options};
+    mesh =
+        volume::fill_zones(communicator, input, volume::decompose(communicator, input, clock), clock, report);
+    improve::ImproveOptions improvement;
+    improvement.boundary_may_change = false;
+    improved = improve::improve_mesh(communicator, mesh, improvement, clock, {nullptr, &field});
+    tetrahedra = 0;
+    for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
+    tetrahedra = communicator.sum(tetrahedra);
+    append_layers(communicator, wall, columns, front, most_cells_per_piece, mesh);
+    numbering = mesh::number_mesh(communicator, mesh);
+  }
+
+  std::string hash() const { return mesh::hash_mesh(communicator, mesh, numbering); }
+
+  parallel::Communicator communicator;
+  mesh::NumberedMesh wall;
+  Columns columns;
+  NamedFront front;
+  mesh::DistributedMesh mesh;
+  mesh::Numbering numbering;
+  improve::ImproveReport improved;
+  std::int64_t tetrahedra = 0;  ///< behind the front
+};
+
+}  // namespace aeroloom::layers
