@@ -122,7 +122,7 @@ void declare_far_field(KeyTable& keys, CaseDraft& draft) {
                              common("Shape of the far field, around the body's centre. `hemisphere` makes a "
                                     "half model."));
   keys.number(
-      "extent", draft.extent, Range::above(0, "times `unit`"),
+      "extent", draft.extent, Range::above(0),
       sets("FarFieldOptions::extent",
            common({"How far away the far field is: radius, half side of the box, radius and half length of "
                    "the cylinder. `unit` says what it counts: the largest extent of the body, if left out.",

@@ -73,7 +73,8 @@ std::optional<double> ModelSampler::estimate_tetrahedra(const SizingOptions& opt
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options, parallel::StageClock& clock) {
   check_options(options);
-  return ModelSampler(communicator, model, clock, options.proximity, Fields::one).build_field(options);
+  const double layers = std::max(options.proximity, elements_across_gaps(options));
+  return ModelSampler(communicator, model, clock, layers, Fields::one).build_field(options);
 }
 
 }  // namespace aeroloom::sizing

@@ -208,7 +208,7 @@ TEST_F(CaseTest, ValuesOutOfRangeNameTheRange) {
             "case.yaml:2:27: 'sizing.curvature_angle' is 120, but must be at least 0.1 and at most 90 "
             "degrees per element");
   EXPECT_EQ(error_of(transport + "farfield: {extent: -1}\n"),
-            "case.yaml:2:20: 'farfield.extent' is -1, but must be above 0 reference lengths");
+            "case.yaml:2:20: 'farfield.extent' is -1, but must be above 0");
   EXPECT_EQ(
       error_of(transport + "volume: {piece_tets: 1e300}\n"),
       "case.yaml:2:22: 'volume.piece_tets' is 1e300, but must be at least 100 and at most 1e9 elements");
@@ -332,7 +332,7 @@ TEST_F(CaseTest, PathsMayNameEnvironmentVariables) {
   write("", "wing.step");
   const Case input = read(
       "geometry: {file: '${AEROLOOM_TEST_FOLDER}/wing.step'}\noutput: {directory: "
-      "a/${AEROLOOM_TEST_FOLDER}}\n");
+      "'a/${AEROLOOM_TEST_FOLDER}'}\n");
   EXPECT_EQ(input.domain.file, (folder / "wing.step").string());
   EXPECT_EQ(input.output.directory, "a/" + folder.string());
   ::unsetenv("AEROLOOM_TEST_FOLDER");

@@ -150,7 +150,7 @@ Model plate_in_far_field(double thickness) {
 
 /// Elements wanted across thin parts, and across gaps.
 SizeField build_with_elements(const Model& model, double thin, double gap) {
-  SizingOptions options{0.01, 1, 30, 1.3, 0, thin};
+  SizingOptions options{0.001, 1, 30, 1.3, 0, thin};
   options.gap_proximity = gap;
   parallel::StageClock clock;
   return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
@@ -164,20 +164,20 @@ TEST(OpenGaps, AreMeshed) {
 }
 
 TEST(OpenGaps, AreToldFromThinParts) {
-  const Model gap = plate(0.2), part = plate_in_far_field(0.2);
+  const Model gap = plate(0.04), part = plate_in_far_field(0.04);
   const auto in_gap = [&](double thin, double of_gap) {
     return build_with_elements(gap, thin, of_gap)({0, 0, 0});
   };
   const auto on_part = [&](double thin, double of_gap) {
-    return build_with_elements(part, thin, of_gap)({1, 0.2, 1});
+    return build_with_elements(part, thin, of_gap)({1, 0.04, 1});
   };
-  EXPECT_NEAR(in_gap(1, 4), 0.05, 0.01);
+  EXPECT_LT(in_gap(1, 4), 0.6 * 0.04);
   EXPECT_EQ(in_gap(1, 4), in_gap(0, 4));
   EXPECT_EQ(in_gap(4, -1), in_gap(4, 4));
-  EXPECT_GT(in_gap(4, 1), 3 * in_gap(4, 4));
-  EXPECT_NEAR(on_part(4, 1), 0.05, 0.01);
+  EXPECT_GT(in_gap(4, 1), 2.5 * in_gap(4, 4));
+  EXPECT_NEAR(on_part(4, 1), 0.01, 0.003);
   EXPECT_EQ(on_part(4, 1), on_part(4, 0));
-  EXPECT_GT(on_part(1, 4), 3 * on_part(4, 1));
+  EXPECT_GT(on_part(1, 4), 2.5 * on_part(4, 1));
 }
 
 TEST(OpenGaps, AWedgeIsNone) {
