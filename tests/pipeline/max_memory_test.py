@@ -44,8 +44,8 @@ def main():
     for ranks in (1, 2):
         # Known to be too much once sizes are known.
         expect(8, ["stage sizing failed", "are predicted", "would fit", "--max-memory"], ranks, "run", "case.yaml",
-               "--set", "sizing.minimum=0.05", "--set", "sizing.surface_maximum=0.1",
-               "--max-memory", f"{180 * ranks}M")
+               "--set", "sizing.minimum=0.1", "--set", "sizing.surface_maximum=0.14",
+               "--max-memory", f"{150 * ranks}M")
         assert (report()["status"], report()["exit_code"]) == ("failed", 8)
         # Out of memory on the way: in a sandboxed run, and in the ranks.
         text = expect(8, ["stage geometry failed: out of memory", "--max-memory"], ranks, "run", "case.yaml",
