@@ -36,7 +36,10 @@ FoundTrailingEdge describe(const cad::Model& model, const sizing::LiftingElement
 
 LevelFindings describe_level(const cad::Model& model, const sizing::LiftingBodies& bodies,
                              const sizing::LevelSizes& sizes) {
-  LevelFindings findings{bodies.reference_chord, bodies.semispan, sizes.body * bodies.reference_chord};
+  LevelFindings findings;
+  findings.reference_chord = bodies.reference_chord;
+  findings.semispan = bodies.semispan;
+  findings.wall_size = sizes.body * bodies.reference_chord;
   const geometry::Vec3 extent = model.bounds().size();
   findings.far_field = 0.5 * std::max({extent.x, extent.y, extent.z}) / bodies.semispan;
   for (const sizing::LiftingElement& element : bodies.elements)

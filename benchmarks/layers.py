@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Boundary layers on every CAD file of a collection, as a Markdown table.
+
+usage: layers.py FOLDER [--program PROGRAM] [--arbiter CHECKER] [--classes AB] [--target N] [--scratch DIR]
+
+FOLDER is as in real_cad.py. First height 1e-5 of the longest side of the file's box, growth 1.2, until the last layer is about
+isotropic, N tetrahedra aimed at (default 40,000). Area: percent of the walls whose columns have all layers, none, and the limit that
+keeps most of the rest. CHECKER is an independent checker of mixed meshes, called as `CHECKER mesh.pvtu --surface surface.pvtp --walls
+WALLS`, WALLS the surface of a run without layers and without improvement.
+"""
+import argparse
+import json
+import pathlib
+import statistics
+import subprocess
+import tempfile
+import time
+
+from real_cad import SUFFIXES, read_classes
+
+LIMIT_S = 300
+
+
+def run(program, case, output, *settings):
+    command = [program, "run", case, "-q"]
+    for setting in (f"output.directory={output}", "output.pictures=false", *settings):
+        command += ["--set", setting]
+    return subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S)
+
+
+def longest_side(program, file):
+    said = subprocess.run([program, "info", "--json", file], capture_output=True, text=True, timeout=LIMIT_S, check=True).stdout
+    low, high = json.loads(said)["bounds"]
+    return max(b - a for a, b in zip(low, high))
+
+
+def verdict(options, folder, case):
+    bare = run(options.program, case, folder / "bare", "improve.enabled=false")
+    if bare.returncode != 0:
+        return "no walls"
+    command = [options.arbiter, folder / "out" / "mesh.pvtu", "--surface", folder / "out" / "surface.pvtp", "--walls",
+               folder / "bare" / "surface.pvtp"]
+    said = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S).stdout
+    return "yes" if "VALID yes" in said else "NO"
+
+
+def main_limit(layers):
+    areas = {}
+    for patch in layers["patches"]:
+        for name, fraction in patch["limited"].items():
+            areas[name] = areas.get(name, 0) + fraction * patch.get("area", 1)
+    return max(areas, key=areas.get) if areas and max(areas.values()) > 0 else "–"
+
+
+def row(options, file, folder):
+    case = folder / "case.yaml"
+    case.write_text(f"geometry: {{file: '{file.resolve()}'}}\nsizing: {{target_tetrahedra: {options.target}}}\n")
+    start = time.monotonic()
+    done = run(options.program, case, folder / "out", f"layers.first={1e-5 * longest_side(options.program, file):.4g}")
+    seconds = time.monotonic() - start
+    if done.returncode != 0:
+        message = next((line for line in done.stderr.splitlines() if "error" in line), "").split("error", 1)[-1]
+        return None, f"| {file.name} | – | – | – | – | – | – | {seconds:.0f} | {done.returncode}: {message[2:100]} |"
+    report = json.loads((folder / "out" / "report.json").read_text())
+    layers, mesh = report["layers"], report["mesh"]
+    valid = verdict(options, folder, case) if options.arbiter else "–"
+    return layers["full"], (f"| {file.name} | {mesh['prisms']:,} | {mesh['tetrahedra']:,} | {100 * layers['full']:.1f} | "
+                            f"{100 * layers['empty']:.1f} | {report['quality']['min_dihedral_deg']:.1f} | {valid} | {seconds:.0f} | "
+                            f"{main_limit(layers)} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--program", default="build/release/bin/aeroloom")
+    parser.add_argument("--arbiter")
+    parser.add_argument("--classes", default="AB")
+    parser.add_argument("--target", type=int, default=40_000)
+    parser.add_argument("--scratch")
+    options = parser.parse_args()
+    classes = read_classes(options.folder)
+    files = sorted(f for f in options.folder.rglob("*") if f.suffix.lower() in SUFFIXES and classes.get(f.name, "A") in options.classes)
+    print("| file | prisms | tetrahedra | all layers, % | none, % | least angle | valid | s | mostly limited by |\n|---|---|---|---|---|---|---|---|---|")
+    covered = []
+    for file in files:
+        with tempfile.TemporaryDirectory(dir=options.scratch) as folder:
+            try:
+                full, text = row(options, file, pathlib.Path(folder))
+            except (subprocess.TimeoutExpired, subprocess.CalledProcessError, KeyError) as error:
+                full, text = None, f"| {file.name} | – | – | – | – | – | – | – | {type(error).__name__} |"
+        covered += [] if full is None else [full]
+        print(text, flush=True)
+    print(f"\n{len(covered)} of {len(files)} files; median of the area with all layers {100 * statistics.median(covered):.1f} %")
+
+
+if __name__ == "__main__":
+    main()
