@@ -150,7 +150,7 @@ Model plate_in_far_field(double thickness) {
 
 /// Elements wanted across thin parts, and across gaps.
 SizeField build_with_elements(const Model& model, double thin, double gap) {
-  SizingOptions options{0.001, 1, 30, 1.3, 0, thin};
+  SizingOptions options{0.008, 1, 30, 1.3, 0, thin};
   options.gap_proximity = gap;
   parallel::StageClock clock;
   return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
