@@ -196,9 +196,13 @@ std::string verdict_section(const Json& report) {
           valid + judgement_of(report) + judgement_of_shape(report) + below_target(report) + "</ul>\n" +
           gate_table(gate) +
           paragraph(
-              "<span class=\"quiet\">Isotropic tetrahedra without boundary layers: for inviscid flow, "
-              "wall functions, or as the mesh outside of layers. The words on angles are rules of thumb."
-              "</span>"));
+              find(report, "/layers").is_null()
+                  ? "<span class=\"quiet\">Isotropic tetrahedra without boundary layers: for inviscid flow, "
+                    "wall functions, or as the mesh outside of layers. The words on angles are rules of "
+                    "thumb."
+                    "</span>"
+                  : "<span class=\"quiet\">The words on angles are rules of thumb for the tetrahedra off the "
+                    "boundary layers, whose cells are flat on purpose.</span>"));
 }
 
 std::string histograms_section(const Json& report) {

@@ -3,13 +3,28 @@
 #include "report/mixed_quality_json.hpp"
 #include "report/parts_json.hpp"
 
+#include <cstdint>
 #include <set>
 #include <string>
 
 namespace aeroloom::report {
+
+namespace {
+
+/// Over triangles whose columns are of unequal heights.
+std::int64_t tetrahedra_of_layers(const RunRecord& record) {
+  std::int64_t count = 0;
+  if (!record.layers) return count;
+  for (const layers::PatchLayers& patch : record.layers->report.patches) count += patch.tetrahedra;
+  return count;
+}
+
+}  // namespace
+
 Json mesh_json(const RunRecord& record) {
   return {{"points", record.counts.vertices},
           {"tetrahedra", record.counts.cells - record.counts.prisms - record.counts.pyramids},
+          {"layer_tetrahedra", tetrahedra_of_layers(record)},
           {"prisms", record.counts.prisms},
           {"pyramids", record.counts.pyramids},
           {"boundary_triangles", record.counts.boundary_triangles},

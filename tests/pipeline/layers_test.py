@@ -38,6 +38,9 @@ def check_files(run, bare):
     assert types[vtk.VTK_WEDGE] == mesh["prisms"] == row["prisms"] > 1000, (types, mesh, row)
     assert types[vtk.VTK_PYRAMID] == mesh["pyramids"] == row["pyramids"], (types, mesh, row)
     assert types[vtk.VTK_TETRA] == mesh["tetrahedra"], (types, mesh)
+    assert mesh["layer_tetrahedra"] == row["tetrahedra"] > 0
+    page = (run.output / "report.html").read_text()
+    assert "off the boundary layers" in page and "without boundary layers" not in page
     assert numpy.count_nonzero(layer) == row["prisms"] + row["pyramids"] + row["tetrahedra"]
     assert layer.max() == row["layers_max"] > 5 and layer.min() == 0
     surfaces = [read(vtk.vtkXMLPPolyDataReader(), r.output / "surface.pvtp") for r in (run, Run(*bare))]
