@@ -7,6 +7,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -143,22 +145,29 @@ TEST(EndPlanes, HoldTheEndsOfLayers) {
   EXPECT_GE(world.sum(on_planes), 15);
 }
 
-TEST(EndPlanes, MakeColumnsShrinkWhereTheyCannotBeMeshedAgain) {
-  const auto world = Communicator::world();
-  const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
-  // A plane that bears no trace above 0.05.
-  const auto refuse = [&](mesh::DistributedMesh& front) {
+/// Remeshes planes unless vertices at x = 0 have moved to where they may not be.
+PlaneRemesher refuse_moves(const Communicator& world, const mesh::DistributedMesh& wall,
+                           std::function<bool(Vec3 from, Vec3 to)> is_refused) {
+  return [&world, &wall, is_refused = std::move(is_refused)](mesh::DistributedMesh& front) {
     std::vector<mesh::SharedVertexKey> at_fault;
     for (std::size_t p = 0; p < front.pieces.size(); ++p) {
       for (std::size_t s = 0; s < front.pieces[p].shared_keys.size(); ++s) {
         const mesh::LocalIndex v = front.pieces[p].shared_vertices[s];
-        const Vec3 from = mesh.pieces[p].point(v), to = front.pieces[p].point(v);
-        if (from.x == 0 && to.z - from.z > 0.05) at_fault.push_back(front.pieces[p].shared_keys[s]);
+        const Vec3 from = wall.pieces[p].point(v), to = front.pieces[p].point(v);
+        if (from.x == 0 && is_refused(from, to)) at_fault.push_back(front.pieces[p].shared_keys[s]);
       }
     }
     at_fault = world.all_gather_items(std::span<const mesh::SharedVertexKey>(at_fault));
     return at_fault.empty() ? take_planes_away(front) : at_fault;
   };
+}
+
+TEST(EndPlanes, MakeColumnsShrinkWhereTheyCannotBeMeshedAgain) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
+  // A plane that bears no trace above 0.05.
+  const PlaneRemesher refuse =
+      refuse_moves(world, mesh, [](Vec3 from, Vec3 to) { return to.z - from.z > 0.05; });
   const Layers layers = build(world, mesh, layers_on_floor(), refuse);
   double highest = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
@@ -193,19 +202,7 @@ TEST(EndPlanes, AreNotInTheWayOfColumnsBesideThem) {
 TEST(EndPlanes, EmptyColumnsAtLastWhereTheyBearNoTrace) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
-  const auto refuse = [&](mesh::DistributedMesh& front) {
-    std::vector<mesh::SharedVertexKey> at_fault;
-    for (std::size_t p = 0; p < front.pieces.size(); ++p) {
-      for (std::size_t s = 0; s < front.pieces[p].shared_keys.size(); ++s) {
-        const mesh::LocalIndex v = front.pieces[p].shared_vertices[s];
-        const Vec3 from = mesh.pieces[p].point(v);
-        if (from.x == 0 && !(front.pieces[p].point(v) == from))
-          at_fault.push_back(front.pieces[p].shared_keys[s]);
-      }
-    }
-    at_fault = world.all_gather_items(std::span<const mesh::SharedVertexKey>(at_fault));
-    return at_fault.empty() ? take_planes_away(front) : at_fault;
-  };
+  const PlaneRemesher refuse = refuse_moves(world, mesh, [](Vec3 from, Vec3 to) { return !(to == from); });
   LayerOptions options = layers_on_floor();
   options.stairs = 100;
   options.patches[0].growth = 1.01;
