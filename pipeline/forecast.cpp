@@ -17,7 +17,7 @@ namespace aeroloom::pipeline {
 namespace {
 
 // The cost of a run on one core, from runs at a million tetrahedra (docs/status.md).
-constexpr double seconds_per_triangle = 80e-6, seconds_per_tetrahedron = 6e-6;
+constexpr double seconds_per_triangle = 65e-6, seconds_per_tetrahedron = 5e-6;
 constexpr double base_bytes = 115e6, bytes_per_tetrahedron = 95;
 
 // The shares of stages in that, of one core for a triangle or a tetrahedron, and what of it no further rank
