@@ -239,6 +239,10 @@ bool Model::is_exact_plane(FaceId id) const {
   return fixed[0] || fixed[1] || fixed[2];
 }
 
+bool Model::is_faceted(FaceId) const {
+  return false;
+}
+
 std::vector<FaceId> Model::members(FaceId id) const {
   if (!_data->joined) return {id};
   std::vector<FaceId> faces;

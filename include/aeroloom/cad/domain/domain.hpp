@@ -75,12 +75,15 @@ struct DomainOptions {
   std::optional<FarFieldOptions> far_field;  ///< given by the user; bodies get the default where it is absent
   FarFieldOptions default_far_field = {};
   TrailingEdgeOptions trailing_edges = {};
+  /// Of faceted files: sides at which triangles turn by more, in degrees, become curves between faces.
+  double feature_angle = 40;
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
 
   static constexpr auto fields() {
     return std::tuple(&DomainOptions::file, &DomainOptions::transport, &DomainOptions::kind,
                       &DomainOptions::far_field, &DomainOptions::default_far_field,
-                      &DomainOptions::trailing_edges, &DomainOptions::smallest_size);
+                      &DomainOptions::trailing_edges, &DomainOptions::feature_angle,
+                      &DomainOptions::smallest_size);
   }
 };
 

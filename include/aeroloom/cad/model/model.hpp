@@ -149,6 +149,9 @@ public:
   bool is_planar(FaceId id) const;
   /// Whether the face is an axis-aligned plane, whose coordinate its points have exactly.
   bool is_exact_plane(FaceId id) const;
+  /// Whether the face is made of flat triangles that a file gave (STL and the like); its surface is those
+  /// triangles exactly, its edges are chains of their sides.
+  bool is_faceted(FaceId id) const;
   /// CAD faces that this one consists of; more than one where narrow faces were joined (joined_faces.hpp).
   std::int32_t sheet_count(FaceId id) const;
   /// Their ids in the model before faces were joined; the face itself where none were.
