@@ -1,5 +1,6 @@
 #include "cad/domain/booleans.hpp"
 #include "cad/domain/far_field.hpp"
+#include "cad/domain/unions.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
@@ -10,8 +11,6 @@
 #include <utility>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
-#include <BRepAlgoAPI_Common.hxx>
-#include <BRepAlgoAPI_Fuse.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <fmt/format.h>
@@ -42,44 +41,12 @@ std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_
   return groups;
 }
 
-double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, Volumes& volumes) {
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(first);
-  tools.Append(second);
-  BRepAlgoAPI_Common common;
-  common.SetArguments(arguments);
-  common.SetTools(tools);
-  perform(common, "intersecting two bodies");
-  return common.Shape().IsNull() ? 0 : std::abs(volumes.of(common.Shape()));
-}
-
 /// One after the other, so that each union's volume can be checked against its two parts.
-std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes& volumes,
-                                FaceLabels& labels) {
+std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes& volumes, FaceLabels& labels,
+                                Changes& changes) {
   std::vector<TopoDS_Solid> united{group.front()};
-  for (std::size_t i = 1; i < group.size(); ++i) {
-    TopTools_ListOfShape arguments, tools;
-    for (const TopoDS_Solid& solid : united) arguments.Append(solid);
-    tools.Append(group[i]);
-    BRepAlgoAPI_Fuse fuse;
-    fuse.SetArguments(arguments);
-    fuse.SetTools(tools);
-    perform(fuse, "uniting bodies that touch");
-    std::vector<TopoDS_Solid> inputs = united;
-    inputs.push_back(group[i]);
-    follow_labels(fuse, inputs, labels);
-    const TopoDS_Shape before = make_compound(united);
-    const double parts = volumes.of(before) + volumes.of(group[i]);
-    const double whole = volumes.of(fuse.Shape());
-    const double tolerance = tolerances::integrated_volume * parts;
-    if (std::abs(parts - whole) > tolerance &&
-        std::abs(parts - common_volume(before, group[i], volumes) - whole) > tolerance) {
-      throw CadError(fmt::format("uniting bodies went wrong: parts of volume {:.9g} gave a union of {:.9g}",
-                                 parts, whole));
-    }
-    united = solids_of(fuse.Shape());
-    if (united.empty()) throw CadError("uniting bodies left no solid");
-  }
+  for (std::size_t i = 1; i < group.size(); ++i)
+    united = unite_with(united, group[i], volumes, labels, changes);
   return united;
 }
 
@@ -88,7 +55,8 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes&
 NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(bodies.shape))) {
-    const std::vector<TopoDS_Solid> united = group.size() > 1 ? unite(group, volumes, bodies.labels) : group;
+    const std::vector<TopoDS_Solid> united =
+        group.size() > 1 ? unite(group, volumes, bodies.labels, changes) : group;
     if (group.size() > united.size()) {
       changes.push_back({fmt::format("{} touching bodies united to {}", group.size(), united.size())});
     }
@@ -111,7 +79,7 @@ std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volum
   for (std::size_t i = 0; i < group.size() && found < shown; ++i) {
     for (std::size_t j = 0; j < i && found < shown; ++j) {
       if (!boxes[i].overlaps(boxes[j])) continue;
-      const double common = common_volume(group[i], group[j], volumes);
+      const double common = common_volume(group[i], group[j], 0, volumes);
       if (common <= tolerances::integrated_volume * std::min(volumes.of(group[i]), volumes.of(group[j])))
         continue;
       ++found;
