@@ -3,6 +3,7 @@
 #include "aeroloom/mesh/delivery.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "layers/good_columns.hpp"
+#include "layers/swallowed_parts.hpp"
 #include "mesh/intersection.hpp"
 
 #include <algorithm>
@@ -62,12 +63,15 @@ public:
     if (_counts[v] == unchanged) ++_lowered;
     _counts[v] = lowered(_limits.count(v), _round);
   }
+  void add_triangle(std::int32_t triangle) {
+    for (const std::int32_t v : _wall.triangles[triangle]) add(v);
+  }
   /// The columns over a triangle of the wall, if its piece is here.
   void add(mesh::PieceId piece, mesh::LocalIndex cell) {
     const auto& pieces = _wall.mesh.pieces;
     const std::size_t p = mesh::position_of(_wall.mesh, piece);
     if (p == pieces.size() || pieces[p].id != piece) return;
-    for (const std::int32_t v : _wall.triangles[_wall.first_triangle[p] + cell]) add(v);
+    add_triangle(_wall.first_triangle[p] + cell);
   }
   std::int64_t lowered_here() const { return _lowered; }
   std::vector<std::int32_t> take() { return std::move(_counts); }
@@ -110,13 +114,27 @@ void FrontClearing::lower_on_planes(const std::vector<mesh::SharedVertexKey>& at
   });
   if (_communicator.sum(lower.lowered_here()) > 0) return;
   for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
-    if (_wall.roles[t] != WallRole::plane) continue;
-    for (const std::int32_t v : _wall.triangles[t]) lower.add(v);
+    if (_wall.roles[t] == WallRole::plane) lower.add_triangle(t);
   }
   if (_communicator.sum(lower.lowered_here()) > 0) return;
   throw parallel::CollectiveError(
       parallel::FailureKind::bug,
       "layers: planes cannot be meshed again within boundaries that did not move");
+}
+
+void FrontClearing::lower_around_parts(const mesh::DistributedMesh& front, LoweredCounts& lower,
+                                       LayerReport& report) const {
+  std::vector<geometry::Vec3> ends = _wall.points;
+  std::size_t next = 0;  // pieces that are not of planes come first in the front, in the wall's order
+  for (std::size_t p = 0; p < _wall.mesh.pieces.size(); ++p) {
+    if (!std::binary_search(_kept.begin(), _kept.end(), _wall.mesh.pieces[p].id)) continue;
+    const mesh::Piece& piece = front.pieces[next++];
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
+      ends[_wall.first_vertex[p] + v] = piece.point(v);
+  }
+  const std::vector<std::int32_t> swallowing = find_swallowing_triangles(_communicator, _wall, ends);
+  for (const std::int32_t t : swallowing) lower.add_triangle(t);
+  report.swallowing += _communicator.sum(static_cast<std::int64_t>(swallowing.size()));
 }
 
 bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report,
@@ -137,6 +155,7 @@ bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower,
     add(hit.first_piece, hit.first);
     add(hit.second_piece, hit.second);
   }
+  if (_communicator.sum(lower.lowered_here()) == 0) lower_around_parts(front, lower, report);
   if (_communicator.sum(lower.lowered_here()) == 0) return true;
   report.crossings += static_cast<std::int64_t>(hits.size());
   return false;

@@ -20,16 +20,19 @@ public:
   FrontClearing(const parallel::Communicator& communicator, const WallShare& wall,
                 const Directions& directions, const PlaneRemesher& remesh_planes);
 
-  /// Where triangles of the front meet, or planes cannot be meshed again, counts of their columns fall by a
-  /// third, neighbours follow, cells are made good again, until no triangles meet. After some rounds columns
-  /// whose triangles still meet are emptied. What a wall has of intersections itself stays. Writes rounds and
-  /// counts to the report, and returns the front. Collective.
+  /// Where triangles of the front meet or close around a part, or planes cannot be meshed again, counts of
+  /// their columns fall by a third, neighbours follow, cells are made good again, until no triangles meet.
+  /// After some rounds columns whose triangles still meet are emptied. What a wall has of intersections
+  /// itself stays. Writes rounds and counts to the report, and returns the front. Collective.
   mesh::DistributedMesh run(ColumnLimits& limits, LayerReport& report, parallel::StageClock& clock) const;
 
 private:
   class LoweredCounts;
   /// Lowers the columns of vertices at fault; where none of them has layers, all on planes.
   void lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault, LoweredCounts& lower) const;
+  /// Lowers the columns that have closed around a part of the boundary.
+  void lower_around_parts(const mesh::DistributedMesh& front, LoweredCounts& lower,
+                          LayerReport& report) const;
   /// Lowers what is in the way of a front; returns whether that is nothing.
   bool is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report,
                 parallel::StageClock& clock) const;

@@ -5,9 +5,10 @@
 namespace aeroloom::mesh {
 namespace {
 
-// Surfaces: bit 63 for cuts, then 23 bits of face, 16 of group, 24 of index; without it edge + 1 and index.
-constexpr SharedVertexKey cut_bit = SharedVertexKey{1} << 63;
-constexpr int face_bits = 23, group_bits = 16, index_bits = 24;
+// Surfaces: bit 63 for cuts; with bit 62 31 bits of piece and 31 of vertex, without it 22 bits of face, 16 of
+// group, 24 of index. Without bit 63 edge + 1 and index.
+constexpr SharedVertexKey cut_bit = SharedVertexKey{1} << 63, split_bit = SharedVertexKey{1} << 62;
+constexpr int face_bits = 22, group_bits = 16, index_bits = 24;
 constexpr int edge_shift = 32;
 
 // Volumes: bits 63 and 62 for rounds, 8 for the round, 54 for piece and vertex or for a running number.
@@ -37,6 +38,10 @@ SharedVertexKey cut_vertex_key(std::int32_t face, std::int32_t group, std::int32
         "(SurfaceOptions::piece_triangles)");
   }
   return cut_bit | wide(face) << (group_bits + index_bits) | wide(group) << index_bits | wide(index);
+}
+
+SharedVertexKey split_vertex_key(PieceId piece, LocalIndex vertex) {
+  return cut_bit | split_bit | wide(piece) << piece_shift | wide(vertex);
 }
 
 bool is_cut_vertex_key(SharedVertexKey vertex_key) {

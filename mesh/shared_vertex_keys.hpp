@@ -20,8 +20,10 @@ SharedVertexKey cad_vertex_key(std::int32_t vertex);
 /// Vertex `index` inside a CAD edge.
 SharedVertexKey curve_vertex_key(std::int32_t edge, std::int32_t index);
 /// Vertex `index` on the cuts that one division (`group`, below 2^16) of a CAD face made; index below 2^24,
-/// face below 2^23. Throws std::runtime_error beyond that.
+/// face below 2^22. Throws std::runtime_error beyond that.
 SharedVertexKey cut_vertex_key(std::int32_t face, std::int32_t group, std::int32_t index);
+/// A vertex of a piece that is shared since the piece was split (split_pieces.hpp); it counts as one on cuts.
+SharedVertexKey split_vertex_key(PieceId piece, LocalIndex vertex);
 
 bool is_cut_vertex_key(SharedVertexKey vertex_key);
 /// The CAD edge in the name of a vertex of a curve, -1 for CAD vertices and vertices on cuts.

@@ -3,6 +3,7 @@
 #include "aeroloom/sizing/sources.hpp"
 #include "aeroloom/surface/plane_remesher.hpp"
 #include "layers/end_planes.hpp"
+#include "mesh/split_pieces.hpp"
 #include "pipeline/stage_log.hpp"
 
 #include <algorithm>
@@ -86,6 +87,10 @@ std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communica
   return faces;
 }
 
+/// Of the walls' pieces, so that layers are shared evenly by many ranks: pieces of surface meshing are whole
+/// faces in most models.
+constexpr mesh::LocalIndex most_triangles = 1'000;
+
 }  // namespace
 
 LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
@@ -94,6 +99,8 @@ LayeredSurface build_layers(const parallel::Communicator& communicator, const ca
   const layers::LayerOptions options =
       cases::layer_options(input.layers, input.sizing, surface.mesh.patches, record.patch_types);
   const surface::PlanesToRemesh planes{faces_of_planes(communicator, surface.mesh, options), input.surface};
+  static_cast<mesh::NumberedMesh&>(surface) =
+      mesh::split_pieces(communicator, surface.mesh, most_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
     surface::PlaneConflicts conflicts =
         surface::remesh_planes(communicator, model, surface.field, planes, front, record.clock);

@@ -62,6 +62,7 @@ Json layers_json(const RunRecord& record) {
           {"validity_rounds", report.validity_rounds},
           {"crossing_rounds", report.crossing_rounds},
           {"crossings", report.crossings},
+          {"swallowing", report.swallowing},
           {"emptied_last", report.zeroed_by_force},
           {"patches", std::move(patches)}};
 }

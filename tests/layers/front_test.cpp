@@ -86,6 +86,43 @@ TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
   EXPECT_EQ(cleared(world), cleared(self));
 }
 
+/// A plate whose layers reach over a ball, smaller than a triangle of the plate, without touching it.
+examples::Shapes plate_below_ball() {
+  return examples::Shapes()
+      .add_box({-5, -5, -5}, {7, 7, 7}, {4, 4, 4}, examples::Fluid::inside)
+      .add_box({0, 0, 0}, {2, 2, 0.5}, {4, 4, 1}, examples::Fluid::outside)
+      .add_sphere({0.6, 0.7, 0.55}, 0.02, 2, examples::Fluid::outside);
+}
+
+TEST(Front, DoesNotCloseAroundAPart) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = plate_below_ball().distribute(world, 5);
+  LayerOptions options;
+  options.patches.resize(3);
+  options.patches[1].first = 1e-2;
+  WallShare wall(world, mesh, options);
+  const Fans fans = gather_fans(world, wall);
+  const Directions directions = find_directions(wall, fans);
+  ColumnLimits limits(wall, options, fans, directions);
+  limits.converge(world);
+  shrink_to_good(world, wall, directions, limits);
+  LayerReport report;
+  parallel::StageClock clock;
+  const PlaneRemesher none;
+  const mesh::DistributedMesh before = make_front(wall.mesh, make_columns(wall, directions, limits));
+  EXPECT_TRUE(mesh::find_intersections(world, before, clock).empty());
+  FrontClearing(world, wall, directions, none).run(limits, report, clock);
+  EXPECT_GT(report.swallowing, 0);
+  double least = 1;
+  std::int64_t live = 0;
+  for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
+    if (distance(wall.points[v], {0.5, 0.5, 0.5}) < 0.1) least = std::min(least, limits.total(v));
+    live += limits.count(v) > 0;
+  }
+  EXPECT_LT(world.minimum(least), 0.05);
+  EXPECT_GT(world.sum(live), 10);
+}
+
 TEST(Front, LeavesCrossingsOfTheWallItself) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh =

@@ -18,6 +18,8 @@ TEST(SharedVertexKeys, OfSurfacesAscendByVertexCurveAndCut) {
   EXPECT_LT(cut_vertex_key(2, 3, 4), cut_vertex_key(2, 3, 5));
   EXPECT_LT(cut_vertex_key(2, 3, (1 << 24) - 1), cut_vertex_key(2, 4, 0));
   EXPECT_LT(cut_vertex_key(2, (1 << 16) - 1, 9), cut_vertex_key(3, 0, 0));
+  EXPECT_LT(cut_vertex_key((1 << 22) - 1, (1 << 16) - 1, (1 << 24) - 1), split_vertex_key(0, 0));
+  EXPECT_LT(split_vertex_key(3, most), split_vertex_key(4, 0));
 }
 
 TEST(SharedVertexKeys, TellWhatTheyWereMadeOf) {
@@ -28,11 +30,12 @@ TEST(SharedVertexKeys, TellWhatTheyWereMadeOf) {
   EXPECT_FALSE(is_cut_vertex_key(curve_vertex_key(7, 5)));
   EXPECT_TRUE(is_cut_vertex_key(cut_vertex_key(7, 5, 3)));
   EXPECT_EQ(edge_of_vertex_key(cut_vertex_key(7, 5, 3)), -1);
+  EXPECT_TRUE(is_cut_vertex_key(split_vertex_key(7, 5)));
 }
 
 TEST(SharedVertexKeys, CutsBeyondWhatCanBeNamedAreRefused) {
-  EXPECT_NO_THROW(cut_vertex_key((1 << 23) - 1, (1 << 16) - 1, (1 << 24) - 1));
-  EXPECT_THROW(cut_vertex_key(1 << 23, 0, 0), std::runtime_error);
+  EXPECT_NO_THROW(cut_vertex_key((1 << 22) - 1, (1 << 16) - 1, (1 << 24) - 1));
+  EXPECT_THROW(cut_vertex_key(1 << 22, 0, 0), std::runtime_error);
   EXPECT_THROW(cut_vertex_key(0, 1 << 16, 0), std::runtime_error);
   EXPECT_THROW(cut_vertex_key(0, 0, 1 << 24), std::runtime_error);
 }

@@ -106,6 +106,7 @@ struct LayerReport {
   int validity_rounds = 0;           ///< until all cells were good
   int crossing_rounds = 0;           ///< until the front was free of intersections
   std::int64_t crossings = 0;        ///< pairs of triangles that met on the way
+  std::int64_t swallowing = 0;       ///< triangles whose layers held another part of the boundary on the way
   std::int64_t zeroed_by_force = 0;  ///< columns emptied after the last round
 };
 

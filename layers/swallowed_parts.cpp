@@ -1,0 +1,118 @@
+#include "layers/swallowed_parts.hpp"
+
+#include "aeroloom/geometry/box_tree.hpp"
+#include "geometry/predicates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <tuple>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Box;
+using geometry::Vec3;
+
+constexpr int boxes_per_leaf_of_points = 4;  // chosen, not measured
+
+/// One point of a CAD face.
+struct FacePoint {
+  std::int32_t face;
+  mesh::PieceId piece;
+  mesh::LocalIndex vertex;
+  std::int32_t unused = 0;  ///< in the place of padding
+  Vec3 point;
+
+  static constexpr auto fields() {
+    return std::tuple(&FacePoint::face, &FacePoint::piece, &FacePoint::vertex, &FacePoint::unused,
+                      &FacePoint::point);
+  }
+};
+
+bool is_before(const FacePoint& a, const FacePoint& b) {
+  return std::tuple(a.face, a.piece, a.vertex) < std::tuple(b.face, b.piece, b.vertex);
+}
+
+void keep_first_of_each_face(std::vector<FacePoint>& points) {
+  std::sort(points.begin(), points.end(), is_before);
+  points.erase(std::unique(points.begin(), points.end(),
+                           [](const FacePoint& a, const FacePoint& b) { return a.face == b.face; }),
+               points.end());
+}
+
+/// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.
+std::vector<FacePoint> points_of_faces(const parallel::Communicator& communicator, const WallShare& wall) {
+  std::vector<FacePoint> points;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
+      const std::int32_t v = std::min({wall.triangles[t][0], wall.triangles[t][1], wall.triangles[t][2]});
+      const FacePoint found{wall.faces[t], wall.mesh.pieces[p].id, v - wall.first_vertex[p], 0,
+                            wall.points[v]};
+      if (points.empty() || points.back().face != found.face) {
+        points.push_back(found);
+      } else if (is_before(found, points.back())) {
+        points.back() = found;
+      }
+    }
+  }
+  keep_first_of_each_face(points);
+  points = communicator.all_gather_items(std::span<const FacePoint>(points));
+  keep_first_of_each_face(points);
+  return points;
+}
+
+/// Inside or on the border; flat tetrahedra hold nothing.
+bool holds(const std::array<Vec3, 4>& tetrahedron, Vec3 point) {
+  const auto& [a, b, c, d] = tetrahedron;
+  const int sign = geometry::orient3d(a, b, c, d);
+  return sign != 0 && sign * geometry::orient3d(point, b, c, d) >= 0 &&
+         sign * geometry::orient3d(a, point, c, d) >= 0 && sign * geometry::orient3d(a, b, point, d) >= 0 &&
+         sign * geometry::orient3d(a, b, c, point) >= 0;
+}
+
+/// The space between a triangle and the ends of its columns. Diagonals of its sides go by the order of the
+/// corners' places, which both triangles beside a side see alike: so nothing falls between them.
+bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) {
+  std::array<int, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const Vec3 &p = foot[i], &q = foot[j];
+    return std::tuple(p.x, p.y, p.z) < std::tuple(q.x, q.y, q.z);
+  });
+  const auto [a, b, c] = order;
+  return holds({foot[a], foot[b], foot[c], end[c]}, point) ||
+         holds({foot[a], foot[b], end[b], end[c]}, point) || holds({foot[a], end[a], end[b], end[c]}, point);
+}
+
+}  // namespace
+
+std::vector<std::int32_t> find_swallowing_triangles(const parallel::Communicator& communicator,
+                                                    const WallShare& wall, const std::vector<Vec3>& ends) {
+  const std::vector<FacePoint> points = points_of_faces(communicator, wall);
+  std::vector<Box> boxes;
+  boxes.reserve(points.size());
+  for (const FacePoint& each : points) boxes.push_back({each.point, each.point});
+  const geometry::BoxTree tree(boxes, boxes_per_leaf_of_points);
+  std::vector<std::int32_t> triangles;
+  for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
+    if (wall.roles[t] != WallRole::layered) continue;
+    std::array<Vec3, 3> foot, end;
+    Box box;
+    for (int i = 0; i < 3; ++i) {
+      foot[i] = wall.points[wall.triangles[t][i]];
+      end[i] = ends[wall.triangles[t][i]];
+      box.add(foot[i]);
+      box.add(end[i]);
+    }
+    bool swallows = false;
+    geometry::for_each_overlap(tree, boxes, box, [&](std::int32_t i) {
+      const Vec3 point = points[i].point;
+      if (swallows || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
+      swallows = layers_hold(foot, end, point);
+    });
+    if (swallows) triangles.push_back(t);
+  }
+  return triangles;
+}
+
+}  // namespace aeroloom::layers

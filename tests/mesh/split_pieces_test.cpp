@@ -1,0 +1,70 @@
+#include "mesh/split_pieces.hpp"
+
+#include "aeroloom/mesh/delivery.hpp"
+#include "aeroloom/mesh/validity.hpp"
+#include "tests/layers/wall_meshes.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::mesh {
+namespace {
+
+using parallel::Communicator;
+
+/// A ball within a box, two CAD faces.
+DistributedMesh ball_in_box(const Communicator& communicator, int slices) {
+  return layers::examples::Shapes()
+      .add_box({-5, -5, -5}, {5, 5, 5}, {6, 6, 6}, layers::examples::Fluid::inside)
+      .add_sphere({0, 0, 0}, 1, 8, layers::examples::Fluid::outside)
+      .distribute_faces(communicator, slices);
+}
+
+TEST(SplitPieces, KeepTheMeshInSmallerPieces) {
+  const auto world = Communicator::world();
+  const DistributedMesh surface = ball_in_box(world, 2);
+  const MeshCounts before = count_mesh(world, surface, number_mesh(world, surface));
+  const NumberedMesh split = split_pieces(world, surface, 50, {});
+  const MeshCounts after = count_mesh(world, split.mesh, split.numbering);
+  EXPECT_EQ(after.vertices, before.vertices);
+  EXPECT_EQ(after.cells, before.cells);
+  // Halves of 432 and of 768 triangles.
+  EXPECT_EQ(split.mesh.piece_count, 2 * 5 + 2 * 8);
+  for (const Piece& piece : split.mesh.pieces) {
+    EXPECT_LE(piece.cell_count(), 50);
+    EXPECT_GE(piece.cell_count(), 40);
+    require_consistent_arrays(piece);
+  }
+  EXPECT_TRUE(check_surface_mesh(world, split.mesh, split.numbering).valid());
+}
+
+TEST(SplitPieces, LeaveWholeFacesAlone) {
+  const auto world = Communicator::world();
+  const NumberedMesh split = split_pieces(world, ball_in_box(world, 1), 50, {0});
+  std::vector<std::int32_t> of_box;
+  for (const Piece& piece : split.mesh.pieces) of_box.push_back(piece.common_face() == 0 ? 1 : 0);
+  of_box = gather_by_piece(world, split.mesh, of_box);
+  EXPECT_EQ(std::count(of_box.begin(), of_box.end(), 1), 1);
+  EXPECT_EQ(of_box.size(), 1u + 16u);
+}
+
+TEST(SplitPieces, AreTheSameOnAnyNumberOfRanks) {
+  const auto hash_of = [](const Communicator& communicator) {
+    const NumberedMesh split = split_pieces(communicator, ball_in_box(communicator, 3), 40, {});
+    return hash_mesh(communicator, split.mesh, split.numbering);
+  };
+  EXPECT_EQ(hash_of(Communicator::world()), hash_of(Communicator::self()));
+}
+
+TEST(SplitPieces, AreSpreadOverRanks) {
+  const auto world = Communicator::world();
+  const NumberedMesh split = split_pieces(world, ball_in_box(world, 1), 20, {});
+  std::int64_t mine = 0;
+  for (const Piece& piece : split.mesh.pieces) mine += piece.cell_count();
+  EXPECT_LE(world.size() * mine, 1.1 * static_cast<double>(world.sum(mine)));
+}
+
+}  // namespace
+}  // namespace aeroloom::mesh
