@@ -22,8 +22,8 @@ using geometry::Vec3;
 using sizing::Triangle;
 using Json = nlohmann::ordered_json;
 
-// What a cell of layers adds to a run, from runs with and without layers (docs/boundary_layers.md).
-constexpr double seconds_per_layer_cell = 6e-6, bytes_per_layer_cell = 95;
+// What a prism of layers adds to a run, cut into tetrahedra or not (docs/boundary_layers.md).
+constexpr double seconds_per_prism = 3e-6, bytes_per_prism = 75;
 
 constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
 constexpr double part_per_size = 3;                             // edges of a part that one size stands for
@@ -185,11 +185,11 @@ double LayerForecast::cells() const {
 }
 
 double LayerForecast::seconds() const {
-  return seconds_per_layer_cell * cells();
+  return seconds_per_prism * cells() / cells_of_prism;
 }
 
 double LayerForecast::bytes() const {
-  return bytes_per_layer_cell * cells();
+  return bytes_per_prism * cells() / cells_of_prism;
 }
 
 LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::PatchType>& types,
@@ -198,6 +198,7 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
       cases::layer_options(input.layers, input.sizing, model.patches(), types);
   const LayerCount count(model, field, types, options.elements);
   LayerForecast forecast{{}, input.layers.reynolds, input.layers.length};
+  if (options.elements == layers::LayerElements::tets) forecast.cells_of_prism = 3;
   for (std::size_t p = 0; p < options.patches.size(); ++p) {
     if (options.patches[p].first <= 0) continue;
     PatchLayerForecast patch{.name = model.patches()[p], .asked = options.patches[p]};

@@ -27,12 +27,13 @@ struct PatchLayerForecast {
   double squeezed_area = 0;  ///< where gaps are too narrow for the total: layers grow slower
   double lacking_area = 0;   ///< where they do not hold so many layers of the first height
   double narrowest_gap = std::numeric_limits<double>::infinity();  ///< of those
-  geometry::Vec3 narrowest_at;                                     ///< on the wall
+  geometry::Vec3 narrowest_at = {};                                ///< on the wall
 };
 
 struct LayerForecast {
   std::vector<PatchLayerForecast> patches;  ///< those with layers
   std::optional<double> reynolds, length;   ///< of the flow, where the case tells
+  int cells_of_prism = 1;                   ///< that each becomes
   /// What layers add to a run: cells, seconds of one core, bytes of memory, all ranks together.
   double cells() const;
   double seconds() const;
