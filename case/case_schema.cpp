@@ -65,6 +65,16 @@ void add_list_of(Json& schema, const Json& item) {
   schema["anyOf"] = Json::array({item, {{"type", "array"}, {"items", item}, {"minItems", 1}}});
 }
 
+/// Or a word in its place.
+void add_number(Json& schema, const KeyInfo& key) {
+  Json number = {{"type", key.kind == KeyKind::number ? "number" : "integer"}};
+  add_range(number, key.range);
+  if (key.choices.empty())
+    schema.update(number);
+  else
+    schema["anyOf"] = Json::array({number, {{"enum", key.choices}}});
+}
+
 void add_type(Json& schema, const KeyInfo& key) {
   // Names of files and faces may look like numbers.
   const Json text = {{"type", {"string", "number", "boolean"}}, {"minLength", 1}};
@@ -77,8 +87,7 @@ void add_type(Json& schema, const KeyInfo& key) {
       break;
     case KeyKind::number:
     case KeyKind::integer:
-      schema["type"] = key.kind == KeyKind::number ? "number" : "integer";
-      add_range(schema, key.range);
+      add_number(schema, key);
       break;
     case KeyKind::flag:
       schema["type"] = "boolean";

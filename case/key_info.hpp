@@ -57,7 +57,7 @@ struct KeyInfo {
   KeyKind kind = KeyKind::section;
   KeyDoc doc = "";
   Range range = {};                  ///< of numbers, with their unit
-  std::vector<std::string> choices;  ///< names that are accepted
+  std::vector<std::string> choices;  ///< names that are accepted, in place of a number as well
   std::string default_value;         ///< as YAML; empty where there is none
   std::vector<KeyInfo> of_each;      ///< keys of a map of `sections`, their paths from there
 

@@ -43,7 +43,8 @@ std::string two_words(const std::string& first, const std::string& second) {
 std::string accepted_values(const KeyInfo& key) {
   switch (key.kind) {
     case KeyKind::number:
-      return two_words("number", numbers_within(key.range));
+      return two_words("number", numbers_within(key.range)) +
+             (key.choices.empty() ? "" : ", or " + joined(key.choices));
     case KeyKind::integer:
       return two_words("whole number", numbers_within(key.range));
     case KeyKind::flag:

@@ -34,9 +34,11 @@ void declare_layer_rule(KeyTable& keys, LayerRule& rule) {
 }
 
 void declare_first(KeyTable& keys, LayerRequest& request) {
-  keys.number("first", request.first, Range::above(0, length_unit),
-              common({"Height of the layer at the wall. Or give `reynolds` and `length`, and `y_plus`.",
-                      "from `y_plus`, `reynolds` and `length`", "1e-5"}));
+  keys.number_or(
+      "level", request.first_of_level, "first", request.first, Range::above(0, length_unit),
+      common({"Height of the layer at the wall. `level`: from the y+ of `sizing.level`, with `reynolds` "
+              "and `length`; so it is, too, where these are given alone.",
+              "from `y_plus`, `reynolds` and `length`", "1e-5"}));
   keys.number(
       "y_plus", request.y_plus, Range::between(1e-3, 1000),
       {"The wall distance of the first node (of the first cell's centre with `sizing.solver: cell`) "
@@ -66,9 +68,17 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
       "until", request.until, {{"isotropic", LayerEnd::isotropic}},
       "Where layers stop that neither `count` nor `total` stops: `isotropic`, once the last "
       "is 0.7 times as high as the triangles there are wide.");
-  keys.choice<LayerElements>("elements", request.elements, {{"prisms", LayerElements::prisms}},
-                             "The cells of layers: `prisms`, with pyramids and tetrahedra where neighbours "
-                             "have different numbers of layers.");
+  using layers::LayerElements;
+  keys.choice<LayerElements>(
+      "elements", request.elements, {{"prisms", LayerElements::prisms}, {"tets", LayerElements::tets}},
+      "The cells of layers: `prisms`, with pyramids and tetrahedra where neighbours have different numbers "
+      "of layers, or `tets`: each of those cut into tetrahedra.");
+}
+
+void declare_layer_gate(KeyTable& keys, LayerGate& gate) {
+  keys.number("full_area", gate.full_area, Range::between(0, 1),
+              {"The part of the area of walls with layers whose columns have all layers asked for, at least.",
+               "none", "0.95"});
 }
 
 /// The rule has a height, its own or that of all.
@@ -93,6 +103,12 @@ void declare_layers(KeyTable& root, CaseDraft& draft) {
       "Which patches get layers. `auto`: all of type `wall`. `none`: those below `patches` alone.");
   declare_first(keys, request);
   declare_stops(keys, request);
+  declare_layer_gate(
+      keys.section("gate",
+                   "Limits that the layers have to meet. Where one is missed the run ends with "
+                   "exit code 6, the mesh written.",
+                   &request.gate.given),
+      request.gate);
   keys.named_sections("patches", "Layers of single patches that differ from those of the others.",
                       {"A patch of type `wall`, by its name.", "", "nacelle"},
                       [&rules = draft.layer_rules](const std::string& name, KeyTable& table) {
@@ -106,7 +122,13 @@ void check_layers(const KeyTable& keys, const CaseDraft& draft) {
   const auto refuse = [&](const std::string& key, const std::string& text) {
     throw CaseError(fmt::format("{}: {}", keys.where(key), text));
   };
-  const bool from_flow = request.y_plus || request.reynolds || request.length;
+  const bool from_flow = request.y_plus || request.reynolds || request.length || request.first_of_level;
+  if (request.first_of_level && request.y_plus)
+    refuse("layers.first",
+           "'layers.first: level' and 'layers.y_plus' exclude each other: y+ is that of the "
+           "level, or it is given");
+  if (request.first_of_level && !draft.result.sizing.level)
+    refuse("layers.first", "'layers.first: level' needs 'sizing.level', which has a y+");
   if (request.first && from_flow) {
     const char* const other = request.y_plus ? "y_plus" : request.reynolds ? "reynolds" : "length";
     refuse("layers.first",
@@ -115,15 +137,17 @@ void check_layers(const KeyTable& keys, const CaseDraft& draft) {
                        other));
   }
   if (from_flow && !(request.reynolds && request.length))
-    refuse(request.y_plus     ? "layers.y_plus"
-           : request.reynolds ? "layers.reynolds"
-                              : "layers.length",
+    refuse(request.first_of_level ? "layers.first"
+           : request.y_plus       ? "layers.y_plus"
+           : request.reynolds     ? "layers.reynolds"
+                                  : "layers.length",
            "the height of the first layer comes from the flow: 'layers.reynolds' and 'layers.length' are "
            "needed, both");
   if (from_flow && !request.y_plus && !draft.result.sizing.level)
     refuse("layers.reynolds", "needs 'layers.y_plus', or 'sizing.level', which has one");
   const bool height_for_all = request.first || from_flow;
-  const bool of_heights = request.constant || request.growth || request.count || request.total;
+  const bool of_heights =
+      request.constant || request.growth || request.count || request.total || request.gate.given;
   if (request.walls == LayeredWalls::all && !height_for_all && (of_heights || !draft.layer_rules.empty()))
     refuse("layers",
            "'layers' needs the height of the first layer: 'first', or 'reynolds' and 'length' with 'y_plus'; "

@@ -67,12 +67,17 @@ double first_height(double y_plus, double reynolds, double length, sizing::Solve
   return points == sizing::SolverPoints::cell ? 2 * height : height;
 }
 
+double y_plus_of(double first, double reynolds, double length) {
+  return first / first_height(1, reynolds, length, sizing::SolverPoints::vertex);
+}
+
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,
                                    const std::vector<std::string>& patches,
                                    const std::vector<mesh::PatchType>& types) {
   layers::LayerOptions options;
   options.patches.resize(patches.size());
   options.ends_on_planes = true;
+  options.elements = request.elements;
   if (!request.given) return options;
   const layers::WallLayers wanted = layers_of_walls(request, sizing);
   for (std::size_t p = 0; p < patches.size() && request.walls == LayeredWalls::all; ++p) {

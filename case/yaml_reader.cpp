@@ -108,6 +108,21 @@ void KeyTable::number(const std::string& name, std::optional<double>& target, co
       [&target] { return target ? std::optional(shortest(*target)) : std::nullopt; });
 }
 
+void KeyTable::number_or(const std::string& word, bool& is_word, const std::string& name,
+                         std::optional<double>& target, const Range& range, const KeyDoc& doc) {
+  add(
+      name, KeyKind::number, doc, range,
+      [&target, &is_word, word, range](const YamlValue& value) {
+        target = value.number_or(range, word);
+        is_word = !target;
+      },
+      [&target, &is_word, word] {
+        if (is_word) return std::optional(word);
+        return target ? std::optional(shortest(*target)) : std::nullopt;
+      });
+  _entries.back().info.choices = {word};
+}
+
 void KeyTable::integer(const std::string& name, std::int64_t& target, const Range& range, const KeyDoc& doc) {
   add(
       name, KeyKind::integer, doc, range,

@@ -35,6 +35,9 @@ public:
   void number(const std::string& name, double& target, const Range& range, const KeyDoc& doc);
   /// An empty optional is not written.
   void number(const std::string& name, std::optional<double>& target, const Range& range, const KeyDoc& doc);
+  /// A number, or a word in its place: `is_word` tells, and the number is empty then.
+  void number_or(const std::string& word, bool& is_word, const std::string& name,
+                 std::optional<double>& target, const Range& range, const KeyDoc& doc);
   void integer(const std::string& name, std::int64_t& target, const Range& range, const KeyDoc& doc);
   void integer(const std::string& name, std::optional<std::int64_t>& target, const Range& range,
                const KeyDoc& doc);

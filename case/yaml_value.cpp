@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -111,6 +110,14 @@ double YamlValue::number(const Range& range) const {
   if (!value) refuse("a number");
   require_within(*value, range);
   return *value;
+}
+
+std::optional<double> YamlValue::number_or(const Range& range, const std::string& word) const {
+  if (_node.IsScalar() && _node.Scalar() == word) return std::nullopt;
+  const std::optional<double> value = _node.IsScalar() ? parse_number(_node.Scalar()) : std::nullopt;
+  if (!value) refuse(fmt::format("a number or '{}'", word));
+  require_within(*value, range);
+  return value;
 }
 
 std::int64_t YamlValue::integer(const Range& range) const {

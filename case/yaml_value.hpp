@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,8 @@ public:
       : _node(node), _path(std::move(path)), _where(std::move(where)) {}
   /// Each throws CaseError when the value is something else.
   double number(const Range& range) const;
+  /// Nothing where the word is there instead.
+  std::optional<double> number_or(const Range& range, const std::string& word) const;
   std::int64_t integer(const Range& range) const;
   bool flag() const;
   std::string text() const;

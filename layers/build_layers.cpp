@@ -13,13 +13,9 @@
 namespace aeroloom::layers {
 namespace {
 
-/// Totals that leave room for what is opposite, which has layers as well.
-constexpr double most_of_gap = 0.4;
-
 /// A gap in which a column has all the room it wants.
-double ample_gap(const ColumnLimits& limits, std::int32_t v) {
-  const double total = limits.total(v);
-  return std::max(total / most_of_gap, 2 * total + limits.mean_edge(v));
+double ample_gap_of(const ColumnLimits& limits, std::int32_t v) {
+  return ample_gap(limits.total(v), limits.mean_edge(v));
 }
 
 /// The balls that tell whether columns have room. Only the lowest piece that knows a vertex asks.
@@ -28,23 +24,20 @@ std::vector<TouchingBall> balls_on(const WallShare& wall, const Directions& dire
   std::vector<TouchingBall> balls(wall.points.size());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
     if (limits.count(v) == 0 || wall.owned[v] == 0) continue;
-    balls[v] = {wall.points[v], directions.most_normal[v], ample_gap(limits, v)};
+    balls[v] = {wall.points[v], directions.most_normal[v], ample_gap_of(limits, v)};
   }
   return balls;
 }
 
-/// No column takes more than 0.4 of the gap, nor more than half of what it leaves beside a mean edge, for a
-/// tetrahedron; but layers of the first height are kept where 0.4 of the gap holds them.
+/// No column takes more than its room in the gap.
 void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& wall,
                    const Directions& directions, ColumnLimits& limits) {
   std::vector<double> gaps = find_gaps(communicator, wall, balls_on(wall, directions, limits));
   wall.spread(gaps);
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
-    if (limits.count(v) == 0 || gaps[v] >= ample_gap(limits, v)) continue;
-    const double most = most_of_gap * gaps[v], beside_edge = 0.5 * (gaps[v] - limits.mean_edge(v));
-    const double all_first = limits.count(v) * limits.heights(v).first;
-    totals[v] = std::max(std::min(most, beside_edge), std::min(all_first, most));
+    if (limits.count(v) == 0 || gaps[v] >= ample_gap_of(limits, v)) continue;
+    totals[v] = room_in_gap(gaps[v], limits.mean_edge(v), limits.count(v) * limits.heights(v).first);
   }
   limits.limit_totals(std::move(totals), LayerLimit::gap);
 }
@@ -68,7 +61,7 @@ Layers build_layers(const parallel::Communicator& communicator, const mesh::Numb
   layers.front =
       FrontClearing(communicator, walls, directions, remesh_planes).run(limits, layers.report, clock);
   layers.columns = make_columns(walls, directions, limits);
-  layers.report.patches = report_patches(communicator, walls, limits);
+  layers.report.patches = report_patches(communicator, walls, limits, options.elements);
   return layers;
 }
 

@@ -45,4 +45,20 @@ Squeezed squeeze(const Heights& heights, std::int32_t count, double limit) {
   return {low, count};
 }
 
+namespace {
+
+/// Leaves room for what is opposite, which has layers as well.
+constexpr double most_of_gap = 0.4;
+
+}  // namespace
+
+double ample_gap(double total, double mean_edge) {
+  return std::max(total / most_of_gap, 2 * total + mean_edge);
+}
+
+double room_in_gap(double gap, double mean_edge, double all_first) {
+  const double most = most_of_gap * gap, beside_edge = 0.5 * (gap - mean_edge);
+  return std::max(std::min(most, beside_edge), std::min(all_first, most));
+}
+
 }  // namespace aeroloom::layers

@@ -50,4 +50,11 @@ struct Squeezed {
 /// there are fewer of them.
 Squeezed squeeze(const Heights& heights, std::int32_t count, double limit);
 
+/// A gap in which layers of this total have all the room they want, beside edges of this length.
+double ample_gap(double total, double mean_edge);
+/// The total that layers may have in a gap: 0.4 of it, and no more than half of what it leaves beside an
+/// edge, for a tetrahedron; but all layers of the first height, `all_first` together, are kept where 0.4 of
+/// the gap holds them.
+double room_in_gap(double gap, double mean_edge, double all_first);
+
 }  // namespace aeroloom::layers

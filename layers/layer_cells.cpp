@@ -163,7 +163,7 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
                                             const NamedFront& front,
                                             const std::vector<std::optional<std::size_t>>& places,
                                             const std::vector<LateralEdge>& laterals,
-                                            std::int64_t most_cells) {
+                                            const LayerCellOptions& options) {
   std::vector<std::vector<Piece>> made(wall.mesh.pieces.size());
   for (std::size_t p = 0; p < made.size(); ++p) {
     if (!places[p]) continue;
@@ -178,8 +178,9 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
                               front.numbering.vertices[*places[p]],
                               bears,
                               {first, last},
-                              wall.mesh.sides_of(piece.common_face()).front};
-    const std::vector<TriangleRange> ranges = cut_into_ranges(source, most_cells);
+                              wall.mesh.sides_of(piece.common_face()).front,
+                              options.elements};
+    const std::vector<TriangleRange> ranges = cut_into_ranges(source, options.most_cells_per_piece);
     const std::vector<std::uint8_t> shared = find_shared(source, ranges);
     for (const TriangleRange range : ranges) made[p].push_back(make_layer_piece(source, range, shared));
   }
@@ -239,14 +240,12 @@ NamedFront name_front(const Communicator& communicator, mesh::DistributedMesh fr
 }
 
 void append_layers(const Communicator& communicator, const mesh::NumberedMesh& wall, const Columns& columns,
-                   const NamedFront& front, std::int64_t most_cells_per_piece,
-                   mesh::DistributedMesh& volume) {
+                   const NamedFront& front, const LayerCellOptions& options, mesh::DistributedMesh& volume) {
   const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
   BehindFront(wall.mesh, make_table(communicator, columns, front, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(communicator, wall, columns);
   std::vector<std::vector<Piece>> made;
-  parallel::agree(communicator,
-                  [&] { made = make_pieces(wall, columns, front, places, laterals, most_cells_per_piece); });
+  parallel::agree(communicator, [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 namespace aeroloom::layers {
@@ -57,6 +58,7 @@ private:
     for (const LocalIndex each : v) _piece.boundary.push_back(at(each, 0));
     _piece.triangle_face.push_back(_source.wall.triangle_face[t]);
     _piece.triangle_patch.push_back(_source.wall.triangle_patch[t]);
+    if (_source.elements == LayerElements::tets) return add_tetrahedra(v, layers);
     for (std::int32_t k = 1; k <= layers; ++k) add_cell(v, k);
   }
 
@@ -106,11 +108,53 @@ private:
     }
   }
 
+  /// Corners by the numbers of their columns, the largest first: in this order columns rise.
+  template <std::size_t Count>
+  std::array<int, Count> order_of_rise(const std::array<LocalIndex, Count>& v) const {
+    std::array<int, Count> order{};
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return _source.numbers[v[a]] > _source.numbers[v[b]]; });
+    return order;
+  }
+
+  void add_tetrahedra(const Triangle& v, std::int32_t layers) {
+    const std::array<int, 3> order = order_of_rise(v);
+    Triangle below{at(v[0], 0), at(v[1], 0), at(v[2], 0)};
+    for (std::int32_t k = 1; k <= layers; ++k) {
+      for (const int i : order) {
+        if (count(v[i]) < k) continue;
+        const LocalIndex above = at(v[i], k);
+        _piece.cells.insert(_piece.cells.end(), {below[0], below[2], below[1], above});
+        _of_tetrahedra.push_back(static_cast<std::int16_t>(k));
+        below[i] = above;
+      }
+    }
+  }
+
+  /// The same over an edge from p to q.
+  void add_lateral_triangles(const LateralEdge& edge, LocalIndex p, LocalIndex q) {
+    const std::array<LocalIndex, 2> ends{q, p};
+    const std::array<int, 2> order = order_of_rise(ends);
+    std::array<LocalIndex, 2> below{at(q, 0), at(p, 0)};
+    for (std::int32_t k = 1; k <= std::max(count(p), count(q)); ++k) {
+      for (const int i : order) {
+        if (count(ends[i]) < k) continue;
+        const LocalIndex above = at(ends[i], k);
+        _piece.boundary.insert(_piece.boundary.end(), {below[0], below[1], above});
+        _piece.triangle_face.push_back(edge.face);
+        _piece.triangle_patch.push_back(edge.patch);
+        below[i] = above;
+      }
+    }
+  }
+
   /// What lies over an edge, seen from outside of the cells: quadrilaterals where both columns go on, a
   /// triangle in each layer where one does.
   void add_lateral(const LateralEdge& edge) {
     const Triangle v = corners_of(_source.wall, edge.half_edge / 3);
     const LocalIndex p = v[edge.half_edge % 3], q = v[(edge.half_edge + 1) % 3];
+    if (_source.elements == LayerElements::tets) return add_lateral_triangles(edge, p, q);
     for (std::int32_t k = 1; k <= std::max(count(p), count(q)); ++k) {
       if (count(p) >= k && count(q) >= k) {
         _piece.quads.insert(_piece.quads.end(), {at(q, k - 1), at(p, k - 1), at(p, k), at(q, k)});
@@ -142,6 +186,14 @@ std::int32_t LayeredPiece::layers_over(LocalIndex triangle) const {
   return most;
 }
 
+std::int32_t LayeredPiece::cells_over(LocalIndex triangle) const {
+  const std::int32_t layers = layers_over(triangle);
+  if (layers == 0 || elements == LayerElements::prisms) return layers;
+  std::int32_t cells = 0;
+  for (const LocalIndex v : corners_of(wall, triangle)) cells += columns.counts[v];
+  return cells;
+}
+
 std::vector<TriangleRange> cut_into_ranges(const LayeredPiece& source, std::int64_t most_cells) {
   std::vector<TriangleRange> ranges;
   std::int64_t cells = 0;
@@ -151,7 +203,7 @@ std::vector<TriangleRange> cut_into_ranges(const LayeredPiece& source, std::int6
     begin = end, cells = 0;
   };
   for (LocalIndex t = 0; t < source.wall.cell_count(); ++t) {
-    const std::int32_t more = source.layers_over(t);
+    const std::int32_t more = source.cells_over(t);
     if (cells > 0 && cells + more > most_cells) close(t);
     cells += more;
   }

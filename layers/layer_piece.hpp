@@ -19,9 +19,11 @@ struct LayeredPiece {
   const std::vector<std::uint8_t>& bears;         ///< by triangle
   std::span<const LateralEdge> laterals;          ///< by half-edge
   mesh::RegionId region = 0;
+  LayerElements elements = LayerElements::prisms;
 
   /// Layers over a triangle; 0: it stays boundary of what lies behind the front.
   std::int32_t layers_over(mesh::LocalIndex triangle) const;
+  std::int32_t cells_over(mesh::LocalIndex triangle) const;
 };
 
 /// Consecutive triangles.

@@ -30,16 +30,26 @@ void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLa
   patch.most_layers = std::max<std::int64_t>(patch.most_layers, count);
 }
 
-void add_triangle(const WallShare& wall, const ColumnLimits& limits, std::int32_t t, PatchLayers& patch) {
+/// Of counts in ascending order.
+void add_cells(const std::array<std::int32_t, 3>& counts, LayerElements elements, PatchLayers& patch) {
+  if (elements == LayerElements::tets) {
+    patch.tetrahedra += counts[0] + counts[1] + counts[2];
+    return;
+  }
+  patch.prisms += counts[0];
+  patch.pyramids += counts[1] - counts[0];
+  patch.tetrahedra += counts[2] - counts[1];
+}
+
+void add_triangle(const WallShare& wall, const ColumnLimits& limits, std::int32_t t, LayerElements elements,
+                  PatchLayers& patch) {
   const auto& [a, b, c] = wall.triangles[t];
   const double area = 0.5 * norm(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
   std::array<std::int32_t, 3> counts{limits.count(a), limits.count(b), limits.count(c)};
   std::sort(counts.begin(), counts.end());
   ++patch.triangles;
   patch.area += area;
-  patch.prisms += counts[0];
-  patch.pyramids += counts[1] - counts[0];
-  patch.tetrahedra += counts[2] - counts[1];
+  add_cells(counts, elements, patch);
   for (const std::int32_t v : {a, b, c}) add_column(limits, v, area / 3, patch);
 }
 
@@ -58,12 +68,13 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 }  // namespace
 
 std::vector<PatchLayers> report_patches(const parallel::Communicator& communicator, const WallShare& wall,
-                                        const ColumnLimits& limits) {
+                                        const ColumnLimits& limits, LayerElements elements) {
   std::vector<PieceRow> rows;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     std::vector<PatchLayers> patches(wall.mesh.patches.size());
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
-      if (wall.roles[t] == WallRole::layered) add_triangle(wall, limits, t, patches[wall.patches[t]]);
+      if (wall.roles[t] == WallRole::layered)
+        add_triangle(wall, limits, t, elements, patches[wall.patches[t]]);
     }
     for (std::size_t i = 0; i < patches.size(); ++i) {
       if (patches[i].triangles > 0)

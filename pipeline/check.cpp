@@ -53,13 +53,13 @@ study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicat
 }
 
 /// The clock has the stage `geometry`.
-RunForecast forecast_run(const parallel::Communicator& communicator, const cad::Model& model,
+RunForecast forecast_run(const parallel::Communicator& communicator, const cases::TypedPatches& patches,
                          const cases::Case& input, parallel::StageClock& clock) {
   RunForecast forecast;
   const double begin = parallel::cpu_seconds();
   clock.begin("sizing");
   const domain::SizedDomain sized =
-      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock,
+      domain::size_domain(communicator, patches.model, input.sizing, domain::Simplification::of(input), clock,
                           sizing::FieldFor::forecast);
   parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
@@ -77,6 +77,12 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cad::
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
   forecast.seconds = predicted_seconds(forecast.counts);
   forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root() || !input.layers.given) return;
+    forecast.layers = forecast_layers(sized.model, patches.types, input, sized.field);
+    forecast.seconds += forecast.layers->seconds();
+    forecast.bytes += forecast.layers->bytes();
+  });
   const double pieces = pieces_per_rank * communicator.size();
   forecast.piece_triangles =
       std::clamp<std::int64_t>(std::llround(triangles / pieces), least_triangles, most_triangles);
@@ -164,14 +170,16 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
   return text +
          fmt::format(
              "sizes: {:.4g} to {:.4g}, {:.3g} degrees per element\n"
+             "{}"
              "a run: about {:.3g} triangles, {:.3g} tetrahedra, {:.0f} s on one core, {:.1f} GiB\n"
              "       {} rank(s) work with 80 % efficiency ({} where geometry does not count), {:.2g} s, "
              "{:.2g} GiB on the largest\n"
              "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
              "{}{}\n",
              forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
-             forecast.counts.triangles, forecast.counts.tetrahedra, forecast.seconds,
-             forecast.bytes / gibibyte, forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
+             forecast.layers ? describe(*forecast.layers) : "", forecast.counts.triangles,
+             forecast.counts.tetrahedra, forecast.seconds, forecast.bytes / gibibyte,
+             forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
              forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / gibibyte, ranks,
              forecast.piece_triangles, forecast.piece_tets, describe(forecast.levels),
              coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
@@ -237,6 +245,7 @@ Json forecast_json(const RunForecast& forecast) {
           {"tetrahedra", forecast.counts.tetrahedra},
           {"seconds_on_one_core", forecast.seconds},
           {"bytes", forecast.bytes},
+          {"layers", forecast.layers ? to_json(*forecast.layers) : Json()},
           {"levels", to_json(forecast.levels)},
           {"level", forecast.found ? to_json(*forecast.found) : Json()},
           {"scaling", study::to_json(forecast.worthwhile, {})},
@@ -311,7 +320,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
-    record.forecast = forecast_run(communicator, model, input, clock);
+    record.forecast = forecast_run(communicator, patches, input, clock);
     parallel::agree(communicator, [&] {
       if (communicator.is_root())
         record.contacts = find_face_contacts(model, shown_contacts, record.contact_count);

@@ -10,6 +10,7 @@
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/report/exit_code.hpp"
 #include "aeroloom/sizing/size_field.hpp"
+#include "pipeline/layer_forecast.hpp"
 #include "pipeline/level_forecast.hpp"
 #include "study/prediction_files.hpp"
 
@@ -36,8 +37,9 @@ struct RunForecast {
   cad::Changes joined;                      ///< narrow faces that would vanish in their neighbours
   domain::TrailingEdgeReport edges;         ///< what would become of blunt trailing edges
   sizing::PredictedCounts counts;
-  double seconds = 0;                                ///< of one core
-  double bytes = 0;                                  ///< of memory, all ranks together
+  std::optional<LayerForecast> layers;               ///< where the case asks for them; on rank 0
+  double seconds = 0;                                ///< of one core, with layers
+  double bytes = 0;                                  ///< of memory, all ranks together, with layers
   std::vector<LevelForecast> levels;                 ///< all of those of the case's level; none without
   std::optional<domain::LevelFindings> found;        ///< by that level
   study::WorthwhileRanks worthwhile;                 ///< how many ranks are worth asking for

@@ -44,7 +44,12 @@ cases::Case relevant_part(const cases::Case& input, SavedStage stage) {
     if (part.sizing.minimum) part.sizing.reference_length = input.sizing.reference_length;
   }
   if (stage >= SavedStage::surface) part.surface = input.surface;
-  if (stage >= SavedStage::volume) part.volume = input.volume, part.layers = input.layers;
+  if (stage >= SavedStage::volume) {
+    part.volume = input.volume;
+    part.layers = input.layers;
+    part.layers.gate = {};
+    part.layers.elements = {};  // layers are made after this, from what their front has left
+  }
   if (stage >= SavedStage::improve) {
     part.improve = input.improve;
     part.gate.percentile_01 = input.gate.percentile_01;

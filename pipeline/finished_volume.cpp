@@ -1,6 +1,7 @@
 #include "pipeline/finished_volume.hpp"
 
 #include "aeroloom/attribution/pinned.hpp"
+#include "aeroloom/case/layer_gate.hpp"
 #include "aeroloom/mesh/mixed_quality.hpp"
 #include "aeroloom/mesh/quality.hpp"
 #include "aeroloom/mesh/validity.hpp"
@@ -199,6 +200,13 @@ std::string missed_area(const cases::QualityGate& gate, const report::RunRecord&
       record.sizes.minimum, record.sizes.surface_maximum, record.unit);
 }
 
+std::string missed_layers(const cases::LayerGate& gate, const report::RunRecord& record) {
+  if (!record.layers) return {};
+  std::vector<std::string> names;
+  for (const report::PatchRow& patch : record.patches) names.push_back(patch.name);
+  return cases::missed_limits(gate, record.layers->asked, record.layers->report, names);
+}
+
 }  // namespace
 
 std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record) {
@@ -208,13 +216,13 @@ std::string coarse_region(const cases::QualityGate& gate, const report::RunRecor
          "; it is a few of the smallest elements wide";
 }
 
-void require_quality(const cases::QualityGate& gate, const report::RunRecord& record) {
+void require_quality(const cases::Case& input, const report::RunRecord& record) {
+  const cases::QualityGate& gate = input.gate;
   std::string missed =
       cases::missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
-  if (const std::string area = missed_area(gate, record); !area.empty())
-    missed += (missed.empty() ? "" : "\n") + area;
-  if (const std::string volume = missed_volume(gate, record); !volume.empty())
-    missed += (missed.empty() ? "" : "\n") + volume;
+  for (const std::string& other :
+       {missed_layers(input.layers.gate, record), missed_area(gate, record), missed_volume(gate, record)})
+    if (!other.empty()) missed += (missed.empty() ? "" : "\n") + other;
   if (!missed.empty()) throw report::StageFailure("quality gate", report::ExitCode::quality_gate, missed);
 }
 

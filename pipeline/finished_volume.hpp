@@ -37,7 +37,7 @@ std::vector<report::PatchRow> table_of_patches(const parallel::Communicator& com
 /// The warning about a region that misses the volume of the CAD's by more than the gate allows, but is
 /// so few of the smallest elements wide that these explain it. Empty where there is none.
 std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record);
-/// Throws StageFailure when the finished mesh misses the limits.
-void require_quality(const cases::QualityGate& gate, const report::RunRecord& record);
+/// Throws StageFailure when the finished mesh, or its layers, miss the limits of the case.
+void require_quality(const cases::Case& input, const report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

@@ -36,7 +36,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
     record.pictures = report::pictures_or_warning(communicator, &volume,
                                                   {surface, surface_numbers, volume.patch_types, ""});
   });
-  require_quality(input.gate, record);
+  require_quality(input, record);
 }
 
 }  // namespace aeroloom::pipeline

@@ -122,7 +122,7 @@ void append_layers(const parallel::Communicator& communicator, const cases::Case
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
   const parallel::ScopedCpu task(record.clock, parallel::ScopedCpu::As::task);
   layers::append_layers(communicator, surface, layered.columns, layered.front,
-                        input.volume.piece_tets.value_or(most_cells), volume);
+                        {input.volume.piece_tets.value_or(most_cells), input.layers.elements}, volume);
 }
 
 }  // namespace aeroloom::pipeline

@@ -58,7 +58,7 @@ public:
       if (_input.output.pictures)
         _record.pictures = report::pictures_or_warning(_communicator, &volume, pictured);
     });
-    require_quality(_input.gate, _record);
+    require_quality(_input, _record);
   }
 
 private:

@@ -94,7 +94,8 @@ std::string gate_table(const Json& gate) {
 std::string gate_sentence(const Json& gate, bool written) {
   if (!gate.is_array() || gate.empty())
     return "<li>" + badge("plain", "gate") +
-           " The case sets no limits (<code>improve.gate</code>), so none is missed.</li>\n";
+           " The case sets no limits (<code>improve.gate</code>, <code>layers.gate</code>), so none is "
+           "missed.</li>\n";
   std::size_t missed = 0;
   for (const Json& row : gate) missed += find(row, "/met") == Json(true) ? 0 : 1;
   if (missed == 0)

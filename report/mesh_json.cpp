@@ -1,3 +1,4 @@
+#include "aeroloom/case/layer_gate.hpp"
 #include "aeroloom/case/quality_gate.hpp"
 #include "report/change_json.hpp"
 #include "report/mixed_quality_json.hpp"
@@ -6,6 +7,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace aeroloom::report {
 
@@ -49,8 +51,14 @@ Json distribution_json(const mesh::Distribution& d) {
 Json gate_json(const cases::Case& input, const RunRecord& record) {
   Json limits = Json::array();
   const mesh::MixedQuality* cells = record.cells ? &*record.cells : nullptr;
-  for (const cases::GateLimit& row :
-       cases::compare_with_gate(input.gate, *record.quality, record.pinned, cells)) {
+  std::vector<cases::GateLimit> rows =
+      cases::compare_with_gate(input.gate, *record.quality, record.pinned, cells);
+  if (record.layers) {
+    const auto more =
+        cases::compare_with_gate(input.layers.gate, record.layers->asked, record.layers->report);
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  for (const cases::GateLimit& row : rows) {
     limits.push_back({{"key", row.key},
                       {"limit", row.limit},
                       {"side", row.at_most ? "at most" : "at least"},

@@ -44,11 +44,14 @@ TEST_F(LayerKeys, ComeBack) {
   const Case input = with_layers(
       "walls: none, first: 1e-5, constant: 3, growth: 1.3, count: 20, total: 0.5, patches: {wing: {first: "
       "2e-5, "
-      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}");
+      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}, elements: tets, gate: {full_area: "
+      "0.9}");
   const Case again = case_of_resolved(resolved_yaml(input));
   EXPECT_TRUE(again.layers.given);
   EXPECT_EQ(again.layers.walls, LayeredWalls::none);
   ASSERT_EQ(again.layers.patches.size(), 2u);
+  EXPECT_EQ(again.layers.elements, layers::LayerElements::tets);
+  EXPECT_EQ(again.layers.gate.full_area, 0.9);
   EXPECT_EQ(again.layers.patches[0].first, 2e-5);
   EXPECT_EQ(again.layers.patches[1].count, 0);
   EXPECT_EQ(resolved_yaml(again), resolved_yaml(input));
@@ -117,6 +120,20 @@ TEST_F(LayerKeys, LevelsHaveYPlusGrowthAndConstantLayers) {
   EXPECT_EQ(options_of(given).patches[0].first, first_height(1, 5e6, 7, sizing::SolverPoints::vertex));
 }
 
+TEST_F(LayerKeys, HeightsMayBeThoseOfTheLevel) {
+  const std::string level = "sizing: {level: C, solver: cell}\n";
+  const Case input = with_layers("first: level, reynolds: 5e6, length: 7", level);
+  const layers::WallLayers wall = options_of(input).patches[0];
+  EXPECT_EQ(wall.first, first_height(1, 5e6, 7, sizing::SolverPoints::cell)) << "y+ of the centre";
+  EXPECT_NEAR(y_plus_of(wall.first, 5e6, 7), 2, 1e-12) << "of the node";
+  EXPECT_EQ(wall.growth, 1.1);
+  EXPECT_EQ(wall.constant, 2) << "no level with a letter says how many";
+  const Case again = case_of_resolved(resolved_yaml(input));
+  EXPECT_TRUE(again.layers.first_of_level);
+  EXPECT_FALSE(again.layers.first);
+  EXPECT_EQ(options_of(again).patches[0].first, wall.first);
+}
+
 TEST_F(LayerKeys, SayWhatIsMissing) {
   const auto expect = [&](const std::string& layers, const std::string& text) {
     EXPECT_NE(refused(layers).find(text), std::string::npos) << refused(layers);
@@ -126,11 +143,19 @@ TEST_F(LayerKeys, SayWhatIsMissing) {
   expect("y_plus: 1", "'layers.reynolds' and 'layers.length' are needed");
   expect("y_plus: 1, reynolds: 1e6", "'layers.reynolds' and 'layers.length' are needed");
   expect("reynolds: 1e6, length: 1", "needs 'layers.y_plus', or 'sizing.level'");
+  expect("first: level, reynolds: 1e6, length: 1", "'layers.first: level' needs 'sizing.level'");
+  expect("first: level, y_plus: 1", "'layers.first: level' and 'layers.y_plus' exclude");
+  expect("first: levl", "expected a number or 'level', got 'levl'");
+  expect("gate: {full_area: 0.9}", "'layers' needs the height of the first layer");
+  expect("first: 1, gate: {full_area: 2}", "at most 1");
   expect("walls: none", "needed below 'layers.patches'");
   expect("walls: none, patches: {wing: {growth: 1.1}}", "'layers.patches.wing' needs 'first'");
   expect("first: 0", "above 0");
   expect("first: 1, growth: 0.9", "at least 1 and at most 2");
   expect("first: 1, until: forever", "isotropic");
+  const std::string of_level = transport + "sizing: {level: C}\nlayers: {first: level, length: 1}\n";
+  EXPECT_NE(error_of(of_level).find("'layers.reynolds' and 'layers.length' are needed"), std::string::npos)
+      << error_of(of_level);
 }
 
 }  // namespace

@@ -148,10 +148,14 @@ TEST(LayerCells, VerticesOffTheWallLieInTheirRegionOthersWhereTheCadHasThem) {
   EXPECT_GT(world.sum(on_ball_face), 250);
 }
 
-TEST(LayerCells, AreTheSameOnAnyNumberOfRanks) {
+class LayerCellsOf : public testing::TestWithParam<LayerElements> {};
+INSTANTIATE_TEST_SUITE_P(Elements, LayerCellsOf, testing::Values(LayerElements::prisms, LayerElements::tets));
+
+TEST_P(LayerCellsOf, AnyElementsAreTheSameOnAnyNumberOfRanks) {
   const auto world = Communicator::world();
   const auto make = [](const Communicator& ranks) {
     Layered layered(ranks, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
+    layered.elements = GetParam();
     layered.grow(0.02, [](Vec3 p) { return on_ball(p, any_count(p)); });
     volume::VolumeOptions options;
     options.piece_tets = 1000;
@@ -169,8 +173,10 @@ constexpr std::int32_t floor_face = 4;
 
 /// A cube with layers on its floor, columns up to its four sides, whose triangles the front moves within
 /// their planes.
-Layered on_the_floor(const Communicator& ranks, const std::function<std::int32_t(Vec3)>& count) {
+Layered on_the_floor(const Communicator& ranks, const std::function<std::int32_t(Vec3)>& count,
+                     LayerElements elements = LayerElements::prisms) {
   Layered layered(ranks, volume::surfaces::cube({0, 0, 0}, 1, 6), floor_face, mesh::PatchType::symmetry);
+  layered.elements = elements;
   layered.grow(0.02, [&](Vec3 p) { return p.z == -1 ? WantedColumn{{0, 0, 1}, count(p)} : WantedColumn{}; });
   layered.fill(volume::fields::uniform(0.3), 1000);
   return layered;
@@ -207,6 +213,51 @@ TEST(LayerCells, EndOnPlanesForAnyCounts) {
   }
   EXPECT_GT(counts.boundary_quads, 4);
   EXPECT_GT(counts.boundary_triangles, 6 * 6 * 6 * 2);
+}
+
+// --- layers cut into tetrahedra
+
+/// Tetrahedra that columns make: each live one makes one in each triangle.
+std::int64_t expected_tetrahedra(const Layered& layered) {
+  const CellCounts cells = expected_cells(layered);
+  return 3 * cells.prisms + 2 * cells.pyramids + cells.tetrahedra;
+}
+
+void expect_tetrahedra_alone(const Layered& layered) {
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.communicator, layered.mesh, layered.numbering);
+  EXPECT_EQ(counts.prisms + counts.pyramids + counts.boundary_quads, 0);
+  EXPECT_EQ(counts.cells, layered.tetrahedra + expected_tetrahedra(layered));
+}
+
+TEST(LayerTetrahedra, ConformForAnyCounts) {
+  const auto world = Communicator::world();
+  Layered layered(world, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
+  layered.elements = LayerElements::tets;
+  layered.grow(0.02, [](Vec3 p) { return on_ball(p, any_count(p)); });
+  constexpr std::int64_t most = 100;
+  layered.fill(volume::fields::uniform(0.4), most);
+  expect_valid(layered, &layered.wall.mesh);
+  expect_tetrahedra_alone(layered);
+  std::int64_t of_layers = 0;
+  for (const Piece& piece : layered.mesh.pieces) {
+    if (piece.layers.empty()) continue;
+    EXPECT_LE(piece.total_cell_count(), most);
+    of_layers += piece.total_cell_count();
+  }
+  EXPECT_EQ(world.sum(of_layers), expected_tetrahedra(layered));
+}
+
+TEST(LayerTetrahedra, EndOnPlanesInTriangles) {
+  const auto world = Communicator::world();
+  const Layered full = on_the_floor(
+      world, [](Vec3) { return 3; }, LayerElements::tets);
+  expect_valid(full, nullptr);
+  expect_tetrahedra_alone(full);
+  const mesh::MeshCounts counts = mesh::count_mesh(world, full.mesh, full.numbering);
+  EXPECT_EQ(counts.boundary_triangles, 6 * 6 * 6 * 2 + 4 * 6 * 3 * 2);
+  const Layered stepped = on_the_floor(world, any_count, LayerElements::tets);
+  expect_valid(stepped, nullptr);
+  expect_tetrahedra_alone(stepped);
 }
 
 }  // namespace

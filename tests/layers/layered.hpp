@@ -84,7 +84,7 @@ struct Layered {
     tetrahedra = 0;
     for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);
-    append_layers(communicator, wall, columns, front, most_cells_per_piece, mesh);
+    append_layers(communicator, wall, columns, front, {most_cells_per_piece, elements}, mesh);
     numbering = mesh::number_mesh(communicator, mesh);
   }
 
@@ -97,6 +97,7 @@ struct Layered {
   mesh::DistributedMesh mesh;
   mesh::Numbering numbering;
   improve::ImproveReport improved;
+  LayerElements elements = LayerElements::prisms;
   std::int64_t tetrahedra = 0;  ///< behind the front
 };
 

@@ -20,46 +20,16 @@ enum class Fluid { inside, outside };
 /// Closed shapes that bound a fluid. Each shape is a CAD face and a patch of its own.
 class Shapes {
 public:
+  /// A ring of bricks around an axis: `place` maps the box from 0 to 1, whose first axis runs around and
+  /// meets itself. The other two axes with it are right-handed.
+  Shapes& add_ring(std::array<int, 3> n, const std::function<Vec3(Vec3)>& place) {
+    return add_bricks({0, 0, 0}, {1, 1, 1}, n, Fluid::inside, place, 1);
+  }
   /// A box of bricks, two triangles a square, `n` squares along each axis; its points moved by `place`.
   Shapes& add_box(
       Vec3 low, Vec3 high, std::array<int, 3> n, Fluid fluid,
       const std::function<Vec3(Vec3)>& place = [](Vec3 p) { return p; }) {
-    std::map<std::array<int, 3>, int> numbers;
-    const auto number = [&](std::array<int, 3> at) {
-      const auto [found, is_new] = numbers.emplace(at, static_cast<int>(_mesh.points.size()));
-      if (is_new) {
-        Vec3 p;
-        for (int axis = 0; axis < 3; ++axis)
-          p[axis] =
-              at[axis] == n[axis] ? high[axis] : low[axis] + (high[axis] - low[axis]) * at[axis] / n[axis];
-        _mesh.points.push_back(place(p));
-      }
-      return found->second;
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int end : {0, n[axis]}) {
-        const int u = (axis + 1) % 3, w = (axis + 2) % 3;
-        for (int i = 0; i < n[u]; ++i) {
-          for (int j = 0; j < n[w]; ++j) {
-            std::array<int, 3> at{};
-            at[axis] = end;
-            const auto corner = [&](int di, int dj) {
-              at[u] = i + di, at[w] = j + dj;
-              return number(at);
-            };
-            const std::array<int, 4> square{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
-            const bool outward = end != 0;  // the normal of the square points out of the box
-            const int first = (i + j) % 2;  // diagonals alternate
-            for (const std::array<int, 3>& t : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
-              add({square[(t[0] + first) % 4], square[(t[1] + first) % 4], square[(t[2] + first) % 4]},
-                  outward == (fluid == Fluid::inside));
-            }
-          }
-        }
-      }
-    }
-    end_shape();
-    return *this;
+    return add_bricks(low, high, n, fluid, place, 0);
   }
   /// From a cube of n^3 bricks.
   Shapes& add_sphere(Vec3 center, double radius, int n, Fluid fluid) {
@@ -122,6 +92,47 @@ public:
   }
 
 private:
+  /// The first `around` axes, none or one, meet themselves.
+  Shapes& add_bricks(Vec3 low, Vec3 high, std::array<int, 3> n, Fluid fluid,
+                     const std::function<Vec3(Vec3)>& place, int around) {
+    std::map<std::array<int, 3>, int> numbers;
+    const auto number = [&](std::array<int, 3> at) {
+      if (around == 1) at[0] %= n[0];
+      const auto [found, is_new] = numbers.emplace(at, static_cast<int>(_mesh.points.size()));
+      if (is_new) {
+        Vec3 p;
+        for (int axis = 0; axis < 3; ++axis)
+          p[axis] =
+              at[axis] == n[axis] ? high[axis] : low[axis] + (high[axis] - low[axis]) * at[axis] / n[axis];
+        _mesh.points.push_back(place(p));
+      }
+      return found->second;
+    };
+    for (int axis = around; axis < 3; ++axis) {
+      for (const int end : {0, n[axis]}) {
+        const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+        for (int i = 0; i < n[u]; ++i) {
+          for (int j = 0; j < n[w]; ++j) {
+            std::array<int, 3> at{};
+            at[axis] = end;
+            const auto corner = [&](int di, int dj) {
+              at[u] = i + di, at[w] = j + dj;
+              return number(at);
+            };
+            const std::array<int, 4> square{corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+            const bool outward = end != 0;  // the normal of the square points out of the box
+            const int first = (i + j) % 2;  // diagonals alternate
+            for (const std::array<int, 3>& t : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
+              add({square[(t[0] + first) % 4], square[(t[1] + first) % 4], square[(t[2] + first) % 4]},
+                  outward == (fluid == Fluid::inside));
+            }
+          }
+        }
+      }
+    }
+    end_shape();
+    return *this;
+  }
   mesh::examples::WholeMesh complete() const {
     mesh::examples::WholeMesh whole = _mesh;
     whole.kind = mesh::CellKind::triangle;

@@ -91,9 +91,27 @@ def check_edges(program):
     assert not any(patch["name"] == "wing_left_trailing_edge" for patch in report["patches"]), report["patches"]
 
 
+def check_layers(program):
+    """What layers would be: y+ in both meanings, as many as sizes ask, and how much of them a duct has no room for."""
+    case = (f"geometry: {{file: '{SOURCE}/configs/geometry/duct.step', domain: fluid}}\n"
+            "patches: {inlet: {faces: ['#ff0000'], type: inlet}, outlet: {type: outlet}}\n"
+            "sizing: {target_tetrahedra: 4000, solver: cell}\nlayers: {y_plus: 1.5, reynolds: 1e5, length: 1, growth: 1.2}\n")
+    code, text, record = check(program, case)
+    assert code == 0, text
+    layers = record["forecast"]["layers"]
+    assert layers["cells"] == sum(row["cells"] for row in layers["patches"]) > 1000
+    for row in layers["patches"]:
+        assert abs(row["y_plus_node"] - 3) < 1e-9 and abs(row["y_plus_centre"] - 1.5) < 1e-9 and row["growth"] == 1.2, row
+        assert 1 < row["layers_min"] <= row["layers_max"] and row["first"] < row["total_min"] <= row["total_max"], row
+    narrow = [row for row in layers["patches"] if row["squeezed"] + row["lacking"] > 0]
+    assert narrow and all(row["narrowest_gap"] < 2.6 * row["total_max"] + record["forecast"]["maximum"] for row in narrow), layers
+    assert "y+ 3 at its node, 1.5 at its centre" in text and "no room for that on" in text and "layers add: about" in text, text
+
+
 def main():
     check_edges(sys.argv[1])
     check_sound(sys.argv[1])
+    check_layers(sys.argv[1])
     check_sharpened(sys.argv[1])
     check_open(sys.argv[1])
     check_unreadable(sys.argv[1])

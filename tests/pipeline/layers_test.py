@@ -12,6 +12,9 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from program import SOURCE, Run
 
+sys.path.append(str(SOURCE / "benchmarks"))
+import layer_coverage  # noqa: E402
+
 SPHERE = f"""
 geometry: {{file: "{SOURCE}/configs/geometry/sphere.brep"}}
 farfield: {{shape: box, extent: 2}}
@@ -20,6 +23,12 @@ surface: {{piece_triangles: 300}}
 volume: {{piece_tets: 3000}}
 """
 LAYERS = "layers: {first: 1e-3, growth: 1.5}\n"
+DUCT = f"""
+geometry: {{file: "{SOURCE}/configs/geometry/duct.step", domain: fluid}}
+patches: {{inlet: {{faces: ['#ff0000'], type: inlet}}, outlet: {{type: outlet}}}}
+sizing: {{target_tetrahedra: 2000}}
+layers: {{first: 1e-3}}
+"""
 SCHEMA = json.loads((SOURCE / "docs" / "report.schema.json").read_text())
 
 
@@ -72,6 +81,46 @@ def check_resumed(program, folder, wanted):
     assert other.report["mesh"]["hash"] != wanted
 
 
+def check_measured(run):
+    """A program that reads the files alone finds what the report tells."""
+    found, said = layer_coverage.measure(run.output)[0][1:]
+    for key in ("full", "partial", "empty"):
+        assert abs(found[key] - said[key]) < 1e-6, (key, found, said)
+    assert abs(found["layers_mean"] - said["layers_mean"]) < 1e-6 * said["layers_mean"], (found, said)
+    assert abs(found["first"][1] - 1) < 0.02 and abs(found["growth"][1] - 1.5) < 0.02, found
+
+
+def check_tets(program, folder, prisms):
+    """Cut into tetrahedra, after a run with prisms from what that has left; a gate that is met changes nothing."""
+    settings = ("output.checkpoints=resume", "layers.elements=tets")
+    runs = [Run(program, SPHERE + LAYERS, ranks, settings + gate, folder=folder) for ranks, gate in ((1, ()), (3, ("layers.gate.full_area=0.9",)))]
+    assert [run.code for run in runs] == [0, 0], [run.text for run in runs]
+    assert runs[1].report["resumed"] == ["geometry", "sizing", "surface", "volume", "improve"], runs[1].report["resumed"]
+    hashes = {run.report["mesh"]["hash"] for run in runs}
+    assert len(hashes) == 1, "the mesh depends on the number of ranks"
+    mesh, row = runs[1].report["mesh"], runs[1].report["layers"]["patches"][0]
+    of_prisms = prisms["layers"]["patches"][0]
+    assert mesh["prisms"] == mesh["pyramids"] == row["prisms"] == row["pyramids"] == 0, mesh
+    assert row["tetrahedra"] == mesh["layer_tetrahedra"] == 3 * of_prisms["prisms"] + 2 * of_prisms["pyramids"] + of_prisms["tetrahedra"], row
+    assert mesh["points"] == prisms["mesh"]["points"] and abs(mesh["volume"] / prisms["mesh"]["volume"] - 1) < 1e-12, mesh
+    grid = read(vtk.vtkXMLPUnstructuredGridReader(), runs[1].output / "mesh.pvtu")
+    assert {grid.GetCellType(c) for c in range(grid.GetNumberOfCells())} == {vtk.VTK_TETRA}
+    assert numpy.count_nonzero(vtk_to_numpy(grid.GetCellData().GetArray("layer"))) == row["tetrahedra"]
+    gate, = runs[1].report["quality"]["gate"]
+    assert gate["key"] == "layers.gate.full_area" and gate["met"] and gate["limit"] == 0.9 and gate["value"] > 0.99, gate
+    check_measured(runs[1])
+
+
+def check_gate(program):
+    """A missed gate ends the run with mesh and report written, and tells where layers are missing."""
+    run = Run(program, DUCT, 2, ("layers.gate.full_area=1",))
+    assert run.code == 6 and (run.output / "mesh.pvtu").exists(), run.text
+    assert "layers.gate.full_area is 0.8" in run.text and "patch 'body' lacks layers on" in run.text, run.text
+    gate, = run.report["quality"]["gate"]
+    assert not gate["met"] and gate["value"] == run.report["layers"]["full"] and run.report["exit_code"] == 6, gate
+    assert sum(row["full"] * row["area"] for row in run.report["layers"]["patches"]) > 0
+
+
 def check_plane(program):
     """Layers end on a plane of symmetry: in its quadrilaterals, exactly planar; the rest of it is meshed again."""
     half = SPHERE.replace("extent: 2", "extent: 2, symmetry: y") + LAYERS
@@ -96,6 +145,7 @@ def check_plane(program):
 def main():
     program = sys.argv[1]
     check_plane(program)
+    check_gate(program)
     runs = {ranks: Run(program, SPHERE + LAYERS, ranks) for ranks in (1, 2, 3)}
     for ranks, run in runs.items():
         assert run.code == 0, f"{ranks} ranks ended with {run.code}:\n{run.text}"
@@ -104,7 +154,9 @@ def main():
     assert len(hashes) == 1, "the mesh depends on the number of ranks"
     check_report(runs[1].report)
     check_files(runs[2], (program, SPHERE))
+    check_measured(runs[2])
     check_resumed(program, runs[3].folder, *hashes)
+    check_tets(program, runs[2].folder, runs[2].report)
     wrong = Run(program, SPHERE + "layers: {first: 1e-3, patches: {no_such_patch: {count: 3}}}\n")
     assert wrong.code == 2 and "layers.patches.no_such_patch: there is no such patch" in wrong.text, wrong.text
 

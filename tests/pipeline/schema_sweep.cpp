@@ -29,6 +29,7 @@ std::vector<std::string> numbers(const cases::KeyInfo& key) {
   };
   round(key.range.low);
   round(key.range.high);
+  values.insert(values.end(), key.choices.begin(), key.choices.end());
   return values;
 }
 

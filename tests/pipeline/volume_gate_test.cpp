@@ -16,19 +16,19 @@ report::RunRecord with_region(double volume, double cad_volume) {
 }
 
 TEST(VolumeGate, RefusesRegionsOfAnotherVolume) {
-  const cases::QualityGate gate;
-  EXPECT_NO_THROW(require_quality(gate, with_region(0.95, 1)));
-  EXPECT_THROW(require_quality(gate, with_region(0.85, 1)), report::StageFailure);
-  EXPECT_TRUE(coarse_region(gate, with_region(0.85, 1)).empty());
+  const cases::Case input;
+  EXPECT_NO_THROW(require_quality(input, with_region(0.95, 1)));
+  EXPECT_THROW(require_quality(input, with_region(0.85, 1)), report::StageFailure);
+  EXPECT_TRUE(coarse_region(input.gate, with_region(0.85, 1)).empty());
 }
 
 TEST(VolumeGate, WarnsOfRegionsAFewElementsWide) {
-  const cases::QualityGate gate;
+  const cases::Case input;
   const double few = 0.2 * 0.2 * 0.2;
-  EXPECT_NO_THROW(require_quality(gate, with_region(0.85 * few, few)));
-  EXPECT_NE(coarse_region(gate, with_region(0.85 * few, few)).find("'tank'"), std::string::npos);
-  EXPECT_TRUE(coarse_region(gate, with_region(0.95 * few, few)).empty());
-  EXPECT_THROW(require_quality(gate, with_region(0.7 * few, few)), report::StageFailure);
+  EXPECT_NO_THROW(require_quality(input, with_region(0.85 * few, few)));
+  EXPECT_NE(coarse_region(input.gate, with_region(0.85 * few, few)).find("'tank'"), std::string::npos);
+  EXPECT_TRUE(coarse_region(input.gate, with_region(0.95 * few, few)).empty());
+  EXPECT_THROW(require_quality(input, with_region(0.7 * few, few)), report::StageFailure);
 }
 
 }  // namespace

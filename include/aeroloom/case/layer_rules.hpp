@@ -23,14 +23,19 @@ struct LayerRule {
 enum class LayeredWalls : std::uint8_t { all, none };
 /// What stops columns that no count and no total stops.
 enum class LayerEnd : std::uint8_t { isotropic };
-/// The cells of layers.
-enum class LayerElements : std::uint8_t { prisms };
+
+/// What layers have to attain for the run to count as a success; what is empty is not asked for.
+struct LayerGate {
+  bool given = false;
+  std::optional<double> full_area;  ///< the part of the walls that has all layers asked for, at least
+};
 
 /// The layers asked for; lengths in the model's unit.
 struct LayerRequest {
   bool given = false;  ///< whether any are asked for: a height, or a patch
   LayeredWalls walls = LayeredWalls::all;
   std::optional<double> first;   ///< height of the first layer
+  bool first_of_level = false;   ///< or it comes from the level of sizes, by its y+
   std::optional<double> y_plus;  ///< or what it is computed from; left out: that of the level of sizes
   std::optional<double> reynolds, length;
   std::optional<std::int64_t> constant;  ///< left out: that of the level, or 2
@@ -38,7 +43,8 @@ struct LayerRequest {
   std::optional<std::int64_t> count;
   std::optional<double> total;
   LayerEnd until = LayerEnd::isotropic;
-  LayerElements elements = LayerElements::prisms;
+  layers::LayerElements elements = layers::LayerElements::prisms;
+  LayerGate gate;
   std::vector<LayerRule> patches;
 };
 
@@ -46,6 +52,9 @@ struct LayerRequest {
 /// cf = 0.026 / Re^(1/7), which meets the tables of the prediction workshops. Solvers with their unknowns in
 /// cells mean its centre: twice as high.
 double first_height(double y_plus, double reynolds, double length, sizing::SolverPoints points);
+
+/// Flow units (y+) of a height of the first layer: the inverse, for a solver with its unknowns at vertices.
+double y_plus_of(double first, double reynolds, double length);
 
 struct SizingRequest;
 

@@ -30,12 +30,17 @@ struct WallLayers {
   double total = 0;  ///< height of all layers at most; 0: any
 };
 
+/// The cells of layers: prisms, with pyramids and tetrahedra where counts differ, or all of them cut into
+/// tetrahedra.
+enum class LayerElements : std::uint8_t { prisms, tets };
+
 struct LayerOptions {
   std::vector<WallLayers> patches;  ///< by patch index of the mesh; those left out have no layers
   std::int32_t stairs = 3;  ///< by which the counts at the ends of an edge may differ at most, at least 1
   /// Whether layers end on planes of symmetry, slip, inlet and outlet: columns there lie in the plane, whose
   /// own triangles have to be made anew. Otherwise layers step down to zero beside them.
   bool ends_on_planes = false;
+  LayerElements elements = LayerElements::prisms;  ///< that the report counts; columns are the same
 };
 
 /// The columns of a piece, by vertex. Node k of a column stands at the height of the first k layers:
