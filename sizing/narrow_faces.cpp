@@ -27,8 +27,9 @@ constexpr double half_turn = 180;
 /// An exact plane stays one: it joins its like alone.
 bool may_join(const Model& model, FaceId a, FaceId b) {
   const cad::Face &first = model.face(a), &second = model.face(b);
-  return !model.is_far_field(b) && !model.is_faceted(b) && model.is_exact_plane(a) == model.is_exact_plane(b) &&
-         first.patch == second.patch && first.front == second.front && first.back == second.back;
+  return !model.is_far_field(b) && !model.is_faceted(b) &&
+         model.is_exact_plane(a) == model.is_exact_plane(b) && first.patch == second.patch &&
+         first.front == second.front && first.back == second.back;
 }
 
 /// The face on the other side of an edge; no_entity where it is not used by exactly two faces, once each.

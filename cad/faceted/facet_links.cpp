@@ -48,10 +48,10 @@ std::vector<SideRow> list_sides(const FacetComplex& complex) {
 
 [[noreturn]] void refuse_side(const FacetComplex& complex, const SideRow& row, std::size_t users) {
   const Vec3 at = 0.5 * (complex.points[row.low] + complex.points[row.high]);
-  throw CadError(
-      fmt::format("a side of {} triangles near ({:.6g}, {:.6g}, {:.6g}) does not lie between two triangles of "
-                  "one face. Remedy: repair the triangles there in the program that made the file",
-                  users, at.x, at.y, at.z));
+  throw CadError(fmt::format(
+      "a side of {} triangles near ({:.6g}, {:.6g}, {:.6g}) does not lie between two triangles of "
+      "one face. Remedy: repair the triangles there in the program that made the file",
+      users, at.x, at.y, at.z));
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ double angle_between(Vec3 a, Vec3 b) {
 
 bool has_direction(const std::array<Vec3, 3>& p) {
   double longest2 = 0;
-  for (int i = 0; i < 3; ++i) longest2 = std::max(longest2, dot(p[(i + 1) % 3] - p[i], p[(i + 1) % 3] - p[i]));
+  for (int i = 0; i < 3; ++i)
+    longest2 = std::max(longest2, dot(p[(i + 1) % 3] - p[i], p[(i + 1) % 3] - p[i]));
   return norm(cross(p[1] - p[0], p[2] - p[0])) > least_slenderness * longest2;
 }
 
@@ -74,7 +75,8 @@ bool fit_form(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, Vec3 u
   if (!(determinant > 0)) return false;
   form[0] = (right[0] * (middle * vv - uv * uv) - uv * (right[1] * vv - uv * right[2])) / determinant;
   form[1] = (uu * (right[1] * vv - uv * right[2]) - right[0] * uv * vv) / determinant;
-  form[2] = (uu * (middle * right[2] - right[1] * uv) - uv * (uv * right[2]) + right[0] * uv * uv) / determinant;
+  form[2] =
+      (uu * (middle * right[2] - right[1] * uv) - uv * (uv * right[2]) + right[0] * uv * uv) / determinant;
   return std::isfinite(form[0]) && std::isfinite(form[1]) && std::isfinite(form[2]);
 }
 
@@ -92,7 +94,7 @@ PrincipalCurvatures principal(const SymmetricTensor& tensor, Vec3 normal) {
 
 /// Cuts what stands out from the points around.
 void bound_by_quartile(const std::vector<geometry::TriangleCorners>& triangles,
-                     std::vector<PrincipalCurvatures>& curvatures) {
+                       std::vector<PrincipalCurvatures>& curvatures) {
   std::vector<std::int32_t> begin(curvatures.size() + 1, 0);
   for (const auto& t : triangles) {
     for (const std::int32_t v : t) begin[v + 1] += 2;

@@ -30,8 +30,8 @@ public:
   explicit ParameterGrid(const std::vector<Vec3>& points) {
     Box box;
     for (const Vec3 p : points) box.add(p);
-    _cell = std::ldexp(1.0, std::ilogb(std::max(box.diagonal(), std::numeric_limits<double>::min())) -
-                                bits_of_diagonal);
+    _cell = std::ldexp(
+        1.0, std::ilogb(std::max(box.diagonal(), std::numeric_limits<double>::min())) - bits_of_diagonal);
   }
   double operator()(double x) const { return std::nearbyint(x / _cell) * _cell; }
   double up(double x) const { return std::ceil(x / _cell) * _cell; }
@@ -53,7 +53,8 @@ CornerUv lay_flat(const std::array<Vec3, 3>& corners, const ParameterGrid& grid)
   const double length = norm(base);
   const double along = length > 0 ? dot(base, other) / length : 0;
   const double height = length > 0 ? norm(cross(base, other)) / length : 0;
-  return {Vec2{0, 0}, Vec2{std::max(grid(length), least), 0}, Vec2{grid(along), std::max(grid(height), least)}};
+  return {Vec2{0, 0}, Vec2{std::max(grid(length), least), 0},
+          Vec2{grid(along), std::max(grid(height), least)}};
 }
 
 FlatSheet facing(Vec3 normal, Vec3 origin) {
@@ -229,7 +230,8 @@ private:
     for (std::size_t t = 0; t < uv.size(); ++t) {
       FlatSheet& sheet = _result.sheets[_result.of[t]];
       face[_result.of[t]] = _complex.face_of[t];
-      for (const Vec2 at : uv[t]) sheet.low = std::min(sheet.low, at.x), sheet.high = std::max(sheet.high, at.x);
+      for (const Vec2 at : uv[t])
+        sheet.low = std::min(sheet.low, at.x), sheet.high = std::max(sheet.high, at.x);
     }
     double next = 0;
     for (std::size_t s = 0; s < face.size(); ++s) {
@@ -268,7 +270,8 @@ std::vector<CornerUv> flatten(const FacetComplex& complex, const FacetSheets& sh
     const FlatSheet& sheet = sheets.sheets[sheets.of[t]];
     const auto corners = corners_of(complex, static_cast<std::int32_t>(t));
     if (members[sheets.of[t]] == 1) uv[t] = lay_flat(corners, grid);
-    for (int i = 0; i < 3 && members[sheets.of[t]] > 1; ++i) uv[t][i] = project_to_sheet(sheet, corners[i], grid);
+    for (int i = 0; i < 3 && members[sheets.of[t]] > 1; ++i)
+      uv[t][i] = project_to_sheet(sheet, corners[i], grid);
     for (Vec2& at : uv[t]) at.x += sheet.shift;
   }
   return uv;

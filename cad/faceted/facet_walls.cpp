@@ -47,8 +47,8 @@ bool encloses(const FacetComplex& complex, const WallShell& shell, Vec3 point) {
     const auto corners = corners_of(complex, t);
     const Vec3 a = corners[0] - point, b = corners[1] - point, c = corners[2] - point;
     const double la = norm(a), lb = norm(b), lc = norm(c);
-    angle += 2 * std::atan2(dot(a, cross(b, c)),
-                            la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    angle +=
+        2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
   return std::abs(angle) > 2 * std::numbers::pi;
 }

@@ -35,8 +35,8 @@ std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullCompariso
     tag.part = face.part;
     tag.number = static_cast<std::int32_t>(f);
     if (tag.patch.empty() && face.back != no_entity)
-      tag.patch = fmt::format("interface_{}_{}", std::min(face.front, face.back),
-                              std::max(face.front, face.back));
+      tag.patch =
+          fmt::format("interface_{}_{}", std::min(face.front, face.back), std::max(face.front, face.back));
     if (tag.patch.empty() && !hull) tag.patch = face.part;
     if (tag.patch.empty() && hull) tag.patch = side_of_box(boxes[f], all);
     if (tag.patch.empty() && hull && f < hull->on_hull.size() && hull->on_hull[f]) tag.patch = "outer";
@@ -46,10 +46,11 @@ std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullCompariso
   return tags;
 }
 
-void name_regions(FacetComplex& complex) {
+FacetComplex with_named_regions(FacetComplex complex) {
   for (std::size_t r = 0; r < complex.regions.size(); ++r) {
     if (complex.regions[r].empty()) complex.regions[r] = fmt::format("region_{}", r);
   }
+  return complex;
 }
 
 Model fluid_model(const FacetedPart& part, const HullComparison* hull) {
@@ -100,9 +101,10 @@ Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options
   const double fluid = model.region_volume(0);
   const double error = std::abs(outer - body - fluid);
   if (!(body > 0) || error > tolerances::sum_of_volumes * body + tolerances::rounding * outer) {
-    throw CadError(fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; "
-                               "the triangles are turned inside out",
-                               outer, body, fluid));
+    throw CadError(
+        fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; "
+                    "the triangles are turned inside out",
+                    outer, body, fluid));
   }
   return model;
 }
@@ -117,22 +119,21 @@ KindDecision choose_faceted_kind(const DomainOptions& options, const std::option
 }  // namespace
 
 Domain make_faceted_domain(const DomainOptions& options, FacetComplex complex, Changes changes) {
-  name_regions(complex);
   DomainReport report;
   report.changes = std::move(changes);
   std::optional<HullComparison> hull;
   std::optional<FacetedPart> part;
   if (options.kind == DomainKind::fluid || (options.kind == DomainKind::automatic && !options.far_field)) {
-    part = make_faceted_part(complex);
+    part = make_faceted_part(with_named_regions(complex));
     const Model alone = fluid_model(*part, nullptr);
     hull = compare_with_hull(alone, volume_of_regions(alone));
   }
   const KindDecision decision = choose_faceted_kind(options, hull);
   report.kind = decision.kind, report.reason = decision.reason;
-  Model model = decision.kind == DomainKind::fluid
-                    ? fluid_model(*part, &*hull)
-                    : surround_facets(complex, options.far_field.value_or(options.default_far_field),
-                                      report.changes);
+  Model model =
+      decision.kind == DomainKind::fluid
+          ? fluid_model(*part, &*hull)
+          : surround_facets(complex, options.far_field.value_or(options.default_far_field), report.changes);
   if (options.trailing_edges.treatment == TrailingEdges::sharpen)
     report.changes.push_back({"no trailing edge was closed: faces of triangles are kept as they are"});
   const Vec3 size = model.body_bounds().size();

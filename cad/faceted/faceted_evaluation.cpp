@@ -128,7 +128,10 @@ FacetedPart::Place FacetedPart::locate(FaceId id, Vec2 uv) const {
   Place best;
   double bound = std::numeric_limits<double>::max();
   face.in_plane.search_nearest(
-      [&](const Box& box) { return distance_to_box(box, {uv.x, uv.y, 0}); }, bound,
+      [&](const Box& box) {
+        return distance_to_box(box, {uv.x, uv.y, 0});
+      },
+      bound,
       [&](std::int32_t place) {
         const std::int32_t t = face.first + face.in_plane.order()[place];
         if (_sheets.of[t] != wanted) return;
@@ -173,7 +176,8 @@ SurfaceFrame FacetedPart::face_frame(FaceId id, Vec2 uv) const {
   const CornerUv& at = _uv[place.triangle];
   const Vec2 first = at[1] - at[0], second = at[2] - at[0];
   const double area = cross(first, second);
-  SurfaceFrame frame{point_at(place), (second.y * (p[1] - p[0]) - first.y * (p[2] - p[0])) / area,
+  SurfaceFrame frame{point_at(place),
+                     (second.y * (p[1] - p[0]) - first.y * (p[2] - p[0])) / area,
                      (first.x * (p[2] - p[0]) - second.x * (p[1] - p[0])) / area,
                      {}};
   const FacetedFace& face = _faces[id];
@@ -244,16 +248,16 @@ Projection FacetedPart::project(FaceId id, Vec3 point, Vec2 guess) const {
   const Foot local = descend(locate(id, guess).triangle, point);
   Foot nearest = local;
   double bound = local.away / most_over_nearest;
-  face.in_space.search_nearest([&](const Box& box) { return distance_to_box(box, point); }, bound,
-                               [&](std::int32_t place) {
-                                 const std::int32_t t = face.first + face.in_space.order()[place];
-                                 const Foot foot = foot_on(t, point);
-                                 if (foot.away < bound ||
-                                     (foot.away == bound && t < nearest.place.triangle)) {
-                                   bound = foot.away;
-                                   nearest = foot;
-                                 }
-                               });
+  face.in_space.search_nearest(
+      [&](const Box& box) { return distance_to_box(box, point); }, bound,
+      [&](std::int32_t place) {
+        const std::int32_t t = face.first + face.in_space.order()[place];
+        const Foot foot = foot_on(t, point);
+        if (foot.away < bound || (foot.away == bound && t < nearest.place.triangle)) {
+          bound = foot.away;
+          nearest = foot;
+        }
+      });
   return {uv_at(nearest.place), nearest.point, true};
 }
 

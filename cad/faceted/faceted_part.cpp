@@ -106,7 +106,8 @@ void FacetedPart::collect_faces() {
 
 bool FacetedPart::lies_in_plane(const FacetedFace& face) const {
   Vec3 sum;
-  for (std::int32_t t = face.first; t < face.first + face.count; ++t) sum += area_vector2(corners_of(_complex, t));
+  for (std::int32_t t = face.first; t < face.first + face.count; ++t)
+    sum += area_vector2(corners_of(_complex, t));
   const Vec3 normal = normalized(sum), origin = _complex.points[face.points.front()];
   for (std::int32_t t = face.first; t < face.first + face.count; ++t) {
     const auto corners = corners_of(_complex, t);
@@ -124,8 +125,8 @@ void FacetedPart::collect_edges() {
     edge.points = curve.points;
     edge.along.push_back(0);
     for (std::size_t i = 1; i < edge.points.size(); ++i) {
-      edge.along.push_back(edge.along.back() + distance(_complex.points[edge.points[i - 1]],
-                                                        _complex.points[edge.points[i]]));
+      edge.along.push_back(edge.along.back() +
+                           distance(_complex.points[edge.points[i - 1]], _complex.points[edge.points[i]]));
     }
     edge.curvatures = curvatures_along(_complex, edge);
   }
@@ -136,8 +137,8 @@ void FacetedPart::collect_edges() {
     const FaceId face = _complex.face_of[h / 3];
     std::vector<FacetedUse>& uses = _edges[side.curve].uses;
     if (uses.empty() || uses.back().face != face) {
-      uses.push_back({face, !side.along, std::vector<geometry::HalfEdge>(
-                                             _complex.curves[side.curve].points.size() - 1, -1)});
+      uses.push_back({face, !side.along,
+                      std::vector<geometry::HalfEdge>(_complex.curves[side.curve].points.size() - 1, -1)});
     }
     uses.back().half_edges[side.side] = h;
   }
@@ -234,8 +235,7 @@ FacetedPart make_faceted_part(FacetComplex complex) {
     box.add(p);
     farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
-  const double tolerance =
-      std::max(tolerances::coincident * box.diagonal(), 2 * single_precision * farthest);
+  const double tolerance = std::max(tolerances::coincident * box.diagonal(), 2 * single_precision * farthest);
   return FacetedPart(std::move(complex), std::move(sheets), tolerance);
 }
 

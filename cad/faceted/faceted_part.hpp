@@ -16,14 +16,14 @@
 namespace aeroloom::cad {
 
 struct FacetedFace {
-  std::int32_t first = 0, count = 0;                ///< its triangles in the complex
+  std::int32_t first = 0, count = 0;  ///< its triangles in the complex
   std::int32_t first_sheet = 0, sheet_count = 0;
-  std::vector<std::int32_t> points;                 ///< of the complex, ascending
-  std::vector<geometry::TriangleCorners> triangles; ///< of `points`
+  std::vector<std::int32_t> points;                  ///< of the complex, ascending
+  std::vector<geometry::TriangleCorners> triangles;  ///< of `points`
   FacetShape shape;
   bool planar = false;
-  std::vector<std::vector<Coedge>> loops;           ///< edges are local
-  geometry::BoxTree in_space, in_plane;             ///< of its triangles
+  std::vector<std::vector<Coedge>> loops;  ///< edges are local
+  geometry::BoxTree in_space, in_plane;    ///< of its triangles
 };
 
 /// One pass of a face along an edge.

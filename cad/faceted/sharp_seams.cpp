@@ -48,8 +48,7 @@ std::vector<std::int32_t> label_by_side(const FacetComplex& complex, const Facet
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.on_curve.size()); ++h) {
     const CurveSide& side = links.on_curve[h];
     if (side.curve == no_entity || !passes.contains({complex.face_of[h / 3], side.curve})) continue;
-    const Vec3 middle =
-        0.5 * (complex.points[start_of(complex, h)] + complex.points[end_of(complex, h)]);
+    const Vec3 middle = 0.5 * (complex.points[start_of(complex, h)] + complex.points[end_of(complex, h)]);
     queue.emplace(distance(middle, centre_of(complex, h / 3)), 2 * side.curve + (side.along ? 0 : 1), h / 3);
   }
   while (!queue.empty()) {
@@ -122,7 +121,8 @@ public:
       if (_is_vertex[p]) leave(static_cast<std::int32_t>(p), complex);
     }
     for (std::size_t p = 0; p < _at.size(); ++p) {
-      const bool closed_without = std::any_of(_at[p].begin(), _at[p].end(), [&](auto s) { return !_used[s]; });
+      const bool closed_without =
+          std::any_of(_at[p].begin(), _at[p].end(), [&](auto s) { return !_used[s]; });
       if (!closed_without) continue;
       _is_vertex[p] = 1;
       leave(static_cast<std::int32_t>(p), complex);
@@ -158,9 +158,8 @@ private:
 void sort_triangles_by_face(FacetComplex& complex) {
   std::vector<std::int32_t> order(complex.triangles.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return complex.face_of[a] < complex.face_of[b];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::int32_t a, std::int32_t b) { return complex.face_of[a] < complex.face_of[b]; });
   auto triangles = complex.triangles;
   auto face_of = complex.face_of;
   for (std::size_t i = 0; i < order.size(); ++i) {

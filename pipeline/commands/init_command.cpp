@@ -79,7 +79,8 @@ Command add_init(CLI::App& program) {
   const auto arguments = std::make_shared<InitArguments>();
   app->add_option("file", arguments->file, "the case to write; left out: " + arguments->file)
       ->type_name(file_kind::of_case);
-  app->add_option("--geometry", arguments->geometry, "the CAD file: STEP, IGES or BREP; or triangles: STL, OBJ, OFF, PLY, .poly, .smesh")
+  app->add_option("--geometry", arguments->geometry,
+                  "the CAD file: STEP, IGES or BREP; or triangles: STL, OBJ, OFF, PLY, .poly, .smesh")
       ->type_name(file_kind::any)
       ->group(option_group::of_case);
   app->add_flag("--full", arguments->full, "every key, not only those that are often touched")

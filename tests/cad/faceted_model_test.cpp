@@ -80,8 +80,7 @@ TEST(FacetedModel, EdgesLieOnBothFaces) {
         const Edge& edge = model.edge(use.edge);
         EXPECT_FALSE(model.is_seam(use.edge));
         for (int i = 0; i <= 40; ++i) {
-          const double t =
-              edge.first_parameter + i / 40.0 * (edge.last_parameter - edge.first_parameter);
+          const double t = edge.first_parameter + i / 40.0 * (edge.last_parameter - edge.first_parameter);
           const Vec3 on_edge = model.edge_point(use.edge, t);
           EXPECT_LT(distance(on_edge, model.face_point(f, model.edge_uv(f, use, t))), 1e-11);
         }
