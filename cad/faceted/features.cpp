@@ -17,7 +17,7 @@ namespace {
 struct SpurLimit {
   double sides, turns;
 };
-constexpr SpurLimit spur_limits[] = {{5, 1.3}, {2.5, 2}};
+constexpr SpurLimit spur_limits[] = {{8, 1.35}, {4, 1.8}};
 /// Features go on over sides that turn by more than this fraction of the limit, where the chain itself turns
 /// by less than `straight`.
 constexpr double weak_fraction = 0.5, straight = 50 * geometry::degree;
