@@ -125,10 +125,11 @@ private:
     }
     const auto triangles = fill_plane_graph(graph);
     if (!triangles) return false;
+    const bool turn = runs_as_sides_do(*triangles, numbers);
     const std::string name = fmt::format("cap_{}", ++_count);
     const std::int32_t group = find_group(capped, {name, {}});
     for (const auto& [a, b, c] : *triangles) {
-      const geometry::TriangleCorners t = {numbers[a], numbers[b], numbers[c]};
+      const geometry::TriangleCorners t = {numbers[a], numbers[turn ? c : b], numbers[turn ? b : c]};
       area +=
           0.5 * norm(cross(_soup.points[t[1]] - _soup.points[t[0]], _soup.points[t[2]] - _soup.points[t[0]]));
       capped.triangles.push_back(t);
@@ -137,6 +138,24 @@ private:
     caps.push_back({fmt::format("a planar opening of area {:.6g} closed by a face named '{}'", area, name),
                     first.middle, farthest});
     return true;
+  }
+
+  /// Whether the first triangle of a cap with an open side runs along it in the same direction: the cap then
+  /// looks the other way than what it closes.
+  bool runs_as_sides_do(const std::vector<geometry::TriangleCorners>& triangles,
+                        const std::vector<std::int32_t>& numbers) const {
+    std::vector<std::pair<std::int32_t, std::int32_t>> ways;
+    for (const geometry::HalfEdge h : open_sides(_soup.triangles))
+      ways.emplace_back(side_begin(_soup.triangles, h), side_end(_soup.triangles, h));
+    std::sort(ways.begin(), ways.end());
+    for (const geometry::TriangleCorners& t : triangles) {
+      for (int i = 0; i < 3; ++i) {
+        const std::pair way(numbers[t[i]], numbers[t[(i + 1) % 3]]);
+        if (std::binary_search(ways.begin(), ways.end(), way)) return true;
+        if (std::binary_search(ways.begin(), ways.end(), std::pair(way.second, way.first))) return false;
+      }
+    }
+    return false;
   }
 
   /// Whether a component would be mostly caps.

@@ -9,19 +9,20 @@
 
 namespace aeroloom::cad {
 
-struct FacetContacts {
-  std::size_t pairs = 0;
-  std::int32_t first = -1, second = -1;  ///< the first pair, ascending; -1 without
-};
-
-/// Exact. Points with equal coordinates must be one.
-FacetContacts find_facet_contacts(const FacetSoup& soup);
-
-/// For each triangle what hangs together with it over common points, counted in the order of the file.
+/// For each triangle what hangs together with it over sides, counted in the order of the file.
 struct FacetComponents {
   std::vector<std::int32_t> of;
   std::int32_t count = 0;
 };
 FacetComponents find_components(const FacetSoup& soup);
+
+struct FacetContacts {
+  std::size_t pairs = 0;
+  /// The first pair, ascending, of two components where there is one; -1 without.
+  std::int32_t first = -1, second = -1;
+};
+
+/// Exact. Points with equal coordinates must be one.
+FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components);
 
 }  // namespace aeroloom::cad

@@ -4,6 +4,7 @@
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -16,10 +17,16 @@ namespace {
 struct SpurLimit {
   double sides, turns;
 };
-constexpr SpurLimit spur_limits[] = {{5, 1.3}, {2.5, 2}};
+constexpr SpurLimit spur_limits[] = {{8, 1.35}, {4, 1.8}};
 /// Features go on over sides that turn by more than this fraction of the limit, where the chain itself turns
 /// by less than `straight`.
 constexpr double weak_fraction = 0.5, straight = 50 * geometry::degree;
+
+/// Faces of so few triangles are noise or strips of a coarse cylinder: where they have one neighbour only,
+/// they join it if they turn by less than `island_turns` times the limit, and two of them join each other
+/// below `strip_turns`. Chosen: an octagon turns by 45 degrees, a hexagon by 60.
+constexpr int island_triangles = 3, strip_triangles = 4, face_rounds = 4;
+constexpr double island_turns = 2, strip_turns = 1.3;
 
 enum SideState : char { smooth_side = 0, sharp_side = 1, forced_side = 2 };
 
@@ -35,6 +42,10 @@ public:
     separate_fans();
     drop_spurs();
     extend_open_ends();
+    for (int round = 0; round < face_rounds; ++round) {
+      if (!join_small_faces()) break;
+      drop_spurs();
+    }
     drop_spurs();
     return {std::vector<char>(_state.begin(), _state.end()), find_vertices()};
   }
@@ -212,6 +223,50 @@ private:
       if (best < 0 || _turns[s] > _turns[best]) best = s;
     }
     return best;
+  }
+
+  /// The two triangles of a sharp side.
+  std::array<std::int32_t, 2> triangles_of(std::int32_t s) const {
+    const SideRecord& side = _table.sides[s];
+    return {facet_of(_table.passes[side.begin].half_edge), facet_of(_table.passes[side.end - 1].half_edge)};
+  }
+
+  /// False where nothing was to be joined.
+  bool join_small_faces() {
+    const auto sides = static_cast<std::int32_t>(_table.sides.size());
+    geometry::DisjointSets<std::int32_t> faces(_soup.triangles.size());
+    for (std::int32_t s = 0; s < sides; ++s) {
+      if (!is_feature(s)) faces.unite(triangles_of(s)[0], triangles_of(s)[1]);
+    }
+    constexpr std::int32_t several = -2;
+    std::vector<std::int32_t> size(faces.size(), 0), neighbour(faces.size(), no_entity);
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(size.size()); ++t) ++size[faces.root(t)];
+    for (std::int32_t s = 0; s < sides; ++s) {
+      if (!is_feature(s)) continue;
+      const auto [t, u] = triangles_of(s);
+      const std::int32_t a = faces.root(t), b = faces.root(u);
+      for (const auto& [own, other] : {std::pair(a, b), std::pair(b, a)}) {
+        if (own == other && _state[s] == sharp_side) continue;
+        const bool same = neighbour[own] == no_entity || neighbour[own] == other;
+        neighbour[own] = same && _state[s] == sharp_side ? other : several;
+      }
+    }
+    bool joined = false;
+    for (std::int32_t s = 0; s < sides; ++s) {
+      if (_state[s] != sharp_side) continue;
+      const auto [t, u] = triangles_of(s);
+      const std::int32_t a = faces.root(t), b = faces.root(u);
+      const auto is_island = [&](std::int32_t f) {
+        return size[f] <= island_triangles && neighbour[f] != several;
+      };
+      const bool island = a != b && (is_island(a) || is_island(b)) && _turns[s] < island_turns * _angle;
+      const bool strips =
+          size[a] <= strip_triangles && size[b] <= strip_triangles && _turns[s] < strip_turns * _angle;
+      if (!island && !strips) continue;
+      _state[s] = smooth_side;
+      joined = true;
+    }
+    return joined;
   }
 
   std::vector<std::int32_t> find_vertices() const {

@@ -6,6 +6,7 @@
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/split_facets.hpp"
 #include "cad/faceted/weld_facets.hpp"
+#include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -33,9 +34,9 @@ std::string component_name(const FacetSoup& soup, const FacetComponents& compone
 }
 
 void refuse_contacts(const FacetSoup& soup) {
-  const FacetContacts contacts = find_facet_contacts(soup);
-  if (contacts.pairs == 0) return;
   const FacetComponents components = find_components(soup);
+  const FacetContacts contacts = find_facet_contacts(soup, components);
+  if (contacts.pairs == 0) return;
   const std::string place = shown_place(middle_of(soup, contacts.first));
   if (components.of[contacts.first] != components.of[contacts.second]) {
     throw CadError(
@@ -51,10 +52,23 @@ void refuse_contacts(const FacetSoup& soup) {
                   soup.file, place, contacts.pairs));
 }
 
+/// Chambers that are no material and from which no way leads outside, over triangles between two of them.
+std::vector<char> enclosed_voids(const Chambers& chambers) {
+  geometry::DisjointSets<std::int32_t> spaces(chambers.chambers.size());
+  for (const auto& [ahead, behind] : chambers.beside) {
+    if (!chambers.chambers[ahead].filled && !chambers.chambers[behind].filled) spaces.unite(ahead, behind);
+  }
+  std::vector<char> enclosed;
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(spaces.size()); ++c)
+    enclosed.push_back(!chambers.chambers[c].filled && spaces.root(c) != 0);
+  return enclosed;
+}
+
 /// Leaves out triangles between two spaces that are no material, and turns the others so that their normals
 /// point out of `front`.
 std::vector<FacetSkin> orient_facets(FacetSoup& soup, const Chambers& chambers, Changes& changes) {
   std::vector<FacetSkin> skins;
+  const std::vector<char> enclosed = enclosed_voids(chambers);
   std::size_t count = 0, dropped = 0, turned = 0;
   Vec3 dropped_at;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -75,7 +89,7 @@ std::vector<FacetSkin> orient_facets(FacetSoup& soup, const Chambers& chambers, 
     const bool turn =
         region_behind == no_entity || (region_ahead != no_entity && region_ahead < region_behind);
     FacetSkin skin{turn ? region_ahead : region_behind, turn ? region_behind : region_ahead, false};
-    skin.cavity = skin.back == no_entity && (turn ? behind : ahead) != 0;
+    skin.cavity = skin.back == no_entity && enclosed[turn ? behind : ahead] != 0;
     auto corners = soup.triangles[t];
     if (turn) std::swap(corners[1], corners[2]);
     turned += turn;

@@ -52,8 +52,10 @@ private:
     need_line(text, "the number of points");
     const std::int64_t count = text.count(text.word(), "the number of points", 8);
     if (count == 0 && &text == &_text) {
-      const FacetFile nodes =
-          load_facet_file(std::filesystem::path(_file.name).replace_extension(".node").string());
+      const auto beside = std::filesystem::path(_file.name).replace_extension(".node");
+      if (!std::filesystem::exists(beside))
+        text.fail(fmt::format("there are no points, here or in {}", beside.string()));
+      const FacetFile nodes = load_facet_file(beside.string());
       FacetText other(nodes.name, nodes.bytes);
       read_nodes(other);
       return;
