@@ -43,8 +43,9 @@ CadFacts look_at_faceted_file(const std::string& file) {
   CadFacts facts;
   facts.format = found.format;
   facts.bounds = found.bounds;
-  facts.shells = found.components;
-  facts.faces = found.triangles;
+  facts.facets = FacetCounts{
+      found.points,         found.triangles,         found.components, found.without_area, found.open_sides,
+      found.junction_sides, found.misoriented_sides, found.area,       found.volume};
   for (const FacetGroupFacts& group : found.groups) {
     if (!group.name.empty()) facts.face_names.push_back({group.name, group.triangles});
     if (!group.part.empty()) facts.parts.push_back({group.part, group.triangles});
