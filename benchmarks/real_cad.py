@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Meshes every CAD file of a collection with `geometry: file` alone and prints a table in Markdown.
+"""Meshes every geometry of a collection, CAD or triangles, with `geometry: file` alone and prints a table in Markdown.
 
-The collection is a folder; an INDEX.md in it, where there is one, tells each file's class: A and B are to mesh,
+The collection is a folder; an INDEX.md in it or above it, where there is one, tells each file's class: A and B are to mesh,
 C is to end in a diagnosis. Every mesh is checked by an independent arbiter (--arbiter, called as
 `ARBITER mesh.pvtu --surface surface.pvtp`) where one is given, else by the program's own checks alone.
 """
@@ -17,7 +17,7 @@ import subprocess
 import tempfile
 import time
 
-SUFFIXES = {".step", ".stp", ".igs", ".iges", ".brep"}
+SUFFIXES = {".step", ".stp", ".igs", ".iges", ".brep", ".stl", ".obj", ".off", ".ply", ".poly", ".smesh"}
 LIMIT_S = 300
 
 Row = collections.namedtuple("Row", "name kind code valid tetrahedra angle apart seconds sizing memory hash message")
@@ -25,8 +25,8 @@ Row = collections.namedtuple("Row", "name kind code valid tetrahedra angle apart
 
 def read_classes(folder):
     """File name -> class, from the tables of an INDEX.md."""
-    index = folder / "INDEX.md"
-    if not index.exists():
+    index = next((place / "INDEX.md" for place in (folder, folder.parent) if (place / "INDEX.md").exists()), None)
+    if index is None:
         return {}
     rows = re.findall(r"^\| (\S+) \| ([ABC]) \|", index.read_text(), re.MULTILINE)
     return dict(rows)

@@ -82,7 +82,8 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   using cad::DomainKind;
   keys.path(
       "file", draft.result.domain.file,
-      common({"The CAD file: STEP, IGES or BREP. Its path is relative to the case's folder, or else to the "
+      common({"The CAD file: STEP, IGES or BREP; or flat triangles: STL, OBJ, OFF, PLY, .poly or .smesh "
+              "([Faceted models](faceted.md)). Its path is relative to the case's folder, or else to the "
               "working directory; on the command line to the working directory. `${NAME}` in the path is an "
               "environment variable. Needed, unless `builtin` is given.",
               "", "aircraft.step"}));
@@ -101,6 +102,11 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
       "narrow_faces", draft.result.narrow_faces, {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}},
       "`join`: faces narrower than `sizing.minimum` become part of a neighbour that goes on from them "
       "smoothly ([Narrow faces](real_cad.md#narrow-faces)). `keep`: their borders stay in the mesh.");
+  keys.number(
+      "feature_angle", draft.result.domain.feature_angle, Range::between(5, 180, "degrees"),
+      sets("DomainOptions::feature_angle",
+           {"Of files of triangles: sides across which they turn by more are edges that the mesh keeps; "
+            "across others it goes on smoothly."}));
   declare_trailing_edges(keys, draft);
   declare_dimensions(
       keys.section("dimensions",

@@ -43,10 +43,11 @@ YAML::Node parse(const std::string& text, const std::string& name, bool position
 void require_no_cad(const std::string& file) {
   std::string end = std::filesystem::path(file).extension().string();
   std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const char* known : {".step", ".stp", ".iges", ".igs", ".brep"}) {
+  for (const char* known :
+       {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".obj", ".off", ".ply", ".poly", ".smesh"}) {
     if (end != known) continue;
     throw CaseError(fmt::format(
-        "{0}: a CAD file, but a case is expected. `aeroloom init case.yaml --geometry {0}` writes "
+        "{0}: a geometry, but a case is expected. `aeroloom init case.yaml --geometry {0}` writes "
         "one for it",
         file));
   }

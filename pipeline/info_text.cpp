@@ -126,7 +126,43 @@ std::string info_text(const io::Assembled& file, const MeshFileFacts& facts) {
   return text + "reading it: " + io::describe(file) + "\n";
 }
 
+namespace {
+
+Json facets_json(const cad::CadFacts& facts) {
+  const cad::FacetCounts& counts = *facts.facets;
+  return {{"kind", "triangles"},
+          {"format", facts.format},
+          {"bounds", report::to_json(facts.bounds)},
+          {"points", counts.points},
+          {"triangles", counts.triangles},
+          {"components", counts.components},
+          {"without_area", counts.without_area},
+          {"open_sides", counts.open_sides},
+          {"junction_sides", counts.junction_sides},
+          {"misoriented_sides", counts.misoriented_sides},
+          {"area", counts.area},
+          {"volume", counts.volume},
+          {"parts", names_json(facts.parts)},
+          {"face_names", names_json(facts.face_names)}};
+}
+
+std::string facets_text(const cad::CadFacts& facts) {
+  const cad::FacetCounts& counts = *facts.facets;
+  std::string text = fmt::format(
+      "triangles, {}\nbox {}\npoints {}, triangles {}, components {}, area {:.6g}, volume {:.6g}\n",
+      facts.format, box_text(facts.bounds), counts.points, counts.triangles, counts.components, counts.area,
+      counts.volume);
+  text += fmt::format(
+      "sides of one triangle {}, of three or more {}, turned against each other {}; triangles "
+      "without area {}\n",
+      counts.open_sides, counts.junction_sides, counts.misoriented_sides, counts.without_area);
+  return text + names_text("parts", facts.parts) + names_text("groups", facts.face_names);
+}
+
+}  // namespace
+
 Json info_json(const cad::CadFacts& facts) {
+  if (facts.facets) return facets_json(facts);
   const bool declared = !facts.unit_name.empty();
   return {
       {"kind", "cad"},
@@ -147,6 +183,7 @@ Json info_json(const cad::CadFacts& facts) {
 }
 
 std::string info_text(const cad::CadFacts& facts) {
+  if (facts.facets) return facets_text(facts);
   const bool declared = !facts.unit_name.empty();
   std::string text = fmt::format("CAD, {}, unit {}\n", facts.format,
                                  declared ? facts.unit_name : std::string("not declared: lengths as stored"));

@@ -115,11 +115,13 @@ std::int32_t FaceSamples::add(Vec2 uv, Vec3 point, const cad::PrincipalCurvature
 std::int32_t FaceSamples::add_between(const Demand& demand, std::int32_t a, std::int32_t b, double length) {
   const Vec3 from = _points[a].point, to = _points[b].point;
   const Vec2 uv = 0.5 * (_points[a].uv + _points[b].uv);
-  const auto [point, curvatures] = demand.model.face_curved_point(demand.face, uv);
-  if (std::max(distance(point, from), distance(point, to)) < farthest_middle * length)
-    return add(uv, point, curvatures);
-  // The parameters jump or are singular between the two: follow the facet instead.
   const Vec2 of_a = _points[a].uv, of_b = _points[b].uv;
+  if (demand.model.sheet(demand.face, of_a) == demand.model.sheet(demand.face, of_b)) {
+    const auto [point, curvatures] = demand.model.face_curved_point(demand.face, uv);
+    if (std::max(distance(point, from), distance(point, to)) < farthest_middle * length)
+      return add(uv, point, curvatures);
+  }
+  // The parameters jump or are singular between the two: follow the facet instead.
   const bool a_first = std::tie(of_a.x, of_a.y) < std::tie(of_b.x, of_b.y);
   _points.push_back({a_first ? of_a : of_b, 0.5 * (from + to), 0, {a, b}});
   return static_cast<std::int32_t>(_points.size()) - 1;

@@ -27,8 +27,9 @@ constexpr double half_turn = 180;
 /// An exact plane stays one: it joins its like alone.
 bool may_join(const Model& model, FaceId a, FaceId b) {
   const cad::Face &first = model.face(a), &second = model.face(b);
-  return !model.is_far_field(b) && model.is_exact_plane(a) == model.is_exact_plane(b) &&
-         first.patch == second.patch && first.front == second.front && first.back == second.back;
+  return !model.is_far_field(b) && !model.is_faceted(b) &&
+         model.is_exact_plane(a) == model.is_exact_plane(b) && first.patch == second.patch &&
+         first.front == second.front && first.back == second.back;
 }
 
 /// The face on the other side of an edge; no_entity where it is not used by exactly two faces, once each.
@@ -61,7 +62,7 @@ struct Border {
 };
 
 std::optional<NarrowFace> examine(const Model& model, FaceId face, double width, double tolerance) {
-  if (model.is_far_field(face)) return std::nullopt;
+  if (model.is_far_field(face) || model.is_faceted(face)) return std::nullopt;
   NarrowFace found;
   found.face = face;
   found.width = cad::mean_width(model, face);

@@ -296,7 +296,7 @@ std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, 
   deviations.reserve(facets.triangles.size());
   for (const auto& [a, b, c] : facets.triangles) {
     double deviation = 0;
-    if (!model.is_planar(face)) {
+    if (!model.is_planar(face) && !model.is_faceted(face)) {
       const geometry::Vec2 middle = (facets.uv[a] + facets.uv[b] + facets.uv[c]) / 3;
       const Triangle corners{facets.points[a], facets.points[b], facets.points[c]};
       deviation =

@@ -40,6 +40,7 @@ int OpenFacets::parameter_orientation() const {
 }
 
 void OpenFacets::fit_to_surface(const sizing::SizeField& field) {
+  if (_in_sheets) return;
   std::vector<SurfaceFrame> frames;
   const auto frame_new_points = [&] {
     for (std::size_t i = frames.size(); i < _uv.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "surface/open_facets.hpp"
 
+#include "aeroloom/cad/model/facets/corner_parameters.hpp"
 #include "aeroloom/surface/surface_error.hpp"
 #include "geometry/disjoint_sets.hpp"
 
@@ -98,11 +99,15 @@ private:
 };
 
 OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& facets)
-    : _model(model), _uv(facets.uv) {
+    : _model(model), _uv(facets.uv), _in_sheets(model.is_faceted(face)) {
   _support.face = face;
   _support.points = facets.points;
   _support.triangles = facets.triangles;
-  for (const auto& [a, b, c] : facets.triangles) _support.corner_uv.push_back({_uv[a], _uv[b], _uv[c]});
+  if (_in_sheets) {
+    _support.corner_uv = cad::corner_parameters(model, face);
+  } else {
+    for (const auto& [a, b, c] : facets.triangles) _support.corner_uv.push_back({_uv[a], _uv[b], _uv[c]});
+  }
   for (const auto& boundary : facets.boundary) {
     Line line{boundary.use, is_constraining(model, boundary.use.edge), {}};
     for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
@@ -114,7 +119,7 @@ OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& 
     }
     _lines.push_back(std::move(line));
   }
-  match_line_ends();
+  if (!_in_sheets) match_line_ends();
 }
 
 void OpenFacets::match_line_ends() {
@@ -207,13 +212,14 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
       continue;
     }
     const auto index = static_cast<std::int32_t>(_support.points.size());
-    const double fraction = std::clamp((t - old[k].parameter) / part, 0.0, 1.0);
+    const double ahead = std::clamp((t - old[k].parameter) / part, 0.0, 1.0);
     geometry::HalfEdge h = table.find(old[k].point, old[k + 1].point);
     const bool along = h >= 0;
     if (!along) h = table.find(old[k + 1].point, old[k].point);
     if (h < 0) fail(_model, _support.face, line.use, point);
-    divisions.push_back({h, along ? fraction : 1 - fraction, index, uv});
-    if (table.twin(h) >= 0) divisions.push_back({table.twin(h), along ? 1 - fraction : fraction, index, uv});
+    const double fraction = along ? ahead : 1 - ahead;
+    divisions.push_back({h, fraction, index, uv});
+    if (table.twin(h) >= 0) divisions.push_back({table.twin(h), 1 - fraction, index, uv});
     line.nodes.push_back({t, index, vertex});
     _support.points.push_back(point);
     _uv.push_back(uv);
@@ -224,6 +230,7 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
 
 void OpenFacets::divide(std::vector<EdgePoint> divisions) {
   divide_edges(_support, std::move(divisions));
+  if (_in_sheets) return;
   for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) _support.corner_uv[t][i] = _uv[_support.triangles[t][i]];
   }

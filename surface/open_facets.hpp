@@ -71,6 +71,7 @@ private:
   Support _support;
   std::vector<geometry::Vec2> _uv;  // per point
   std::vector<Line> _lines;
+  bool _in_sheets;  // parameters belong to corners of triangles, which are the surface
 };
 
 }  // namespace aeroloom::surface

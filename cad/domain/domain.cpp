@@ -3,6 +3,8 @@
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
 #include "cad/domain/sharpen.hpp"
+#include "cad/faceted/facet_soup.hpp"
+#include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
@@ -129,6 +131,10 @@ Domain prepare(const DomainOptions& options) {
   return {std::move(model), std::move(report)};
 }
 
+bool has_facets(const DomainOptions& options) {
+  return !options.transport && is_faceted_file(options.file);
+}
+
 std::string source_name(const DomainOptions& options) {
   return options.transport ? "the built-in aircraft" : fmt::format("'{}'", options.file);
 }
@@ -149,11 +155,14 @@ auto with_source(const DomainOptions& options, Action&& action) {
 }  // namespace
 
 Domain prepare_domain(const DomainOptions& options) {
-  return with_source(options, [&] { return prepare(options); });
+  return with_source(options,
+                     [&] { return has_facets(options) ? prepare_faceted(options) : prepare(options); });
 }
 
 void export_step(const DomainOptions& options, ExportedPart part, const std::string& file) {
   with_source(options, [&] {
+    if (has_facets(options))
+      throw CadError("triangles are not written as STEP. Remedy: geometry of a CAD program");
     Changes changes;
     Volumes volumes;
     const NamedShape shape = part == ExportedPart::domain

@@ -109,7 +109,18 @@ double distance_to_hull(const Facets& facets, const Polytope& hull) {
   return largest;
 }
 
-/// "xmin" and so on for a flat face on the box; empty otherwise.
+/// As side_of_box(); the box of a face takes long where it is no plane, and its edges tell mostly that it is
+/// not flat.
+std::string side_of_face(const TopoDS_Shape& face, const Box& all) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  const Box border = tight_box(std::vector<TopoDS_Shape>(edges.cbegin(), edges.cend()));
+  if (!border.empty() && side_of_box(border, all).empty()) return {};
+  return side_of_box(tight_box(face), all);
+}
+
+}  // namespace
+
 std::string side_of_box(const Box& face, const Box& all) {
   static const char* const names[3][2] = {{"xmin", "xmax"}, {"ymin", "ymax"}, {"zmin", "zmax"}};
   const double tolerance = tolerances::same_place * all.diagonal();
@@ -120,18 +131,6 @@ std::string side_of_box(const Box& face, const Box& all) {
   }
   return {};
 }
-
-/// As side_of_box(); the box of a face takes long where it is no plane, and its edges tell mostly that it is
-/// not flat.
-std::string side_of_box(const TopoDS_Shape& face, const Box& all) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(face, TopAbs_EDGE, edges);
-  const Box border = tight_box(std::vector<TopoDS_Shape>(edges.cbegin(), edges.cend()));
-  if (!border.empty() && side_of_box(border, all).empty()) return {};
-  return side_of_box(tight_box(face), all);
-}
-
-}  // namespace
 
 HullComparison compare_with_hull(const Model& solids, double volume) {
   const std::vector<Facets> facets = coarse_facets(solids);
@@ -191,7 +190,7 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     if (tag.patch.empty() && !fluid) tag.patch = label.solid;
     if (tag.patch.empty()) tag.patch = label.layer;
     if (tag.patch.empty()) tag.patch = label.colour;
-    if (tag.patch.empty() && fluid) tag.patch = side_of_box(faces(i), all);
+    if (tag.patch.empty() && fluid) tag.patch = side_of_face(faces(i), all);
     if (tag.patch.empty() && fluid && hull && hull->on_hull[i - 1]) tag.patch = "outer";
     if (tag.patch.empty()) tag.patch = "body";
     tags.push_back(std::move(tag));

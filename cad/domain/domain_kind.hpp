@@ -30,6 +30,9 @@ struct KindDecision {
 /// otherwise bodies.
 KindDecision decide_kind(const HullComparison& comparison);
 
+/// "xmin" and so on for a flat face on the box; empty otherwise.
+std::string side_of_box(const Box& face, const Box& all);
+
 /// Face and patch names of the domain, by TopExp's order of faces. A patch is called as its face where the
 /// file names it. Unnamed faces between two regions are called "interface_<region>_<region>". Unnamed faces
 /// of bodies go by solid, layer or colour, in this order, and last "body"; those of a ready-made fluid by

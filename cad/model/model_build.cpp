@@ -1,4 +1,6 @@
+#include "cad/faceted/faceted_bytes.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
+#include "cad/model/model_bytes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/step_trace.hpp"
@@ -20,60 +22,20 @@
 namespace aeroloom::cad {
 namespace {
 
-constexpr std::uint64_t magic = 0x344d4c4145524f41;  // "AOREALM4"
-
-class ByteWriter {
-public:
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* begin = reinterpret_cast<const std::byte*>(&value);
-    bytes.insert(bytes.end(), begin, begin + sizeof(T));
-  }
-  void put_text(const std::string& text) {
-    put<std::uint64_t>(text.size());
-    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-    bytes.insert(bytes.end(), begin, begin + text.size());
-  }
-
-  std::vector<std::byte> bytes;
-};
-
-class ByteReader {
-public:
-  explicit ByteReader(std::span<const std::byte> bytes) : _bytes(bytes) {}
-  template <class T>
-  T get() {
-    T value;
-    std::memcpy(&value, take(sizeof(T)), sizeof(T));
-    return value;
-  }
-  std::string get_text() {
-    const auto size = get<std::uint64_t>();
-    return {reinterpret_cast<const char*>(take(size)), static_cast<std::size_t>(size)};
-  }
-
-private:
-  const std::byte* take(std::uint64_t size) {
-    if (size > _bytes.size() - _at) throw CadError("the model's bytes are truncated");
-    const std::byte* begin = _bytes.data() + _at;
-    _at += size;
-    return begin;
-  }
-
-  std::span<const std::byte> _bytes;
-  std::size_t _at = 0;
-};
+constexpr std::uint64_t magic = 0x354d4c4145524f41;  // "AOREALM5"
 
 /// Of everything, and of all that is not far field.
 struct Bounds {
   Box all, body;
 };
 
-Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const std::vector<FaceTag>& tags) {
+Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedPart* faceted,
+                 const std::vector<FaceTag>& tags) {
   std::vector<TopoDS_Shape> body, far_field;
   for (int i = 1; i <= faces.Extent(); ++i) (tags[i - 1].far_field ? far_field : body).push_back(faces(i));
-  const Box of_body = tight_box(body), of_far_field = tight_box(far_field);
+  Box of_body = tight_box(body), of_far_field = tight_box(far_field);
+  for (std::size_t p = 0; faceted && p < faceted->complex().points.size(); ++p)
+    of_body.add(faceted->complex().points[p]);
   Box all = of_far_field;
   if (!of_body.empty()) all.add(of_body);
   return {all, of_body.empty() ? all : of_body};
@@ -101,11 +63,14 @@ std::vector<std::string> region_names(const NamedShape& named) {
   return names;
 }
 
-void put_labels(const NamedShape& named, const std::vector<FaceTag>& tags, ByteWriter& writer) {
+void put_labels(const NamedShape& named, const FacetedPart* faceted, const std::vector<FaceTag>& tags,
+                ByteWriter& writer) {
   writer.put_text(named.unit_name);
   writer.put(named.unit_in_metres);
   writer.put(named.gap);
-  const std::vector<std::string> regions = region_names(named);
+  std::vector<std::string> regions = region_names(named);
+  if (faceted)
+    regions.insert(regions.end(), faceted->complex().regions.begin(), faceted->complex().regions.end());
   writer.put<std::uint64_t>(regions.size());
   for (const std::string& name : regions) writer.put_text(name);
   writer.put<std::uint64_t>(tags.size());
@@ -165,21 +130,24 @@ std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape) {
   return around;
 }
 
-Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags) {
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags, const FacetedPart* faceted) {
   tell_step("building the model");
   return guarded("building the model", [&] {
     TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
-    BRepTools::Clean(named.shape);
+    std::ostringstream stream;
+    if (!named.shape.IsNull()) {
+      TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+      BRepTools::Clean(named.shape);
+      BinTools::Write(named.shape, stream, false, false, BinTools_FormatVersion_CURRENT);
+    }
     ByteWriter writer;
     writer.put(magic);
-    put_labels(named, tags, writer);
-    const Bounds bounds = bounds_of(faces, tags);
+    put_labels(named, faceted, tags, writer);
+    const Bounds bounds = bounds_of(faces, faceted, tags);
     writer.put(bounds.all);
     writer.put(bounds.body);
-    std::ostringstream stream;
-    BinTools::Write(named.shape, stream, false, false, BinTools_FormatVersion_CURRENT);
     writer.put_text(stream.str());
+    put_faceted(faceted, writer);
     writer.put<std::uint64_t>(0);  // strips closed
     return Model::from_bytes(writer.bytes);
   });
@@ -203,10 +171,15 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
     const std::vector<FaceTag> tags = get_labels(reader, *data);
     data->bounds = reader.get<Box>();
     data->body_bounds = reader.get<Box>();
-    std::istringstream stream(reader.get_text());
-    BinTools::Read(data->shape, stream);
-    if (data->shape.IsNull()) throw CadError("the model's bytes hold no shape");
-    index_topology(*data);
+    const std::string shape = reader.get_text();
+    data->faceted = get_faceted(reader);
+    if (!shape.empty()) {
+      std::istringstream stream(shape);
+      BinTools::Read(data->shape, stream);
+    }
+    if (data->shape.IsNull() && !data->faceted) throw CadError("the model's bytes hold no shape");
+    if (!data->shape.IsNull()) index_topology(*data);
+    if (data->faceted) number_facets(*data);
     apply_tags(tags, *data);
     data->cache = std::make_shared<FaceCache>(data->faces.size());
     std::vector<FaceId> strips(reader.get<std::uint64_t>());
@@ -225,8 +198,13 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
 }
 
 std::string Model::Data::describe_face(FaceId id) const {
-  const FaceEvaluator& face = face_evaluators.at(id);
-  const Vec3 at = face.surface.point(0.5 * (face.uv_low + face.uv_high));
+  Vec3 at;
+  if (const FacetedPart* part = faceted_face(id)) {
+    at = part->complex().points[part->faces()[id - first_faceted_face].points.front()];
+  } else {
+    const FaceEvaluator& face = face_evaluators.at(id);
+    at = face.surface.point(0.5 * (face.uv_low + face.uv_high));
+  }
   const std::string& name = static_cast<std::size_t>(id) < faces.size() ? faces[id].name : std::string();
   return fmt::format("face {} '{}' near ({:.6g}, {:.6g}, {:.6g})", id, name, at.x, at.y, at.z);
 }

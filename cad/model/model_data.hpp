@@ -33,9 +33,12 @@ struct FaceTag {
 /// The solids of a shape around each of its faces, both by TopExp's order; one, or two for inner faces.
 std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);
 
-/// Builds the model of a shape whose faces all belong to solids. `tags` follow TopExp's order of faces.
-/// Throws CadError.
-Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags);
+class FacetedPart;
+
+/// Builds the model of a shape whose faces all belong to solids, and of facets: of one of the two, or both.
+/// `tags` follow TopExp's order of faces, then that of the faces of facets. Throws CadError.
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags,
+                  const FacetedPart* faceted = nullptr);
 
 /// The bytes of a model with these strips closed (closed_edges.hpp), from those of the model before.
 std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips);
@@ -123,6 +126,7 @@ struct JoinedModel;
 struct Model::Data {
   /// Over a face, seen from the middle of the model; its area is positive.
   const FaceIntegrals& integrals(FaceId id) const;
+  bool is_reversed(FaceId id) const;  ///< as FaceEvaluator::reversed
 
   std::vector<std::byte> bytes;
   TopoDS_Shape shape;
@@ -142,6 +146,20 @@ struct Model::Data {
   std::shared_ptr<FaceCache> cache;           ///< of what is computed on demand; none where faces are joined
   std::shared_ptr<const ClosedEdges> closed;  ///< where strips are closed: edges that the shape does not have
   std::shared_ptr<const JoinedModel> joined;  ///< where faces are joined: evaluators and snaps are its base's
+
+  /// Entities of facets: numbered after those of the shape, from these numbers on. They have no evaluators.
+  std::shared_ptr<const FacetedPart> faceted;
+  VertexId first_faceted_vertex = 0;
+  EdgeId first_faceted_edge = 0;
+  FaceId first_faceted_face = 0;
+
+  /// The part that the face or edge belongs to; null where it is of the shape.
+  const FacetedPart* faceted_face(FaceId id) const {
+    return faceted && id >= first_faceted_face ? faceted.get() : nullptr;
+  }
+  const FacetedPart* faceted_edge(EdgeId id) const {
+    return faceted && id >= first_faceted_edge ? faceted.get() : nullptr;
+  }
 
   /// "face 12 'wing_upper' near (x, y, z)", for messages.
   std::string describe_face(FaceId id) const;

@@ -1,5 +1,7 @@
 #include "aeroloom/cad/read/cad_facts.hpp"
 
+#include "cad/faceted/facet_soup.hpp"
+#include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -47,6 +49,7 @@ void list_labels(const NamedShape& named, CadFacts& facts) {
 }  // namespace
 
 CadFacts look_at_cad_file(const std::string& file) {
+  if (is_faceted_file(file)) return look_at_faceted_file(file);
   CadFacts facts;
   facts.format = format_of_cad_file(file);
   guarded("looking at the geometry", [&] {

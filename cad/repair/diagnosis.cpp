@@ -1,5 +1,7 @@
 #include "aeroloom/cad/repair/diagnosis.hpp"
 
+#include "cad/faceted/facet_soup.hpp"
+#include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -106,10 +108,15 @@ void examine(const NamedShape& named, Diagnosis& diagnosis) {
 
 Diagnosis diagnose(const DomainOptions& options) {
   Diagnosis diagnosis;
-  diagnosis.format = options.transport ? "built-in" : format_of_cad_file(options.file);
-  guarded("examining the geometry", [&] {
-    examine(options.transport ? make_transport(*options.transport) : read_cad_file(options.file), diagnosis);
-  });
+  if (!options.transport && is_faceted_file(options.file)) {
+    examine_facets(options.file, diagnosis);
+  } else {
+    diagnosis.format = options.transport ? "built-in" : format_of_cad_file(options.file);
+    guarded("examining the geometry", [&] {
+      examine(options.transport ? make_transport(*options.transport) : read_cad_file(options.file),
+              diagnosis);
+    });
+  }
   try {
     diagnosis.domain = prepare_domain(options);
   } catch (const CadError& error) {

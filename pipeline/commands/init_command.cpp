@@ -35,21 +35,21 @@ void require_ours(const std::string& schema_file) {
                          "--no-schema does without");
 }
 
-/// A file of triangles is no CAD, and a case cannot begin with it.
-void require_cad(const std::string& geometry) {
+/// Files of triangles in formats that are not read.
+void require_readable(const std::string& geometry) {
   std::string extension = fs::path(geometry).extension().string();
   for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  for (const char* faceted : {".stl", ".obj", ".ply", ".off", ".vtp", ".3mf"}) {
+  for (const char* faceted : {".vtp", ".3mf"}) {
     if (extension == faceted)
-      throw cases::CaseError(
-          fmt::format("{}: {} files hold triangles, not CAD. Remedy: STEP, IGES or BREP from the "
-                      "program that made it",
-                      geometry, extension));
+      throw cases::CaseError(fmt::format(
+          "{}: {} files are not read. Remedy: STEP, IGES or BREP from the program that made it, or its "
+          "triangles as STL, OBJ, OFF, PLY, .poly or .smesh",
+          geometry, extension));
   }
 }
 
 void write_template(const InitArguments& arguments) {
-  require_cad(arguments.geometry);
+  require_readable(arguments.geometry);
   if (fs::is_directory(arguments.file))
     throw cases::CaseError(arguments.file + " is a folder; give the case a name, such as " +
                            (fs::path(arguments.file) / "case.yaml").string());
@@ -79,7 +79,8 @@ Command add_init(CLI::App& program) {
   const auto arguments = std::make_shared<InitArguments>();
   app->add_option("file", arguments->file, "the case to write; left out: " + arguments->file)
       ->type_name(file_kind::of_case);
-  app->add_option("--geometry", arguments->geometry, "the CAD file: STEP, IGES or BREP")
+  app->add_option("--geometry", arguments->geometry,
+                  "the CAD file: STEP, IGES or BREP; or triangles: STL, OBJ, OFF, PLY, .poly, .smesh")
       ->type_name(file_kind::any)
       ->group(option_group::of_case);
   app->add_flag("--full", arguments->full, "every key, not only those that are often touched")

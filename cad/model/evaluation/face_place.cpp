@@ -1,5 +1,6 @@
 #include "aeroloom/cad/model/evaluation/face_place.hpp"
 
+#include "cad/faceted/faceted_part.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/topology/joined_faces.hpp"
@@ -32,6 +33,8 @@ FacePlace Model::face_place(FaceId id) const {
     whole.centre = 1 / whole.area * moment;
     return whole;
   }
+  if (const FacetedPart* part = _data->faceted_face(id))
+    return part->face_place(id - _data->first_faceted_face);
   return guarded("looking where " + _data->describe_face(id) + " is",
                  [&] { return place_of(_data->face_evaluators.at(id).shape); });
 }

@@ -1,3 +1,5 @@
+#include "cad/faceted/faceted_bytes.hpp"
+#include "cad/faceted/faceted_part.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -93,11 +95,15 @@ std::vector<std::byte> Model::serialise() const {
 Vec3 Model::edge_point(EdgeId id, double parameter) const {
   const Edge& edge = _data->edges.at(id);
   if (edge.degenerate) return vertex(edge.first);
+  if (const FacetedPart* part = _data->faceted_edge(id))
+    return part->edge_point(id - _data->first_faceted_edge, parameter);
   return _data->edge_snaps[id](to_vec(_data->edge_evaluators[id].curve.Value(parameter)));
 }
 
 Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
   if (_data->edges.at(id).degenerate) return {};
+  if (const FacetedPart* part = _data->faceted_edge(id))
+    return part->edge_tangent(id - _data->first_faceted_edge, parameter);
   gp_Pnt point;
   gp_Vec tangent;
   _data->edge_evaluators[id].curve.D1(parameter, point, tangent);
@@ -105,6 +111,8 @@ Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
 }
 
 double Model::edge_curvature(EdgeId id, double parameter) const {
+  if (const FacetedPart* part = _data->faceted_edge(id))
+    return part->edge_curvature(id - _data->first_faceted_edge, parameter);
   const EdgeEvaluator& evaluator = _data->edge_evaluators.at(id);
   if (_data->edges[id].degenerate || evaluator.curve.GetType() == GeomAbs_Line) return 0;
   gp_Pnt point;
@@ -124,6 +132,8 @@ Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
     const JoinedFace::Use& own = all.use(use);
     return all.from_member(own.sheet, joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
   }
+  if (const FacetedPart* part = _data->faceted_face(face))
+    return part->edge_uv(use.edge - _data->first_faceted_edge, face - _data->first_faceted_face, parameter);
   const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
   if (const ClosedEdges* closed = _data->closed.get()) {
     const Vec2 guess = closed->base_uv(face, use, parameter);
@@ -147,7 +157,7 @@ Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
 
 std::vector<double> Model::edge_breaks(EdgeId id) const {
   const Edge& edge = _data->edges.at(id);
-  if (edge.degenerate) return {edge.first_parameter, edge.last_parameter};
+  if (edge.degenerate || _data->faceted_edge(id)) return {edge.first_parameter, edge.last_parameter};
   return guarded("splitting an edge where it is not smooth", [&] {
     const GeomAdaptor_Curve& curve = _data->edge_evaluators[id].curve;
     TColStd_Array1OfReal breaks(1, curve.NbIntervals(GeomAbs_C1) + 1);
@@ -164,6 +174,8 @@ Vec3 Model::face_point(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_point(at.face, at.uv);
   }
+  if (const FacetedPart* part = _data->faceted_face(id))
+    return part->face_point(id - _data->first_faceted_face, uv);
   return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
@@ -172,6 +184,8 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_frame(at.face, at.uv);
   }
+  if (const FacetedPart* part = _data->faceted_face(id))
+    return part->face_frame(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const SurfaceJet jet = face.surface.jet(uv, 1);
   SurfaceFrame frame{_data->face_snaps[id](jet.point), jet.du, jet.dv, {}};
@@ -188,6 +202,8 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_curvatures(at.face, at.uv);
   }
+  if (const FacetedPart* part = _data->faceted_face(id))
+    return part->face_curvatures(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {0, 0, true};
   return curvatures_of(face.surface.jet(uv, 2));
@@ -198,6 +214,7 @@ CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.face_curved_point(at.face, at.uv);
   }
+  if (_data->faceted_face(id)) return {face_point(id, uv), face_curvatures(id, uv)};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {face_point(id, uv), {0, 0, true}};
   const SurfaceJet jet = face.surface.jet(uv, 2);
@@ -209,6 +226,7 @@ Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->base.parameter_periods(at.face, at.uv);
   }
+  if (_data->faceted_face(id)) return {};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.repeats_after(), face.v.repeats_after()};
 }
@@ -218,6 +236,7 @@ Vec2 Model::wrap(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->faces[id].from_member(at.sheet, joined->base.wrap(at.face, at.uv));
   }
+  if (_data->faceted_face(id)) return uv;
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.wrap(uv.x), face.v.wrap(uv.y)};
 }
@@ -227,6 +246,8 @@ bool Model::is_planar(FaceId id) const {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() == 1 && joined->base.is_planar(sheets.front().face);
   }
+  if (const FacetedPart* part = _data->faceted_face(id))
+    return part->faces()[id - _data->first_faceted_face].planar;
   return _data->face_evaluators.at(id).planar;
 }
 
@@ -239,8 +260,10 @@ bool Model::is_exact_plane(FaceId id) const {
   return fixed[0] || fixed[1] || fixed[2];
 }
 
-bool Model::is_faceted(FaceId) const {
-  return false;
+bool Model::is_faceted(FaceId id) const {
+  if (const JoinedModel* joined = _data->joined.get())
+    return joined->base.is_faceted(joined->faces.at(id).sheets.front().face);
+  return _data->faceted_face(id) != nullptr;
 }
 
 std::vector<FaceId> Model::members(FaceId id) const {
@@ -251,11 +274,22 @@ std::vector<FaceId> Model::members(FaceId id) const {
 }
 
 std::int32_t Model::sheet_count(FaceId id) const {
-  return _data->joined ? static_cast<std::int32_t>(_data->joined->faces.at(id).sheets.size()) : 1;
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const auto& sheets = joined->faces.at(id).sheets;
+    return sheets.size() > 1 ? static_cast<std::int32_t>(sheets.size())
+                             : joined->base.sheet_count(sheets.front().face);
+  }
+  const FacetedPart* part = _data->faceted_face(id);
+  return part ? part->faces()[id - _data->first_faceted_face].sheet_count : 1;
 }
 
 std::int32_t Model::sheet(FaceId id, Vec2 uv) const {
-  return _data->joined ? _data->joined->locate(id, uv).sheet : 0;
+  if (const JoinedModel* joined = _data->joined.get()) {
+    const JoinedModel::Place at = joined->locate(id, uv);
+    return joined->faces[id].sheets.size() > 1 ? at.sheet : joined->base.sheet(at.face, at.uv);
+  }
+  const FacetedPart* part = _data->faceted_face(id);
+  return part ? part->sheet(id - _data->first_faceted_face, uv) : 0;
 }
 
 bool Model::is_seam(EdgeId id) const {
@@ -279,7 +313,7 @@ double Model::face_area(FaceId id) const {
 
 Vec3 Model::face_area_vector(FaceId id) const {
   const FaceIntegrals& sums = _data->integrals(id);
-  return _data->face_evaluators.at(id).reversed ? -sums.area_vector : sums.area_vector;
+  return _data->is_reversed(id) ? -sums.area_vector : sums.area_vector;
 }
 
 double Model::region_volume(RegionId id) const {
@@ -303,14 +337,22 @@ double Model::region_volume(RegionId id) const {
     const FaceIntegrals& sums = _data->integrals(f);
     const double flux = sums.flux - dot(middle, sums.area_vector) / 3;
     // The flux is along du x dv; the normal points out of the front region.
-    const double out_of_front = _data->face_evaluators[f].reversed ? -flux : flux;
+    const double out_of_front = _data->is_reversed(f) ? -flux : flux;
     if (face.front == id) volume += out_of_front;
     if (face.back == id) volume -= out_of_front;
   }
   return volume;
 }
 
+bool Model::Data::is_reversed(FaceId id) const {
+  return !faceted_face(id) && face_evaluators.at(id).reversed;
+}
+
 const FaceIntegrals& Model::Data::integrals(FaceId id) const {
+  if (const FacetedPart* part = faceted_face(id)) {
+    return cache->integrals(
+        id, [&] { return integrate_facets(*part, id - first_faceted_face, bounds.center()); });
+  }
   const FaceEvaluator& face = face_evaluators.at(id);
   return cache->integrals(id, [&] {
     return guarded("integrating the area of " + describe_face(id), [&] {

@@ -1,3 +1,5 @@
+#include "aeroloom/cad/model/facets/corner_parameters.hpp"
+#include "cad/faceted/faceted_part.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/facets/pole_facets.hpp"
@@ -199,6 +201,11 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
 
 Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) const {
   if (_data->joined) return _data->joined->facets(id, deflection, angle, keep);
+  if (const FacetedPart* part = _data->faceted_face(id)) {
+    Facets facets = part->facets(id - _data->first_faceted_face);
+    for (Facets::BoundaryLine& line : facets.boundary) line.use.edge += _data->first_faceted_edge;
+    return facets;
+  }
   FaceCache& cache = *_data->cache;
   if (const Facets* kept = cache.facets(id, deflection, angle)) return *kept;
   const std::string doing = "triangulating " + _data->describe_face(id);
@@ -208,6 +215,15 @@ Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) cons
                          : guarded(doing, [&] { return make_facets(*this, id, deflection, angle, doing); });
   if (keep == Keep::yes) cache.keep(id, deflection, angle, facets);
   return facets;
+}
+
+std::vector<std::array<Vec2, 3>> corner_parameters(const Model& model, FaceId faceted) {
+  const Model::Data& data = model.data();
+  if (data.joined) return corner_parameters(data.joined->base, model.members(faceted).front());
+  const FacetedPart& part = *data.faceted;
+  const FacetedFace& face = part.faces().at(faceted - data.first_faceted_face);
+  const auto first = part.corner_uv().begin() + face.first;
+  return {first, first + face.count};
 }
 
 }  // namespace aeroloom::cad

@@ -264,7 +264,7 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
   BluntEdge& strip = finding.edge;
   strip.face = id;
   const Face& face = model.face(id);
-  if (model.is_far_field(id)) return finding;
+  if (model.is_far_field(id) || model.is_faceted(id)) return finding;
   double perimeter = 0;
   for (const auto& loop : face.loops) {
     for (const Coedge& use : loop) perimeter += rough_length(model, use.edge);

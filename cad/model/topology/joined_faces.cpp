@@ -23,7 +23,8 @@ void require_joinable(const Model& model, const std::vector<FaceId>& group) {
   for (const FaceId id : group) {
     const Face& face = model.face(id);
     const bool alike = face.patch == first.patch && face.front == first.front && face.back == first.back;
-    if (!alike || model.is_far_field(id) || model.is_exact_plane(id) != model.is_exact_plane(group.front())) {
+    if (!alike || model.is_far_field(id) || (group.size() > 1 && model.is_faceted(id)) ||
+        model.is_exact_plane(id) != model.is_exact_plane(group.front())) {
       throw std::invalid_argument(
           fmt::format("faces '{}' and '{}' cannot be seen as one", first.name, face.name));
     }

@@ -5,6 +5,7 @@
 #include "aeroloom/geometry/vec.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -31,8 +32,24 @@ struct FaceFacts {
   }
 };
 
+/// What a file of triangles holds; equal points count as one.
+struct FacetCounts {
+  std::int32_t points = 0, triangles = 0, components = 0;
+  std::int32_t without_area = 0;       ///< triangles whose corners lie on one line
+  std::int32_t open_sides = 0;         ///< of one triangle
+  std::int32_t junction_sides = 0;     ///< of three or more
+  std::int32_t misoriented_sides = 0;  ///< passed twice in one direction
+  double area = 0, volume = 0;         ///< of the triangles as they are oriented
+
+  static constexpr auto fields() {
+    return std::tuple(&FacetCounts::points, &FacetCounts::triangles, &FacetCounts::components,
+                      &FacetCounts::without_area, &FacetCounts::open_sides, &FacetCounts::junction_sides,
+                      &FacetCounts::misoriented_sides, &FacetCounts::area, &FacetCounts::volume);
+  }
+};
+
 struct CadFacts {
-  std::string format;         ///< "STEP", "IGES" or "BREP"
+  std::string format;         ///< "STEP", "IGES" or "BREP"; of triangles "STL" and so on
   std::string unit_name;      ///< of length; empty where the file declares none
   double unit_in_metres = 1;  ///< where it declares one
   geometry::Box bounds;       ///< in the file's unit
@@ -41,18 +58,21 @@ struct CadFacts {
   std::vector<NamedFaces> parts, face_names, layers, colours;
 
   std::vector<FaceFacts> face_table;  ///< all faces, in the order of the file
+  /// Of a file of triangles, which has no solids, shells, faces and edges; `parts` and `face_names` then
+  /// count triangles.
+  std::optional<FacetCounts> facets = {};
 
   static constexpr auto fields() {
     return std::tuple(&CadFacts::format, &CadFacts::unit_name, &CadFacts::unit_in_metres, &CadFacts::bounds,
                       &CadFacts::solids, &CadFacts::shells, &CadFacts::faces, &CadFacts::edges,
                       &CadFacts::parts, &CadFacts::face_names, &CadFacts::layers, &CadFacts::colours,
-                      &CadFacts::face_table);
+                      &CadFacts::face_table, &CadFacts::facets);
   }
 };
 
 /// Reads the file, in this process: what crashes in the CAD library ends it. Not collective. Throws CadError
-/// for files that are neither STEP, IGES nor BREP, damaged or empty, std::ios_base::failure where it cannot
-/// be opened.
+/// for files that are neither STEP, IGES, BREP nor triangles, damaged or empty, std::ios_base::failure where
+/// it cannot be opened.
 CadFacts look_at_cad_file(const std::string& file);
 
 }  // namespace aeroloom::cad

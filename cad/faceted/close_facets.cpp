@@ -1,0 +1,147 @@
+#include "cad/faceted/close_facets.hpp"
+
+#include "aeroloom/cad/model/model.hpp"
+#include "aeroloom/geometry/box_tree.hpp"
+#include "cad/faceted/facet_sides.hpp"
+#include "cad/faceted/weld_facets.hpp"
+#include "cad/tolerances.hpp"
+#include "geometry/disjoint_sets.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// Points are one only where they are nearer than this fraction of the shortest open side at either.
+constexpr double fraction_of_side = 0.25;
+
+double diagonal_of_points(const FacetSoup& soup) {
+  geometry::Box box;
+  for (const Vec3 p : soup.points) box.add(p);
+  return box.diagonal();
+}
+
+/// Pairs of open points that are nearest to each other.
+class NearOpenPoints {
+public:
+  NearOpenPoints(const FacetSoup& soup, double tolerance) : _soup(soup) {
+    _room.assign(soup.points.size(), std::numeric_limits<double>::infinity());
+    for (const geometry::HalfEdge h : open_sides(soup.triangles)) {
+      const std::int32_t a = side_begin(soup.triangles, h), b = side_end(soup.triangles, h);
+      const double room = std::min(tolerance, fraction_of_side * distance(soup.points[a], soup.points[b]));
+      _room[a] = std::min(_room[a], room), _room[b] = std::min(_room[b], room);
+      _points.push_back(a), _points.push_back(b);
+    }
+    std::sort(_points.begin(), _points.end());
+    _points.erase(std::unique(_points.begin(), _points.end()), _points.end());
+    for (const std::int32_t p : _points) _boxes.emplace_back().add(soup.points[p]);
+    _tree = geometry::BoxTree(_boxes, 8);
+  }
+
+  struct Welds {
+    std::vector<std::int32_t> representative;
+    std::size_t count = 0;
+    double farthest = 0;
+    Vec3 first;
+  };
+  Welds find() const {
+    Welds welds;
+    welds.representative.resize(_soup.points.size());
+    std::iota(welds.representative.begin(), welds.representative.end(), 0);
+    for (const std::int32_t p : _points) {
+      const std::int32_t q = nearest(p);
+      if (q < p || nearest(q) != p) continue;
+      welds.representative[q] = p;
+      if (welds.count++ == 0) welds.first = _soup.points[p];
+      welds.farthest = std::max(welds.farthest, distance(_soup.points[p], _soup.points[q]));
+    }
+    return welds;
+  }
+
+private:
+  /// -1 where none is near enough.
+  std::int32_t nearest(std::int32_t p) const {
+    geometry::Box box;
+    box.add(_soup.points[p]);
+    std::int32_t best = -1;
+    double bound = std::numeric_limits<double>::infinity();
+    geometry::for_each_overlap(_tree, _boxes, box.dilated(_room[p]), [&](std::int32_t i) {
+      const std::int32_t q = _points[i];
+      const double away = distance(_soup.points[p], _soup.points[q]);
+      if (q == p || away > std::min(_room[p], _room[q])) return;
+      if (away < bound || (away == bound && q < best)) best = q, bound = away;
+    });
+    return best;
+  }
+
+  const FacetSoup& _soup;
+  std::vector<double> _room;  // of each point
+  std::vector<std::int32_t> _points;
+  std::vector<geometry::Box> _boxes;
+  geometry::BoxTree _tree;
+};
+
+/// Welds open points while that leaves fewer open sides and no more junctions.
+void weld_open_points(FacetSoup& soup, double tolerance, Changes& changes) {
+  const UnevenSides before = count_uneven_sides(soup.triangles);
+  const auto welds = NearOpenPoints(soup, tolerance).find();
+  if (welds.count == 0) return;
+  FacetSoup welded = soup;
+  Changes made;
+  made.push_back({fmt::format("{} points are made one with the point beside them", welds.count), welds.first,
+                  welds.farthest});
+  replace_points(welded, welds.representative);
+  drop_void_triangles(welded, made);
+  const UnevenSides after = count_uneven_sides(welded.triangles);
+  if (after.open >= before.open || after.many > before.many) return;
+  soup = std::move(welded);
+  changes.insert(changes.end(), made.begin(), made.end());
+}
+
+}  // namespace
+
+void close_facets(FacetSoup& soup, Changes& changes) {
+  const auto is_open = [&] { return !open_sides(soup.triangles).empty(); };
+  if (!is_open()) return;
+  // What is split may lie on further sides: until nothing is left to split.
+  constexpr int rounds = 8;
+  for (int i = 0; i < rounds && split_open_sides(soup, 0, changes) > 0; ++i)
+    drop_void_triangles(soup, changes);
+  const double diagonal = diagonal_of_points(soup);
+  for (const double fraction : tolerances::sewing) {
+    if (!is_open()) return;
+    weld_open_points(soup, fraction * diagonal, changes);
+    if (split_open_sides(soup, std::min(fraction, tolerances::same_place) * diagonal, changes) > 0)
+      drop_void_triangles(soup, changes);
+  }
+  if (is_open()) cap_facets(soup, changes);
+}
+
+void refuse_open_sides(const FacetSoup& soup) {
+  const std::vector<geometry::HalfEdge> open = open_sides(soup.triangles);
+  if (open.empty()) return;
+  geometry::DisjointSets<std::int32_t> sets(soup.points.size());
+  for (const geometry::HalfEdge h : open)
+    sets.unite(side_begin(soup.triangles, h), side_end(soup.triangles, h));
+  std::vector<double> length(soup.points.size(), 0);
+  std::int32_t longest = -1, loops = 0;
+  for (const geometry::HalfEdge h : open) {
+    const std::int32_t a = side_begin(soup.triangles, h), loop = sets.root(a);
+    loops += length[loop] == 0;
+    length[loop] += distance(soup.points[a], soup.points[side_end(soup.triangles, h)]);
+    if (longest < 0 || length[loop] > length[longest]) longest = loop;
+  }
+  const Vec3 at = soup.points[longest];
+  throw CadError(
+      fmt::format("{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
+                  "length {:.6g}, passes "
+                  "({:.6g}, {:.6g}, {:.6g}); close the surface there and export it again",
+                  soup.file, open.size(), loops, length[longest], at.x, at.y, at.z));
+}
+
+}  // namespace aeroloom::cad

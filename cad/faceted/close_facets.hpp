@@ -1,0 +1,28 @@
+/// Open sides of a soup, closed where there is one way to do so.
+#pragma once
+
+#include "aeroloom/cad/repair/change.hpp"
+#include "cad/faceted/facet_soup.hpp"
+
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// In this order, each only while sides are open: triangles are split where open points lie on their open
+/// sides; open points are made one that are nearer to each other than to any side's other end, where that
+/// leaves fewer open sides; planar openings are closed. Equal points are one, and no triangle is void
+/// (weld_facets.hpp).
+void close_facets(FacetSoup& soup, Changes& changes);
+
+/// Splits triangles at open points that lie exactly on their open sides, or within `tolerance` of them, along
+/// a chain of other open sides. Returns the number of triangles split, and adds a change for them.
+std::size_t split_open_sides(FacetSoup& soup, double tolerance, Changes& changes);
+
+/// Closes planar openings, all or none. False where one is not planar, too narrow, or too wide for the body
+/// around it.
+bool cap_facets(FacetSoup& soup, Changes& changes);
+
+/// Throws CadError with the number of open loops, the longest of them and where it lies.
+void refuse_open_sides(const FacetSoup& soup);
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,40 @@
+#include "cad/faceted/facet_facts.hpp"
+
+#include "cad/faceted/facet_contacts.hpp"
+#include "cad/faceted/facet_sides.hpp"
+#include "cad/faceted/weld_facets.hpp"
+
+namespace aeroloom::cad {
+
+FacetFacts look_at_facets(const FacetSoup& original) {
+  FacetSoup soup = original;
+  weld_equal_points(soup);
+  FacetFacts facts;
+  facts.format = soup.format;
+  facts.points = static_cast<std::int32_t>(soup.points.size());
+  facts.triangles = static_cast<std::int32_t>(soup.triangles.size());
+  for (const FacetSoup::Group& group : soup.groups) facts.groups.push_back({group.name, group.part});
+  for (const Vec3 p : soup.points) facts.bounds.add(p);
+  const Vec3 base = facts.bounds.center();
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto& [i, j, k] = soup.triangles[t];
+    const Vec3 a = soup.points[i], b = soup.points[j], c = soup.points[k];
+    const double area = 0.5 * norm(cross(b - a, c - a));
+    facts.area += area;
+    facts.volume += geometry::volume6(base, a, b, c) / 6;
+    facts.without_area += on_one_line(a, b, c);
+    FacetGroupFacts& group = facts.groups[soup.group_of[t]];
+    ++group.triangles;
+    group.area += area;
+  }
+  for_each_side(sort_sides(soup.triangles), [&](std::span<const FacetSide> passes) {
+    facts.open_sides += passes.size() == 1;
+    facts.junction_sides += passes.size() > 2;
+    facts.misoriented_sides += passes.size() == 2 && side_begin(soup.triangles, passes[0].half_edge) ==
+                                                         side_begin(soup.triangles, passes[1].half_edge);
+  });
+  facts.components = find_components(soup).count;
+  return facts;
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,44 @@
+/// Who is beside whom in a complex of facets. Seen by this folder only.
+#pragma once
+
+#include "aeroloom/geometry/half_edges.hpp"
+#include "cad/faceted/facet_complex.hpp"
+
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// The side of a curve that a half-edge of the triangles is.
+struct CurveSide {
+  std::int32_t curve = no_entity;  ///< no_entity: it lies inside a face
+  std::int32_t side = 0;           ///< from point `side` of the curve to the next one
+  bool along = true;               ///< the half-edge runs as the curve does
+};
+
+struct FacetLinks {
+  std::vector<CurveSide> on_curve;         ///< per half-edge
+  std::vector<geometry::HalfEdge> inside;  ///< per half-edge its twin in the same face; -1 on curves
+};
+
+/// Throws CadError where a side that lies on no curve does not have two triangles of one face.
+FacetLinks link_facets(const FacetComplex& complex);
+
+/// The half-edge that leaves the end of `h` along the border of its face.
+geometry::HalfEdge next_on_border(const FacetLinks& links, geometry::HalfEdge h);
+
+inline std::int32_t start_of(const FacetComplex& complex, geometry::HalfEdge h) {
+  return complex.triangles[h / 3][h % 3];
+}
+inline std::int32_t end_of(const FacetComplex& complex, geometry::HalfEdge h) {
+  return start_of(complex, geometry::next_half_edge(h));
+}
+inline std::array<Vec3, 3> corners_of(const FacetComplex& complex, std::int32_t triangle) {
+  const auto& [a, b, c] = complex.triangles[triangle];
+  return {complex.points[a], complex.points[b], complex.points[c]};
+}
+/// The normal of a triangle times twice its area.
+inline Vec3 area_vector2(const std::array<Vec3, 3>& corners) {
+  return cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+}  // namespace aeroloom::cad

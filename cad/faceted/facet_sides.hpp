@@ -1,0 +1,57 @@
+/// The sides of triangles by their end points: who meets at each. Seen by this folder only.
+#pragma once
+
+#include "aeroloom/geometry/half_edges.hpp"
+#include "geometry/runs.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// One pass of a triangle along a side, low < high.
+struct FacetSide {
+  std::int32_t low, high;
+  geometry::HalfEdge half_edge;
+};
+
+inline std::int32_t facet_of(geometry::HalfEdge h) {
+  return h / 3;
+}
+
+/// All passes, ascending by low, high, half-edge.
+std::vector<FacetSide> sort_sides(const std::vector<geometry::TriangleCorners>& triangles);
+
+/// Calls visit(passes) for each side, all that pass it.
+template <class Visit>
+void for_each_side(const std::vector<FacetSide>& sides, const Visit& visit) {
+  const std::span<const FacetSide> all(sides);
+  geometry::for_each_run(
+      all, [](const FacetSide& a, const FacetSide& b) { return a.low == b.low && a.high == b.high; },
+      [&](std::size_t first, std::size_t last) { visit(all.subspan(first, last - first)); });
+}
+
+/// Sides of a single triangle, as half-edges, ascending.
+std::vector<geometry::HalfEdge> open_sides(const std::vector<geometry::TriangleCorners>& triangles);
+
+/// Open sides and those of more than two triangles.
+struct UnevenSides {
+  std::size_t open = 0, many = 0;
+};
+UnevenSides count_uneven_sides(const std::vector<geometry::TriangleCorners>& triangles);
+
+/// From and to of a half-edge.
+inline std::int32_t side_begin(const std::vector<geometry::TriangleCorners>& triangles,
+                               geometry::HalfEdge h) {
+  return triangles[h / 3][h % 3];
+}
+inline std::int32_t side_end(const std::vector<geometry::TriangleCorners>& triangles, geometry::HalfEdge h) {
+  return triangles[h / 3][(h % 3 + 1) % 3];
+}
+/// The corner that lies across from the side.
+inline std::int32_t side_apex(const std::vector<geometry::TriangleCorners>& triangles, geometry::HalfEdge h) {
+  return triangles[h / 3][(h % 3 + 2) % 3];
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,144 @@
+#include "cad/faceted/faceted_domain.hpp"
+
+#include "cad/domain/domain_kind.hpp"
+#include "cad/domain/far_field_shape.hpp"
+#include "cad/faceted/facet_walls.hpp"
+#include "cad/faceted/faceted_part.hpp"
+#include "cad/model/model_data.hpp"
+#include "cad/model/step_trace.hpp"
+#include "cad/tolerances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
+#include <fmt/format.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// Patches of faces without a name go by part, then by the side of the domain they lie on.
+std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullComparison* hull) {
+  Box all;
+  for (const Vec3 p : complex.points) all.add(p);
+  std::vector<Box> boxes(complex.faces.size());
+  for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
+    for (const std::int32_t p : complex.triangles[t]) boxes[complex.face_of[t]].add(complex.points[p]);
+  }
+  std::vector<FaceTag> tags;
+  for (std::size_t f = 0; f < complex.faces.size(); ++f) {
+    const FacetComplex::Face& face = complex.faces[f];
+    FaceTag tag{face.name, face.name};
+    if (tag.name.empty()) tag.name = fmt::format("face_{}", f);
+    tag.part = face.part;
+    tag.number = static_cast<std::int32_t>(f);
+    if (tag.patch.empty() && face.back != no_entity)
+      tag.patch =
+          fmt::format("interface_{}_{}", std::min(face.front, face.back), std::max(face.front, face.back));
+    if (tag.patch.empty() && !hull) tag.patch = face.part;
+    if (tag.patch.empty() && hull) tag.patch = side_of_box(boxes[f], all);
+    if (tag.patch.empty() && hull && f < hull->on_hull.size() && hull->on_hull[f]) tag.patch = "outer";
+    if (tag.patch.empty()) tag.patch = "body";
+    tags.push_back(std::move(tag));
+  }
+  return tags;
+}
+
+FacetComplex with_named_regions(FacetComplex complex) {
+  for (std::size_t r = 0; r < complex.regions.size(); ++r) {
+    if (complex.regions[r].empty()) complex.regions[r] = fmt::format("region_{}", r);
+  }
+  return complex;
+}
+
+Model fluid_model(const FacetedPart& part, const HullComparison* hull) {
+  static const HullComparison none;
+  return build_model({}, tag_facets(part.complex(), hull ? hull : &none), &part);
+}
+
+double volume_of_regions(const Model& model) {
+  double volume = 0;
+  for (RegionId r = 0; r < model.region_count(); ++r) volume += model.region_volume(r);
+  return volume;
+}
+
+void refuse_symmetry(const FarFieldOptions& options) {
+  const bool asked = options.symmetry != Symmetry::automatic && options.symmetry != Symmetry::none;
+  if (!asked && options.shape != FarFieldShape::hemisphere) return;
+  throw CadError(
+      "a half model of a faceted file is not made: its triangles would have to be cut at the plane of "
+      "symmetry. Remedy: farfield.symmetry: none with a sphere, box or cylinder around the whole body, or a "
+      "STEP file of it");
+}
+
+NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options) {
+  Box box;
+  for (const Vec3 p : walls.points) box.add(p);
+  NamedShape named;
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  builder.Add(compound, place_far_field(options, {box, box}, std::nullopt, named.labels));
+  named.shape = compound;
+  return named;
+}
+
+/// The fluid around bodies.
+Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options, Changes& changes) {
+  refuse_symmetry(options);
+  FacetComplex walls = outer_walls(bodies, changes);
+  tell_step("building the far field");
+  const NamedShape far_field = far_field_around(walls, options);
+  const double body = -enclosed_volume(walls);
+  Volumes volumes;
+  const double outer = volumes.of(far_field.shape);
+  const FacetedPart part = make_faceted_part(std::move(walls));
+  std::vector<FaceTag> tags = tag_faces(far_field, DomainKind::body, nullptr);
+  for (FaceTag& tag : tag_facets(part.complex(), nullptr)) tags.push_back(std::move(tag));
+  Model model = build_model(far_field, tags, &part);
+  const double fluid = model.region_volume(0);
+  const double error = std::abs(outer - body - fluid);
+  if (!(body > 0) || error > tolerances::sum_of_volumes * body + tolerances::rounding * outer) {
+    throw CadError(
+        fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; "
+                    "the triangles are turned inside out",
+                    outer, body, fluid));
+  }
+  return model;
+}
+
+KindDecision choose_faceted_kind(const DomainOptions& options, const std::optional<HullComparison>& hull) {
+  if (options.kind != DomainKind::automatic)
+    return {options.kind, options.kind == DomainKind::fluid ? "fluid, as requested" : "bodies, as requested"};
+  if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
+  return decide_kind(*hull);
+}
+
+}  // namespace
+
+Domain make_faceted_domain(const DomainOptions& options, FacetComplex complex, Changes changes) {
+  DomainReport report;
+  report.changes = std::move(changes);
+  std::optional<HullComparison> hull;
+  std::optional<FacetedPart> part;
+  if (options.kind == DomainKind::fluid || (options.kind == DomainKind::automatic && !options.far_field)) {
+    part = make_faceted_part(with_named_regions(complex));
+    const Model alone = fluid_model(*part, nullptr);
+    hull = compare_with_hull(alone, volume_of_regions(alone));
+  }
+  const KindDecision decision = choose_faceted_kind(options, hull);
+  report.kind = decision.kind, report.reason = decision.reason;
+  Model model =
+      decision.kind == DomainKind::fluid
+          ? fluid_model(*part, &*hull)
+          : surround_facets(complex, options.far_field.value_or(options.default_far_field), report.changes);
+  if (options.trailing_edges.treatment == TrailingEdges::sharpen)
+    report.changes.push_back({"no trailing edge was closed: faces of triangles are kept as they are"});
+  const Vec3 size = model.body_bounds().size();
+  report.reference_length = std::max({size.x, size.y, size.z});
+  return {std::move(model), std::move(report)};
+}
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,33 @@
+/// The sides along which a faceted surface is cut into faces, and the points where curves of them end.
+#pragma once
+
+#include "aeroloom/cad/model/model.hpp"
+#include "cad/faceted/facet_soup.hpp"
+#include "cad/faceted/facet_turns.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::cad {
+
+/// What a triangle lies between: regions, and whether the space beyond it is an enclosed void.
+struct FacetSkin {
+  RegionId front = no_entity, back = no_entity;
+  bool cavity = false;
+  friend bool operator==(const FacetSkin&, const FacetSkin&) = default;
+};
+
+struct FacetFeatures {
+  std::vector<char> is_feature;        ///< per side of the table
+  std::vector<std::int32_t> vertices;  ///< points, ascending
+};
+
+/// Features are sides where more than two triangles, different regions or different groups meet, and sides at
+/// which the surface turns by more than `angle` (radians). Of the latter, open chains that are short and
+/// hardly sharper count as noise; those that stay go on over blunter sides where these lead to another
+/// feature. Vertices are where other than two features meet and where a chain turns by more than `angle`;
+/// every closed chain has one. Triangles are oriented: normals point out of `front`.
+FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetSkin>& skins,
+                            const SideTable& table, double angle);
+
+}  // namespace aeroloom::cad

@@ -1,0 +1,16 @@
+/// From the triangles of a file to regions, faces, curves and vertices.
+#pragma once
+
+#include "aeroloom/cad/repair/change.hpp"
+#include "cad/faceted/facet_complex.hpp"
+#include "cad/faceted/facet_soup.hpp"
+
+namespace aeroloom::cad {
+
+/// Welds and repairs what can be repaired in one way only, finds the regions that the triangles enclose, and
+/// cuts the triangles into faces along sides at which they turn by more than `feature_angle` (radians), along
+/// borders of groups and where more than two triangles meet. Every change is listed. Throws CadError where
+/// the triangles do not close, cross or overlap, or enclose nothing.
+FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes);
+
+}  // namespace aeroloom::cad
