@@ -6,7 +6,6 @@
 #include "geometry/triangle_contact.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -74,85 +73,27 @@ bool pair_conflicts(const FacetSoup& soup, std::int32_t s, std::int32_t t) {
   return geometry::meet_wrongly(a, b, common);
 }
 
-/// Boxes of triangles; long triangles have several, or else the boxes of needles that lie askew overlap all
-/// others.
-struct FacetPieces {
-  explicit FacetPieces(const FacetSoup& soup) {
-    std::vector<double> lengths;
-    for (const auto& [a, b, c] : soup.triangles)
-      lengths.push_back(longest_side({soup.points[a], soup.points[b], soup.points[c]}));
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    const double long_side = lengths.empty() ? 0 : long_over_median * *middle;
-    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-      first.push_back(static_cast<std::int32_t>(boxes.size()));
-      const auto& [a, b, c] = soup.triangles[t];
-      cut({soup.points[a], soup.points[b], soup.points[c]}, long_side, most_cuts);
-      owner.resize(boxes.size(), static_cast<std::int32_t>(t));
-    }
-    first.push_back(static_cast<std::int32_t>(boxes.size()));
-  }
-
-  std::vector<geometry::Box> boxes;
-  std::vector<std::int32_t> owner;  // of each box
-  std::vector<std::int32_t> first;  // box of each triangle
-
-private:
-  static constexpr double long_over_median = 2;
-  static constexpr int most_cuts = 7;
-
-  static double longest_side(const std::array<Vec3, 3>& t) {
-    return std::max({distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])});
-  }
-
-  /// Halves the triangle over its longest side until it is short.
-  void cut(std::array<Vec3, 3> t, double long_side, int cuts) {
-    const double length = longest_side(t);
-    if (cuts == 0 || length <= long_side) {
-      geometry::Box box;
-      for (const Vec3 p : t) box.add(p);
-      // Midpoints are rounded: boxes grow by more than that.
-      if (cuts < most_cuts) box = box.dilated(1e-14 * (norm(box.low) + norm(box.high)));
-      boxes.push_back(box);
-      return;
-    }
-    if (distance(t[1], t[2]) >= length) {
-      std::rotate(t.begin(), t.begin() + 1, t.end());
-    } else if (distance(t[2], t[0]) >= length) {
-      std::rotate(t.begin(), t.begin() + 2, t.end());
-    }
-    const Vec3 middle = 0.5 * (t[0] + t[1]);
-    cut({t[0], middle, t[2]}, long_side, cuts - 1);
-    cut({middle, t[1], t[2]}, long_side, cuts - 1);
-  }
-};
-
 }  // namespace
 
 FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components) {
-  const FacetPieces pieces(soup);
-  const geometry::BoxTree tree(pieces.boxes, facets_per_leaf);
+  std::vector<geometry::Box> boxes(soup.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) {
+    for (const std::int32_t corner : soup.triangles[t]) boxes[t].add(soup.points[corner]);
+  }
+  const geometry::BoxTree tree(boxes, facets_per_leaf);
   FacetContacts contacts;
   bool parts = false;
-  std::vector<std::int32_t> near;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(soup.triangles.size()); ++t) {
-    near.clear();
-    for (std::int32_t i = pieces.first[t]; i < pieces.first[t + 1]; ++i) {
-      geometry::for_each_overlap(tree, pieces.boxes, pieces.boxes[i], [&](std::int32_t j) {
-        if (pieces.owner[j] > t) near.push_back(pieces.owner[j]);
-      });
-    }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(boxes.size()); ++t) {
     // Of the pairs of this triangle: that of two components first, then the lowest.
     std::int32_t chosen = -1;
     bool apart = false;
-    for (const std::int32_t other : near) {
-      if (!pair_conflicts(soup, t, other)) continue;
+    geometry::for_each_overlap(tree, boxes, boxes[t], [&](std::int32_t other) {
+      if (other <= t || !pair_conflicts(soup, t, other)) return;
       ++contacts.pairs;
       const bool other_part = components.of[t] != components.of[other];
-      if (chosen < 0 || (other_part && !apart)) chosen = other, apart = other_part;
-    }
+      if (chosen < 0 || (other_part && !apart) || (other_part == apart && other < chosen))
+        chosen = other, apart = other_part;
+    });
     if (chosen < 0 || (contacts.first >= 0 && (parts || !apart))) continue;
     contacts.first = t, contacts.second = chosen, parts = apart;
   }
