@@ -39,6 +39,11 @@ double lacking_area(const layers::PatchLayers& patch) {
   return patch.area - patch.full_area;
 }
 
+/// Beyond what the sums of areas are rounded by.
+bool has_lack(const layers::PatchLayers& patch) {
+  return lacking_area(patch) > 1e-12 * patch.area;
+}
+
 /// The causes with the largest areas, the largest first.
 std::string causes_of(const layers::PatchLayers& patch) {
   std::vector<layers::LayerLimit> causes;
@@ -60,21 +65,23 @@ std::vector<std::size_t> lacking_patches(const layers::LayerOptions& asked,
                                          const layers::LayerReport& report) {
   std::vector<std::size_t> patches;
   for (std::size_t p = 0; p < report.patches.size(); ++p)
-    if (asked.patches.at(p).first > 0 && lacking_area(report.patches[p]) > 0) patches.push_back(p);
+    if (asked.patches.at(p).first > 0 && has_lack(report.patches[p])) patches.push_back(p);
   std::stable_sort(patches.begin(), patches.end(), [&](std::size_t a, std::size_t b) {
     return lacking_area(report.patches[a]) > lacking_area(report.patches[b]);
   });
   return patches;
 }
 
-/// Of the area of all patches with layers.
+/// Of the area of all patches with layers. What lacks, not what is full, is summed: walls that lack nothing
+/// have exactly one.
 double full_fraction(const layers::LayerOptions& asked, const layers::LayerReport& report) {
-  double area = 0, full = 0;
+  double area = 0, lacking = 0;
   for (std::size_t p = 0; p < report.patches.size(); ++p) {
     if (asked.patches.at(p).first <= 0) continue;
-    area += report.patches[p].area, full += report.patches[p].full_area;
+    area += report.patches[p].area;
+    if (has_lack(report.patches[p])) lacking += lacking_area(report.patches[p]);
   }
-  return area > 0 ? full / area : 0;
+  return area > 0 ? (area - lacking) / area : 0;
 }
 
 }  // namespace
