@@ -56,8 +56,9 @@ def main():
         # The volume that the triangles enclose is missing from the box.
         body = HEIGHT * CORNERS / 2 * math.sin(2 * math.pi / CORNERS)
         box = (2 * 3 * HEIGHT) ** 3
-        volume = report["mesh"].get("volume")
-        print("hash", hashes[1], "tetrahedra", report["mesh"]["tetrahedra"], "volume", volume, box - body)
+        volume = report["mesh"]["volume"]
+        print("hash", hashes[1], "tetrahedra", report["mesh"]["tetrahedra"], "volume", volume, "of", box - body)
+        assert abs(volume - (box - body)) < 0.03 * body, "chords of elements take more than a thirtieth of the body"
         assert report["quality"]["min_dihedral_deg"] > 10, report["quality"]
 
 
