@@ -29,7 +29,7 @@ struct FacetFacts {
   std::int32_t open_sides = 0;         ///< of one triangle
   std::int32_t junction_sides = 0;     ///< of three or more
   std::int32_t misoriented_sides = 0;  ///< passed twice in one direction
-  std::int32_t components = 0;         ///< what hangs together over common points
+  std::int32_t components = 0;         ///< what hangs together over sides
   double area = 0;
   double volume = 0;  ///< by the divergence theorem, of the triangles as they are oriented
   geometry::Box bounds;

@@ -27,6 +27,9 @@ constexpr double weak_fraction = 0.5, straight = 50 * geometry::degree;
 /// below `strip_turns`. Chosen: an octagon turns by 45 degrees, a hexagon by 60.
 constexpr int island_triangles = 3, strip_triangles = 4, face_rounds = 4;
 constexpr double island_turns = 2, strip_turns = 1.3;
+/// A triangle that is lower than this fraction of its longest side is no face of its own: it joins the
+/// neighbour to which it turns least, as an island does.
+constexpr double lowest_face = 0.05;
 
 enum SideState : char { smooth_side = 0, sharp_side = 1, forced_side = 2 };
 
@@ -231,6 +234,22 @@ private:
     return {facet_of(_table.passes[side.begin].half_edge), facet_of(_table.passes[side.end - 1].half_edge)};
   }
 
+  bool is_thin(std::int32_t t) const {
+    const auto& [a, b, c] = _soup.triangles[t];
+    const double longest =
+        std::max({distance(point(a), point(b)), distance(point(b), point(c)), distance(point(c), point(a))});
+    return norm(cross(point(b) - point(a), point(c) - point(a))) < lowest_face * longest * longest;
+  }
+
+  std::int32_t smoothest_side(std::int32_t t) const {
+    const auto side = [&](int i) { return _table.side_of[3 * t + i]; };
+    std::int32_t best = side(0);
+    for (int i = 1; i < 3; ++i) {
+      if (_turns[side(i)] < _turns[best]) best = side(i);
+    }
+    return best;
+  }
+
   /// False where nothing was to be joined.
   bool join_small_faces() {
     const auto sides = static_cast<std::int32_t>(_table.sides.size());
@@ -262,7 +281,11 @@ private:
       const bool island = a != b && (is_island(a) || is_island(b)) && _turns[s] < island_turns * _angle;
       const bool strips =
           size[a] <= strip_triangles && size[b] <= strip_triangles && _turns[s] < strip_turns * _angle;
-      if (!island && !strips) continue;
+      const auto is_scrap = [&](std::int32_t f) {
+        return size[f] == 1 && is_thin(f) && smoothest_side(f) == s;
+      };
+      const bool scrap = _turns[s] < island_turns * _angle && (is_scrap(a) || is_scrap(b));
+      if (!island && !strips && !scrap) continue;
       _state[s] = smooth_side;
       joined = true;
     }

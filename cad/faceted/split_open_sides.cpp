@@ -76,6 +76,7 @@ private:
     });
     std::sort(found.begin(), found.end());
     std::vector<std::int32_t> points;
+    points.reserve(found.size());
     for (const auto& [along, p] : found) points.push_back(p);
     if (_tolerance > 0 && !is_chain(from, to, points)) points.clear();
     return points;
