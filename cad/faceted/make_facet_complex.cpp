@@ -110,7 +110,7 @@ std::vector<std::string> name_regions(const Chambers& chambers) {
   for (const Chamber& chamber : chambers.chambers) {
     if (chamber.region < 0) continue;
     names.resize(std::max(names.size(), static_cast<std::size_t>(chamber.region) + 1));
-    names[chamber.region] = chamber.name.empty() ? fmt::format("region_{}", chamber.region) : chamber.name;
+    names[chamber.region] = chamber.name;
   }
   return names;
 }
