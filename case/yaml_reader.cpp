@@ -39,18 +39,14 @@ YAML::Node parse(const std::string& text, const std::string& name, bool position
   return documents.empty() ? YAML::Node() : documents[0];
 }
 
-/// Whoever gives a CAD file where a case is expected is told how to get a case.
-void require_no_cad(const std::string& file) {
+/// Whoever gives a geometry where a case is expected is told how to get a case.
+void require_no_geometry(const std::string& file) {
+  const std::string known = " .step .stp .iges .igs .brep .stl .obj .off .ply .poly .smesh ";
   std::string end = std::filesystem::path(file).extension().string();
   std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-  for (const char* known :
-       {".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".obj", ".off", ".ply", ".poly", ".smesh"}) {
-    if (end != known) continue;
-    throw CaseError(fmt::format(
-        "{0}: a geometry, but a case is expected. `aeroloom init case.yaml --geometry {0}` writes "
-        "one for it",
-        file));
-  }
+  if (end.empty() || known.find(" " + end + " ") == std::string::npos) return;
+  throw CaseError(file + ": a geometry, but a case is expected. `aeroloom init case.yaml --geometry " + file +
+                  "` writes one");
 }
 
 }  // namespace
@@ -118,8 +114,7 @@ void KeyTable::number_or(const std::string& word, bool& is_word, const std::stri
         is_word = !target;
       },
       [&target, &is_word, word] {
-        if (is_word) return std::optional(word);
-        return target ? std::optional(shortest(*target)) : std::nullopt;
+        return is_word ? std::optional(word) : target ? std::optional(shortest(*target)) : std::nullopt;
       });
   _entries.back().info.choices = {word};
 }
@@ -211,7 +206,7 @@ void KeyTable::read_file(const std::string& file) {
         fmt::format("{}: the case cannot be opened: {}; it must be a YAML file (`aeroloom init` writes one)",
                     file, reason.message()));
   }
-  require_no_cad(file);
+  require_no_geometry(file);
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   read_text(text, file);
 }
@@ -326,9 +321,8 @@ std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) c
 
 void KeyTable::collect_paths(std::vector<std::string>& paths) const {
   for (const KeyEntry& entry : _entries) paths.push_back(path_of(entry.name));
-  for (const KeyEntry& entry : _entries) {
+  for (const KeyEntry& entry : _entries)
     if (entry.below) entry.below->collect_paths(paths);
-  }
 }
 
 std::string KeyTable::KeyEntry::default_value() const {
