@@ -36,7 +36,7 @@ def check_files(shell):
     (shell.folder / "cad.stp").write_text("ISO-10303-21;\n" + "#1=CARTESIAN_POINT('',(0.,0.,0.));\n" * 1000)
     (shell.folder / "absent.yaml").write_text("geometry: {file: absent.stp}\n")
     (shell.folder / "long.yaml").write_text("word " * 1000)
-    for line, expected, *words in (("run cad.stp", 2, "a CAD file", "aeroloom init case.yaml --geometry cad.stp"),
+    for line, expected, *words in (("run cad.stp", 2, "a geometry, but a case", "aeroloom init case.yaml --geometry cad.stp"),
                                    ("run nowhere.yaml", 2, "cannot be opened: No such file or directory", "aeroloom init"),
                                    ("run .", 2, "cannot be opened: Is a directory"),
                                    ("run long.yaml", 2, "expected keys, got 'word", "...'"),

@@ -116,8 +116,10 @@ def check_odd_geometry(shell):
         for command in ("check", "run"):
             code, _, error = shell.run(f"{command} case.yaml --set geometry.file={file}")
             assert code == 7 and "a device or a pipe" in error, f"{command} {file}: {code} {error}"
+    code, _, error = shell.run("init new.yaml --geometry plane.vtp")
+    assert code == 2 and "are not read" in error and not (shell.folder / "new.yaml").exists(), error
     code, _, error = shell.run("init new.yaml --geometry plane.STL")
-    assert code == 2 and "triangles, not CAD" in error and not (shell.folder / "new.yaml").exists(), error
+    assert code == 0 and "is not there yet" in error and "plane.STL" in (shell.folder / "new.yaml").read_text(), error
 
 
 def check_absurd_sizes(shell):
