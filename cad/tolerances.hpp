@@ -128,7 +128,8 @@ inline constexpr double kink = 5 * geometry::degree;
 inline constexpr double smooth = 30 * geometry::degree;
 
 /// Of the bodies' diagonal: points of two bodies that are united are taken as one up to here, where the CAD
-/// library fails with its own length. Ascending; the last is the third step of `sewing`.
+/// library fails with its own length. Ascending; the last is the third step of `sewing`. Chosen, not
+/// measured.
 inline constexpr double uniting[] = {1e-7, 1e-6, 1e-5};
 
 // Areas and volumes, relative. Areas of FacePlace and of the diagnosis are good to `area_precision`

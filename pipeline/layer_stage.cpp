@@ -88,7 +88,7 @@ std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communica
 }
 
 /// Of the walls' pieces, so that layers are shared evenly by many ranks: pieces of surface meshing are whole
-/// faces in most models.
+/// faces in most models. Chosen, not measured.
 constexpr mesh::LocalIndex most_triangles = 1'000;
 
 }  // namespace

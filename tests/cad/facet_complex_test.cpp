@@ -289,7 +289,7 @@ TEST(FacetComplexes, WhatCrossesOrOverlapsIsRefused) {
   EXPECT_NE(refusal_of(folded).find("crosses or touches itself"), std::string::npos);
 }
 
-TEST(FacetComplexes, ASheetWithinARegionIsRefused) {
+TEST(FacetComplexes, AFlapWithinARegionIsNotClosed) {
   FacetSoup soup = box_soup({0, 0, 0}, {3, 3, 3});
   add_box(soup, {1, 1, 1}, {2, 2, 2});
   soup.filling = Filling::all;
