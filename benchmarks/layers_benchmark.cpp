@@ -8,6 +8,7 @@
 #include "aeroloom/parallel/observation/log.hpp"
 #include "benchmarks/case_surface.hpp"
 #include "benchmarks/layer_figures.hpp"
+#include "mesh/split_pieces.hpp"
 #include "parallel/communication/environment.hpp"
 
 #include <algorithm>
@@ -91,7 +92,8 @@ void print_figures(const Communicator& communicator, const benchmarks::LayerFigu
 
 void run(const Communicator& communicator, const cases::Case& input, double first, const std::string& patch) {
   const benchmarks::CaseSurface made = benchmarks::mesh_surface(communicator, input);
-  const mesh::NumberedMesh wall{made.surface.mesh, made.numbering};
+  const mesh::NumberedMesh wall =
+      mesh::split_pieces(communicator, made.surface.mesh, layers::wall_piece_triangles, {});
   const layers::LayerOptions options = options_for(communicator, wall.mesh, first, patch);
   parallel::StageClock clock;
   clock.begin("layers");

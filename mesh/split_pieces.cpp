@@ -155,7 +155,7 @@ NumberedMesh split_pieces(const parallel::Communicator& communicator, const Dist
   std::vector<double> loads;
   for (const Piece& piece : result.mesh.pieces) loads.push_back(piece.cell_count());
   loads = gather_by_piece(communicator, result.mesh, loads);
-  migrate(communicator, result.mesh, parallel::assign_largest_first(loads, communicator.size()));
+  migrate(communicator, result.mesh, parallel::assign_in_order(loads, communicator.size()));
   result.numbering = number_mesh(communicator, result.mesh);
   return result;
 }

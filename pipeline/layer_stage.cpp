@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -40,39 +41,37 @@ struct FrontEnd {
   double edge;  ///< mean length at the vertex of the front
 };
 
-std::vector<FrontEnd> ends_of_columns(const mesh::DistributedMesh& wall, const layers::Columns& columns) {
+std::vector<FrontEnd> ends_of_columns(const mesh::Piece& wall, const layers::PieceColumns& columns) {
+  mesh::Piece moved = wall;
+  for (LocalIndex v = 0; v < moved.vertex_count(); ++v)
+    moved.set_point(v, layers::node(wall, columns, v, columns.counts[v]));
+  const std::vector<double> edges = mean_edges(moved);
   std::vector<FrontEnd> ends;
-  for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
-    mesh::Piece moved = wall.pieces[p];
-    const layers::PieceColumns& of_piece = columns.pieces[p];
-    for (LocalIndex v = 0; v < moved.vertex_count(); ++v)
-      moved.set_point(v, layers::node(wall.pieces[p], of_piece, v, of_piece.counts[v]));
-    const std::vector<double> edges = mean_edges(moved);
-    for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
-      if (of_piece.counts[v] > 0) ends.push_back({moved.point(v), edges[v]});
-    }
+  for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
+    if (columns.counts[v] > 0) ends.push_back({moved.point(v), edges[v]});
   }
   return ends;
 }
 
-/// What the front asks of the sizes: its own edges, where the field is well above them. Sources are thinned
-/// as if they asked for twice their size: in between the field grows by less than what counts as well above.
-std::vector<sizing::SizeSource> sizes_of_front(const parallel::Communicator& communicator,
-                                               const mesh::DistributedMesh& wall,
+/// What the front of this rank's pieces asks of the sizes: its own edges, where the field is well above them.
+/// Sources are thinned as if they asked for twice their size, each piece by itself, for pieces do not depend
+/// on ranks: in between the field grows by less than what counts as well above.
+std::vector<sizing::SizeSource> sizes_of_front(const mesh::DistributedMesh& wall,
                                                const layers::Columns& columns, const sizing::SizeField& field,
                                                parallel::StageClock& clock) {
   constexpr double well_above = 1.3, thinning = 2;
   const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
-  std::vector<sizing::SizeSource> sources;
-  for (const FrontEnd& end : ends_of_columns(wall, columns)) {
-    if (field(end.at) > well_above * end.edge) sources.push_back({end.at, thinning * end.edge});
-  }
   const sizing::RootCube root(field.domain());
-  sources = sizing::thin_sources(root, sources);
-  sources =
-      sizing::thin_sources(root, communicator.all_gather_items(std::span<const sizing::SizeSource>(sources)));
-  for (sizing::SizeSource& source : sources) source.size /= thinning;
-  return sources;
+  std::vector<sizing::SizeSource> all;
+  for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
+    std::vector<sizing::SizeSource> sources;
+    for (const FrontEnd& end : ends_of_columns(wall.pieces[p], columns.pieces[p])) {
+      if (field(end.at) > well_above * end.edge) sources.push_back({end.at, thinning * end.edge});
+    }
+    for (const sizing::SizeSource& source : sizing::thin_sources(root, sources))
+      all.push_back({source.point, source.size / thinning});
+  }
+  return all;
 }
 
 /// Ascending.
@@ -87,10 +86,6 @@ std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communica
   return faces;
 }
 
-/// Of the walls' pieces, so that layers are shared evenly by many ranks: pieces of surface meshing are whole
-/// faces in most models. Chosen, not measured.
-constexpr mesh::LocalIndex most_triangles = 1'000;
-
 }  // namespace
 
 LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
@@ -100,7 +95,7 @@ LayeredSurface build_layers(const parallel::Communicator& communicator, const ca
       cases::layer_options(input.layers, input.sizing, surface.mesh.patches, record.patch_types);
   const surface::PlanesToRemesh planes{faces_of_planes(communicator, surface.mesh, options), input.surface};
   static_cast<mesh::NumberedMesh&>(surface) =
-      mesh::split_pieces(communicator, surface.mesh, most_triangles, planes.faces);
+      mesh::split_pieces(communicator, surface.mesh, layers::wall_piece_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
     surface::PlaneConflicts conflicts =
         surface::remesh_planes(communicator, model, surface.field, planes, front, record.clock);
@@ -110,9 +105,10 @@ LayeredSurface build_layers(const parallel::Communicator& communicator, const ca
   record.layers.emplace(report::LayerRecord{options, std::move(made.report), !planes.faces.empty()});
   log_layers(record);
   const std::vector<sizing::SizeSource> sizes =
-      sizes_of_front(communicator, surface.mesh, made.columns, surface.field, record.clock);
-  sizing::SizeField field =
-      sizes.empty() ? surface.field : surface.field.refined(communicator, sizes, record.clock);
+      sizes_of_front(surface.mesh, made.columns, surface.field, record.clock);
+  sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
+                                ? surface.field.refined(communicator, sizes, record.clock)
+                                : surface.field;
   return {std::move(made.columns), layers::name_front(communicator, std::move(made.front)), std::move(field)};
 }
 

@@ -39,10 +39,7 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
 
 SizeField SizeField::refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
                              parallel::StageClock& clock) const {
-  // All ranks have the same: one gives them.
-  std::vector<SizeSource> sources;
-  if (communicator.is_root()) sources.assign(more.begin(), more.end());
-  return FieldBuilder(communicator, clock, *this).build(std::move(sources));
+  return FieldBuilder(communicator, clock, *this).build({more.begin(), more.end()});
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {

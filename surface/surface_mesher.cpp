@@ -15,6 +15,7 @@
 #include <array>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -193,8 +194,15 @@ private:
     std::set_union(_short_legs.begin(), _short_legs.end(), remedies.short_legs.begin(),
                    remedies.short_legs.end(), std::back_inserter(short_legs));
     _short_legs = std::move(short_legs);
-    if (!remedies.sizes.empty()) _field = _field.refined(_communicator, remedies.sizes, _clock);
+    lower_sizes(remedies.sizes);
     return false;
+  }
+
+  /// The sources are the same on every rank: one gives them.
+  void lower_sizes(std::span<const sizing::SizeSource> sources) {
+    if (sources.empty()) return;
+    const auto own = _communicator.is_root() ? sources : std::span<const sizing::SizeSource>();
+    _field = _field.refined(_communicator, own, _clock);
   }
 
   /// Nothing was meshed: sizes have fallen so far that it would be too much.
@@ -222,7 +230,7 @@ private:
                                       conflicts.complaint, conflicts.remedies.size(),
                                       conflicts.undivided.size()));
     _pool.leave_whole(conflicts.undivided);
-    if (!conflicts.remedies.empty()) _field = _field.refined(_communicator, conflicts.remedies, _clock);
+    lower_sizes(conflicts.remedies);
     return true;
   }
 

@@ -47,7 +47,35 @@ void give_to_least_burdened(std::span<const int> tasks, std::span<const double> 
   }
 }
 
+/// Runs of tasks in their order that stay within `most` each; as many as that takes.
+std::vector<Rank> runs_within(std::span<const double> loads, double most) {
+  std::vector<Rank> runs;
+  Rank run = 0;
+  double load = 0;
+  for (const double task : loads) {
+    if (load > 0 && load + task > most) ++run, load = 0;
+    load += task;
+    runs.push_back(run);
+  }
+  return runs;
+}
+
 }  // namespace
+
+std::vector<Rank> assign_in_order(std::span<const double> loads, int ranks) {
+  if (loads.empty()) return {};
+  constexpr int halvings = 50;  // to rounding
+  double too_little = 0, enough = std::accumulate(loads.begin(), loads.end(), 0.0);
+  std::vector<Rank> best = runs_within(loads, enough);
+  for (int i = 0; i < halvings; ++i) {
+    const double most = 0.5 * (too_little + enough);
+    std::vector<Rank> runs = runs_within(loads, most);
+    const bool fits = runs.back() < ranks && heaviest(loads, runs, ranks) <= most;
+    (fits ? enough : too_little) = most;
+    if (fits) best = std::move(runs);
+  }
+  return best;
+}
 
 std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks) {
   return assign_largest_first(loads, std::vector<double>(static_cast<std::size_t>(ranks), 0));

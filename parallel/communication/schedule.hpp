@@ -16,6 +16,10 @@ std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks)
 /// Assigns tasks to ranks that have something already: `burdens`, one for each.
 std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens);
 
+/// Runs of tasks in their order, one for each rank, so that neighbours in that order stay together: the
+/// largest load of a rank is the least that runs allow. The same on every rank, without communication.
+std::vector<Rank> assign_in_order(std::span<const double> loads, int ranks);
+
 /// Moves tasks from where they are `now` only where that rank would get more than the mean: largest load
 /// first they stay or are taken away, then assign_largest_first gives those taken away to ranks with the
 /// rest. May be less even than assign_largest_first. The same on every rank, without communication.

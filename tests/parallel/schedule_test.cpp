@@ -49,6 +49,23 @@ TEST(ScheduleTest, StaysWithinGrahamsBound) {
   }
 }
 
+TEST(ScheduleTest, RunsKeepTheOrderAndAreAsEvenAsItAllows) {
+  EXPECT_EQ(assign_in_order(std::vector<double>{1, 1, 1, 1, 4}, 2), (std::vector<Rank>{0, 0, 0, 0, 1}));
+  EXPECT_EQ(assign_in_order(std::vector<double>{3, 1, 2, 2, 1, 3}, 3), (std::vector<Rank>{0, 0, 1, 1, 2, 2}));
+  EXPECT_EQ(assign_in_order(std::vector<double>{5, 0, 0}, 4), (std::vector<Rank>{0, 0, 0}));
+  EXPECT_TRUE(assign_in_order({}, 4).empty());
+  std::vector<double> loads;
+  for (int i = 0; i < 200; ++i) loads.push_back(1 + i * i % 7);
+  for (const int ranks : {1, 2, 7, 64, 200, 300}) {
+    const std::vector<Rank> assignment = assign_in_order(loads, ranks);
+    ASSERT_EQ(assignment.size(), loads.size());
+    EXPECT_TRUE(std::is_sorted(assignment.begin(), assignment.end()));
+    EXPECT_LT(assignment.back(), ranks);
+    const double mean = std::accumulate(loads.begin(), loads.end(), 0.0) / ranks;
+    EXPECT_LT(heaviest(loads, assignment, ranks), mean + 7 + 1e-9);
+  }
+}
+
 TEST(ScheduleTest, MovesNoMoreThanTheExcess) {
   const std::vector<double> loads{4, 3, 2, 1, 1, 1};
   EXPECT_EQ(move_excess(loads, std::vector<Rank>{0, 0, 0, 1, 1, 1}, 2),

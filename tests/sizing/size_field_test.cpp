@@ -305,7 +305,12 @@ TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
   const SizeField together = sizing::FieldBuilder(world, clock, cube(5), options).build(sources);
   const SizeField alone = SizeField::build(cube(5), sources, options);
   const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{0, 2, 0}, 0.03}};
-  const SizeField refined = together.refined(world, more, clock);
+  // Each rank has a part of them.
+  std::vector<SizeSource> own;
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    if (i % world.size() == static_cast<std::size_t>(world.rank())) own.push_back(more[i]);
+  }
+  const SizeField refined = together.refined(world, own, clock);
   const SizeField refined_alone = alone.refined(parallel::Communicator::self(), more, clock);
   ASSERT_EQ(together.leaf_count(), alone.leaf_count());
   ASSERT_EQ(refined.leaf_count(), refined_alone.leaf_count());

@@ -96,7 +96,6 @@ void refine_at_loops(const Communicator& communicator, Meshed& meshed) {
     }
   }
   parallel::StageClock clock;
-  sources = communicator.all_gather_items<sizing::SizeSource>(sources);
   meshed.surface.field = meshed.surface.field.refined(communicator, sources, clock);
 }
 

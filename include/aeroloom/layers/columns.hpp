@@ -128,6 +128,10 @@ struct Layers {
 /// that must move less, the same on every rank, and leaves the front alone then; none: done. Collective.
 using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& front)>;
 
+/// Of a piece of a wall, so that many ranks share layers evenly: pieces of surface meshing are whole faces in
+/// most models. Chosen, not measured.
+constexpr mesh::LocalIndex wall_piece_triangles = 1'000;
+
 /// Columns on the walls of a surface mesh whose triangles are free of intersections, and a front that is so
 /// too; all cells between have positive volumes. A function of mesh and options alone, whatever the ranks.
 /// Heights only ever shrink on the way, and at zero the front is the wall: so there is a result for every

@@ -118,8 +118,8 @@ public:
   /// The cube so many levels above that leaf, or the root; without a size.
   Leaf ancestor(std::int64_t i, int levels) const;
 
-  /// The field with further sources, the same on every rank: sizes can only fall, below the minimum too. Used
-  /// where surfaces come too close. Collective.
+  /// The field with further sources, each rank its own: sizes can only fall, below the minimum too. The same
+  /// however ranks share them. Used where surfaces come too close. Collective.
   SizeField refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
                     parallel::StageClock& clock) const;
   /// Bit for bit, for another run.
