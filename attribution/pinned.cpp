@@ -3,6 +3,7 @@
 #include "aeroloom/mesh/cad_dimension.hpp"
 #include "aeroloom/mesh/quality.hpp"
 #include "attribution/curve_wedges.hpp"
+#include "attribution/front_vertices.hpp"
 #include "attribution/sharp_curves.hpp"
 #include "attribution/strip_edges.hpp"
 #include "attribution/wall_pairs.hpp"
@@ -62,6 +63,7 @@ public:
     _wedges = measure_wedges(_communicator, _mesh, _numbering, _edges);
     list_sharp_curves();
     _strips = find_strip_edges(_communicator, _mesh, _numbering, _edges);
+    if (!_surface_may_change) _on_front = find_front_vertices(_communicator, _mesh);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
     return merge();
   }
@@ -91,7 +93,7 @@ private:
   std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
   bool pinned_by_wedge(std::size_t piece, const BadTet& bad, const WallPair& walls);
   bool is_at_strip(std::size_t piece, const BadTet& bad);
-  bool is_held(const Piece& piece, const BadTet& bad) const;
+  bool is_held(std::size_t piece, const BadTet& bad) const;
   bool is_in_gap(std::size_t piece, const BadTet& bad, const WallPair& walls);
   MissedTarget& kind_of(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
@@ -110,10 +112,11 @@ private:
   VertexFaces _vertex_faces;
   WallFinder _walls;
   SharpCurves _sharp_curves;
-  std::vector<std::vector<BadTet>> _bad;  // per piece
-  std::vector<EdgeName> _edges;           // of bad tetrahedra on all ranks, ascending
-  std::vector<EdgeWedge> _wedges;         // per edge
-  std::vector<StripEdge> _strips;         // those of them across strips
+  std::vector<std::vector<BadTet>> _bad;             // per piece
+  std::vector<std::vector<std::uint8_t>> _on_front;  // per piece and vertex, where surfaces may not change
+  std::vector<EdgeName> _edges;                      // of bad tetrahedra on all ranks, ascending
+  std::vector<EdgeWedge> _wedges;                    // per edge
+  std::vector<StripEdge> _strips;                    // those of them across strips
   std::vector<PinningEntity> _entities;
   std::vector<UnresolvedFeature> _features;
   PinnedReport _report;
@@ -269,11 +272,13 @@ bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
   return true;
 }
 
-bool PinnedSearch::is_held(const Piece& piece, const BadTet& bad) const {
+bool PinnedSearch::is_held(std::size_t i, const BadTet& bad) const {
   if (_surface_may_change) return false;
+  const Piece& piece = _mesh.pieces[i];
   const LocalIndex* c = piece.cell(bad.tet);
-  return std::count_if(c, c + 4, [&](LocalIndex v) { return is_on_boundary(piece.vertex_dimension[v]); }) >=
-         3;
+  return std::count_if(c, c + 4, [&](LocalIndex v) {
+           return is_on_boundary(piece.vertex_dimension[v]) || _on_front[i][v] != 0;
+         }) >= 3;
 }
 
 void PinnedSearch::count(MissedTarget& kind, const mesh::DihedralRange& angles) {
@@ -288,7 +293,7 @@ MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
   const std::optional<WallPair> walls = _walls.find(_mesh.pieces[i], bad.tet);
   if (walls && pinned_by_wedge(i, bad, *walls)) return _report.pinned;
   if (is_at_strip(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
-  if (is_held(_mesh.pieces[i], bad)) return _report.held;
+  if (is_held(i, bad)) return _report.held;
   return _report.rest;
 }
 

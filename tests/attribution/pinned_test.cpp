@@ -135,6 +135,38 @@ DistributedMesh make_walls(const parallel::Communicator& communicator, double an
   return mesh;
 }
 
+/// A prism of layer 1 on piece 0, and on piece 1 a flat tetrahedron whose corners are the prism's three at
+/// the top, or two of them and one above, and another above.
+DistributedMesh make_flat_on_layers(const parallel::Communicator& communicator, int corners_on_layers) {
+  DistributedMesh mesh;
+  mesh.piece_count = 2;
+  mesh.patches = mesh.faces = {"wall"};
+  for (int i = 0; i < 2; ++i) {
+    if (i % communicator.size() != communicator.rank()) continue;
+    Piece piece;
+    piece.id = i;
+    if (i == 0) {
+      piece.coordinates = {0, 0, -1, 1, 0, -1, 0, 1, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
+      piece.vertex_dimension = {CadDimension::face,   CadDimension::face,   CadDimension::face,
+                                CadDimension::region, CadDimension::region, CadDimension::region};
+      piece.prisms = {0, 1, 2, 3, 4, 5};
+      piece.layers = {1};
+      add_triangle(piece, {0, 2, 1}, 0);
+    } else {
+      piece.coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 0.05};
+      piece.vertex_dimension.assign(4, CadDimension::region);
+      piece.cells = {0, 1, 2, 3};
+    }
+    piece.vertex_entity.assign(piece.vertex_dimension.size(), 0);
+    for (int k = 0; k < corners_on_layers; ++k) {
+      piece.shared_vertices.push_back(i == 0 ? 3 + k : k);
+      piece.shared_keys.push_back(10 + k);
+    }
+    mesh.pieces.push_back(piece);
+  }
+  return mesh;
+}
+
 PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_change = true) {
   const auto world = parallel::Communicator::world();
   const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
@@ -212,6 +244,14 @@ TEST(Pinned, TellsWhatASurfaceHoldsThatMayNotChange) {
   // What the CAD explains stays explained by it.
   EXPECT_EQ(find(make_strip(world, 0.1, 4, 2), 28, false).at_features.tetrahedra, 8);
   EXPECT_EQ(find(make_walls(world, 4, true, 1, 1), 28, false).pinned.tetrahedra, 2);
+}
+
+TEST(Pinned, TellsWhatLayersHold) {
+  const auto world = parallel::Communicator::world();
+  const PinnedReport report = find(make_flat_on_layers(world, 3), 28, false);
+  EXPECT_EQ(report.held.tetrahedra, 1);
+  EXPECT_EQ(report.rest.tetrahedra, 0);
+  EXPECT_EQ(find(make_flat_on_layers(world, 2), 28, false).rest.tetrahedra, 1);
 }
 
 TEST(Pinned, DoesNotExcuseShortSidesOnCurves) {

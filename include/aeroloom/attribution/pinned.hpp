@@ -1,6 +1,6 @@
 /// Tetrahedra that miss the target, classified: pinned ones, which cannot reach it because the CAD has an
 /// angle smaller than it; those at features of the CAD that are finer than the elements; those held by a
-/// surface that improvement was not to touch; and the rest, which improvement is to answer for.
+/// surface or by layers that improvement was not to touch; and the rest, which improvement is to answer for.
 #pragma once
 
 #include "aeroloom/geometry/vec.hpp"
@@ -63,7 +63,7 @@ struct PinnedReport {
   std::vector<UnresolvedFeature> features;  ///< by faces
   MissedTarget pinned;                      ///< forced by an angle of the CAD
   MissedTarget at_features;                 ///< not pinned, across such a strip or gap
-  MissedTarget held;  ///< neither, with a side or all corners on a surface that may not change
+  MissedTarget held;  ///< neither, with a side or all corners on a surface that may not change, or on layers
   MissedTarget rest;
   std::int64_t tetrahedra = 0;  ///< those pinned
   std::int64_t others = 0;      ///< those that are not pinned
