@@ -23,6 +23,8 @@ constexpr double width_error = 0.01;
 /// Two places of one line lie opposite each other where the way along it is more than so many times the
 /// distance: a half circle is 1.6 times as long as wide. Chosen, not measured.
 constexpr double least_way = 4;
+/// Closed lines whose ends turn by more than 60 degrees have a corner there. Chosen, not measured.
+constexpr double smooth_cosine = 0.5;
 
 /// The boundary lines of one face, which of them lie opposite each other, and how far apart: nearest
 /// distances between curves, for segments of facets may leave them by more than a strip is wide.
@@ -78,6 +80,7 @@ private:
   void list_lines() {
     std::vector<SegmentTree::Segment> segments;
     _first_piece.resize(_facets.boundary.size());
+    _lengths.resize(_facets.boundary.size());
     for (std::size_t line = 0; line < _facets.boundary.size(); ++line) {
       const auto& [use, nodes, parameters] = _facets.boundary[line];
       if (nodes.size() < 2 || _model.is_seam(use.edge)) continue;
@@ -93,7 +96,7 @@ private:
         _largest_sag = std::max(_largest_sag, sag);
         way += distance(a, b);
       }
-      _length[static_cast<int>(line)] = way;
+      _lengths[line] = way;
     }
     _segments = SegmentTree(std::move(segments));
   }
@@ -145,18 +148,30 @@ private:
   }
 
   /// Whether a place on a segment faces another segment of the same line over the face, where the line goes
-  /// to and fro: a blunt trailing edge with a round end. The way between them must not lead over the line's
-  /// ends.
+  /// to and fro: a blunt trailing edge with a round end. The way between them must not lead over a
+  /// corner.
   bool faces_itself(const Station& place, const Piece& own, const Piece& other) const {
-    if (_beside_corners) return false;
+    if (_beside_corners || (own.node <= other.node + 1 && other.node <= own.node + 1)) return false;
     const auto& nodes = _facets.boundary[other.line].nodes;
     const Vec3 a = _facets.points[nodes[other.node]], b = _facets.points[nodes[other.node + 1]];
     const double part = part_along(place.point, a, b);
     const Vec3 over = a + part * (b - a) - place.point;
-    const double way = std::abs(other.way + part * distance(a, b) - place.way);
-    const bool closed = nodes.front() == nodes.back();
-    return way > least_way * norm(over) && dot(over, own.inwards) > 0 &&
-           !(closed && way > 0.5 * _length.at(other.line));
+    double way = std::abs(other.way + part * distance(a, b) - place.way);
+    const cad::EdgeId edge = _facets.boundary[other.line].use.edge;
+    const double over_ends =
+        _lengths[other.line] - way + distance(_facets.points[nodes.front()], _facets.points[nodes.back()]);
+    if (over_ends < way && _model.edge(edge).first == _model.edge(edge).last && turns_at_ends(edge))
+      return false;
+    way = std::min(way, over_ends);
+    return way > least_way * (norm(over) + own.sag + other.sag) && dot(over, own.inwards) > 0;
+  }
+
+  /// Whether a closed edge has a corner where it begins.
+  bool turns_at_ends(cad::EdgeId id) const {
+    const cad::Edge& edge = _model.edge(id);
+    const Vec3 first = _model.edge_tangent(id, edge.first_parameter);
+    const Vec3 last = _model.edge_tangent(id, edge.last_parameter);
+    return dot(first, last) < smooth_cosine * norm(first) * norm(last);
   }
 
   /// Whether two lines lie opposite each other: those without a common vertex or, beside corners that are
@@ -278,7 +293,7 @@ private:
   const SizingOptions& _options;
   double _reach;
   std::vector<int> _lines;
-  std::map<int, double> _length;          // of lines
+  std::vector<double> _lengths;           // by line
   std::vector<Piece> _pieces;             // of the lines, one after the other
   std::vector<std::size_t> _first_piece;  // by line
   double _largest_sag = 0;
