@@ -28,8 +28,9 @@ constexpr double weak_fraction = 0.5, straight = 50 * geometry::degree;
 constexpr int island_triangles = 3, strip_triangles = 4, face_rounds = 4;
 constexpr double island_turns = 2, strip_turns = 1.3;
 /// A triangle that is lower than this fraction of its longest side is no face of its own: it joins the
-/// neighbour to which it turns least, as an island does.
-constexpr double lowest_face = 0.05;
+/// neighbour to which it turns least, as an island does. Where it turns to all neighbours by more than
+/// `folded`, it lies folded between them and joins one too: edges of bodies, blunt ones included, turn less.
+constexpr double lowest_face = 0.05, folded = 120 * geometry::degree;
 
 enum SideState : char { smooth_side = 0, sharp_side = 1, forced_side = 2 };
 
@@ -250,6 +251,16 @@ private:
     return best;
   }
 
+  /// Whether a triangle is all of a face that is thin and joins the other one.
+  bool is_scrap_of(geometry::DisjointSets<std::int32_t>& faces, const std::vector<std::int32_t>& size,
+                   std::int32_t t, std::int32_t other) const {
+    if (size[faces.root(t)] != 1 || !is_thin(t)) return false;
+    const std::int32_t side = smoothest_side(t);
+    if (_turns[side] >= island_turns * _angle && _turns[side] <= folded) return false;
+    const auto [first, second] = triangles_of(side);
+    return faces.root(first == t ? second : first) == other;
+  }
+
   /// False where nothing was to be joined.
   bool join_small_faces() {
     const auto sides = static_cast<std::int32_t>(_table.sides.size());
@@ -281,10 +292,7 @@ private:
       const bool island = a != b && (is_island(a) || is_island(b)) && _turns[s] < island_turns * _angle;
       const bool strips =
           size[a] <= strip_triangles && size[b] <= strip_triangles && _turns[s] < strip_turns * _angle;
-      const auto is_scrap = [&](std::int32_t f) {
-        return size[f] == 1 && is_thin(f) && smoothest_side(f) == s;
-      };
-      const bool scrap = _turns[s] < island_turns * _angle && (is_scrap(a) || is_scrap(b));
+      const bool scrap = is_scrap_of(faces, size, t, b) || is_scrap_of(faces, size, u, a);
       if (!island && !strips && !scrap) continue;
       _state[s] = smooth_side;
       joined = true;

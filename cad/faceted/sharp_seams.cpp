@@ -65,6 +65,36 @@ std::vector<std::int32_t> label_by_side(const FacetComplex& complex, const Facet
   return label;
 }
 
+/// Straightens the borders between labels: what has two of its sides on one joins the label beyond, which
+/// makes the border shorter, so that over needles it does not run to and fro. Triangles on curves that are
+/// passed twice stay.
+void straighten_borders(const FacetComplex& complex, const FacetLinks& links, const Passes& passes,
+                        std::vector<std::int32_t>& label) {
+  const auto stays = [&](std::int32_t t) {
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      if (links.inside[h] < 0 && passes.contains({complex.face_of[t], links.on_curve[h].curve})) return true;
+    }
+    return false;
+  };
+  const auto beyond = [&](HalfEdge h) { return links.inside[h] < 0 ? -1 : label[links.inside[h] / 3]; };
+  std::vector<std::int32_t> waiting(label.size());
+  std::iota(waiting.rbegin(), waiting.rend(), 0);
+  while (!waiting.empty()) {
+    const std::int32_t t = waiting.back();
+    waiting.pop_back();
+    if (label[t] < 0 || stays(t)) continue;
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::int32_t other = beyond(h);
+      if (other < 0 || other == label[t] || beyond(geometry::next_half_edge(h)) != other) continue;
+      label[t] = other;
+      for (HalfEdge side = 3 * t; side < 3 * t + 3; ++side) {
+        if (links.inside[side] >= 0) waiting.push_back(links.inside[side] / 3);
+      }
+      break;
+    }
+  }
+}
+
 /// Numbers faces anew: components of equal label; the first one of a face keeps its number.
 void split_faces(FacetComplex& complex, const FacetLinks& links, const std::vector<std::int32_t>& label) {
   std::vector<FaceId> part(complex.triangles.size(), no_entity);
@@ -185,7 +215,9 @@ void divide_at_sharp_seams(FacetComplex& complex) {
           "Remedy: another geometry.feature_angle, or finer triangles there",
           at.x, at.y, at.z, complex.faces[face].name));
     }
-    split_faces(complex, links, label_by_side(complex, links, passes));
+    std::vector<std::int32_t> label = label_by_side(complex, links, passes);
+    straighten_borders(complex, links, passes, label);
+    split_faces(complex, links, label);
     CurveTracer tracer(complex);
     for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.inside.size()); ++h) {
       const HalfEdge twin = links.inside[h];

@@ -337,6 +337,25 @@ TEST(FacetComplexes, AShortSharpScratchIsNoFeature) {
   EXPECT_EQ(complex.curves.size(), 8U);
 }
 
+/// The top of the box has a fold along its diagonal, whose middle layer is one thin triangle: it joins a
+/// half.
+TEST(FacetComplexes, AThinFoldIsNoFace) {
+  FacetSoup soup = box_soup({0, 0, 0}, {1, 1, 1});
+  constexpr std::int32_t begin = 4, end = 7, beside = 6;
+  const auto folded = static_cast<std::int32_t>(soup.points.size());
+  soup.points.push_back({0.515, 0.485, 1.01});
+  const auto top = std::find_if(soup.triangles.begin(), soup.triangles.end(), [&](const auto& triangle) {
+    return std::is_permutation(triangle.begin(), triangle.end(), std::array{begin, end, beside}.begin());
+  });
+  ASSERT_NE(top, soup.triangles.end());
+  *top = {begin, folded, beside};
+  add_triangle(soup, folded, end, beside);
+  add_triangle(soup, begin, end, folded);
+  const FacetComplex complex = make(soup);
+  EXPECT_EQ(complex.faces.size(), 7U);
+  EXPECT_EQ(complex.curves.size(), 13U);
+}
+
 /// Files of the shared set that close: regions add up to what the divergence theorem gives for the file.
 TEST(FacetComplexes, RealFiles) {
   const std::vector<std::string> files = {

@@ -191,5 +191,23 @@ TEST(FacetedModel, NoFaceHasBothSidesOfACurve) {
   for (const FacetedEdge& edge : part.edges()) EXPECT_EQ(edge.uses.size(), 2u);
 }
 
+/// A torus of needles: the division goes along them, not to and fro.
+TEST(FacetedModel, FacesAreDividedAlongNeedles) {
+  constexpr std::int32_t sections = 7, around = 160;
+  FacetComplex complex = complex_of(torus_soup(sections, around));
+  complex.curves = {{{0, 1, 2, 3, 4, 5}}};
+  complex.vertices = {0, 5};
+  const FacetedPart part = make_faceted_part(complex);
+  EXPECT_GE(part.faces().size(), 2u);
+  const auto& points = part.complex().points;
+  for (const FacetedEdge& edge : part.edges()) {
+    for (std::size_t i = 1; i + 1 < edge.points.size(); ++i) {
+      const Vec3 before = points[edge.points[i]] - points[edge.points[i - 1]];
+      const Vec3 after = points[edge.points[i + 1]] - points[edge.points[i]];
+      EXPECT_GT(dot(before, after), -0.9 * norm(before) * norm(after));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aeroloom::cad

@@ -10,7 +10,11 @@
 #include <numbers>
 #include <random>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Elips.hxx>
 #include <gtest/gtest.h>
 
 using namespace aeroloom;
@@ -170,6 +174,20 @@ TEST(ModelField, NarrowFacesAskForTheirWidth) {
   const SizeField round =
       build(make_primitive_domain(PrimitiveKind::cylinder, dimensions), {0.01, 0.5, 60, 1.3, 0});
   EXPECT_NEAR(round({1, 0, 0}), 0.5, 1e-6);
+}
+
+TEST(ModelField, NarrowPlacesBetweenPartsOfOneEdgeAskForTheirWidth) {
+  // Top and bottom have one edge each, an ellipse.
+  const gp_Elips ellipse(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 2, 0.05);
+  BRepBuilderAPI_MakeWire outline(BRepBuilderAPI_MakeEdge(ellipse).Edge());
+  const Model plate = shapes::domain_of(
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire()), gp_Vec(0, 0, 1)).Shape());
+  const SizeField field = build(plate, {0.03, 1, 60, 1.3, 0, 0});
+  for (double x = -1.5; x <= 1.5; x += 0.05) {
+    const double half = 0.05 * std::sqrt(1 - x * x / 4);
+    EXPECT_LT(field({x, half, 1}), 1.1 * 2 * half) << x;
+    EXPECT_GT(field({x, half, 1}), 0.7 * 2 * half) << x;
+  }
 }
 
 TEST(ModelField, WidthsAreThoseBetweenTheNearestLinesThatFaceEachOther) {

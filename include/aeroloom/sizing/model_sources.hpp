@@ -32,10 +32,10 @@ std::vector<StripPart> strip_parts(const cad::Model& model, const cad::Facets& f
                                    std::span<const EdgePair> closed_corners, const SizingOptions& options,
                                    double reach);
 
-/// Sources of narrow strips of a face: between two edges of the face that share no vertex, or that end in
-/// one of its corners which are closed (is_closed_corner()), elements are at most as large as strip_size() of
-/// the nearest distance. Distances from `reach` on ask for nothing, nor does a corner as far as it
-/// is closed.
+/// Sources of narrow strips of a face: between two edges of the face that share no vertex, between parts of
+/// one edge, or between edges that end in a closed corner (is_closed_corner()), elements are at most as large
+/// as strip_size() of the nearest distance. Distances from `reach` on ask for nothing, nor does a corner as
+/// far as it is closed.
 std::vector<SizeSource> strip_sources(const cad::Model& model, const cad::Facets& facets,
                                       std::span<const EdgePair> closed_corners, const SizingOptions& options,
                                       double reach);
