@@ -2,6 +2,7 @@
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
+#include "cad/domain/mixed_bodies.hpp"
 #include "cad/domain/sharpen.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
@@ -39,6 +40,7 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
     return {options.kind, options.kind == DomainKind::fluid ? "fluid, as requested" : "bodies, as requested"};
   if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
+  if (!options.parts.empty()) return {DomainKind::body, "taken as bodies: there are parts"};
   const std::vector<TopoDS_Solid> all = solids_of(solids.shape);
   if (const int nested = all.size() > 1 ? count_in_cavities(all, volumes) : 0) {
     return {
@@ -57,7 +59,17 @@ struct FluidShape {
   KindDecision decision;
   std::optional<HullComparison> hull;  ///< of the shape, where it was made
   bool triangulated = false;           ///< its faces, coarsely
+  std::optional<MixedFluid> mixed;     ///< with bodies of triangles; `shape` is not used then
 };
+
+/// Of a file of triangles, which has parts.
+FluidShape make_fluid_around_facets(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+  return {{},
+          {DomainKind::body, "taken as bodies: there are parts"},
+          {},
+          false,
+          surround_mixed({}, {}, options, volumes, changes)};
+}
 
 FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& changes) {
   NamedShape solids = make_solids(read_source(options), options.smallest_size, volumes, changes);
@@ -72,15 +84,31 @@ FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& c
       hull.reset();  // joined ones have other faces
     }
   } else {
-    solids = unite_bodies(std::move(solids), volumes, changes);
+    std::vector<RefusedUnion> refused;
+    solids = unite_bodies(std::move(solids), volumes, changes, refused);
+    if (!refused.empty() || !options.parts.empty()) {
+      if (!single && !solids_of(solids.shape).empty())
+        solids = close_noise(std::move(solids), options.smallest_size, changes);
+      MixedFluid mixed = surround_mixed(std::move(solids), refused, options, volumes, changes);
+      return {{}, std::move(decision), {}, false, std::move(mixed)};
+    }
     if (!single) solids = close_noise(std::move(solids), options.smallest_size, changes);
     solids =
         surround(std::move(solids), options.far_field.value_or(options.default_far_field), volumes, changes);
   }
-  return {std::move(solids), std::move(decision), hull, triangulated};
+  return {std::move(solids), std::move(decision), hull, triangulated, {}};
+}
+
+Model build_mixed(const MixedFluid& fluid, Volumes& volumes) {
+  std::vector<FaceTag> tags = tag_faces(fluid.shape, DomainKind::body, nullptr);
+  tags.insert(tags.end(), fluid.wall_tags.begin(), fluid.wall_tags.end());
+  Model model = build_model(fluid.shape, tags, fluid.walls ? &*fluid.walls : nullptr);
+  require_mixed_volume(model, fluid, volumes);
+  return model;
 }
 
 Model build_domain(const FluidShape& fluid, Volumes& volumes) {
+  if (fluid.mixed) return build_mixed(*fluid.mixed, volumes);
   if (fluid.decision.kind != DomainKind::fluid)
     return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::body, nullptr));
   const HullComparison hull = fluid.hull ? *fluid.hull : compare(fluid.shape, volumes);
@@ -117,10 +145,15 @@ void try_facets(const Model& model) {
     model.facets(f, deflection * model.bounds().diagonal(), angle);
 }
 
+bool has_facets(const DomainOptions& options) {
+  return !options.transport && is_faceted_file(options.file);
+}
+
 Domain prepare(const DomainOptions& options) {
   DomainReport report;
   Volumes volumes;
-  const FluidShape fluid = make_fluid(options, volumes, report.changes);
+  const FluidShape fluid = has_facets(options) ? make_fluid_around_facets(options, volumes, report.changes)
+                                               : make_fluid(options, volumes, report.changes);
   report.kind = fluid.decision.kind;
   report.reason = fluid.decision.reason;
   Model model = build_domain(fluid, volumes);
@@ -129,10 +162,6 @@ Domain prepare(const DomainOptions& options) {
   if (!fluid.triangulated) try_facets(model);
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};
-}
-
-bool has_facets(const DomainOptions& options) {
-  return !options.transport && is_faceted_file(options.file);
 }
 
 std::string source_name(const DomainOptions& options) {
@@ -147,7 +176,10 @@ auto with_source(const DomainOptions& options, Action&& action) {
     return guarded("preparing the domain", std::forward<Action>(action));
   } catch (const CadError& error) {
     const std::string text = error.what();
-    if (text.find(source) != std::string::npos) throw;
+    const auto is_told = [&](const std::string& name) { return text.find(name) != std::string::npos; };
+    if (is_told(source)) throw;
+    for (const FacetedBody& part : options.parts)
+      if (is_told(part.file)) throw;
     throw CadError(source + ": " + text);
   }
 }
@@ -155,20 +187,24 @@ auto with_source(const DomainOptions& options, Action&& action) {
 }  // namespace
 
 Domain prepare_domain(const DomainOptions& options) {
-  return with_source(options,
-                     [&] { return has_facets(options) ? prepare_faceted(options) : prepare(options); });
+  return with_source(options, [&] {
+    return has_facets(options) && options.parts.empty() ? prepare_faceted(options) : prepare(options);
+  });
 }
 
 void export_step(const DomainOptions& options, ExportedPart part, const std::string& file) {
   with_source(options, [&] {
-    if (has_facets(options))
+    const auto refuse_facets = [] {
       throw CadError("triangles are not written as STEP. Remedy: geometry of a CAD program");
+    };
+    if (has_facets(options) || !options.parts.empty()) refuse_facets();
     Changes changes;
     Volumes volumes;
-    const NamedShape shape = part == ExportedPart::domain
-                                 ? make_fluid(options, volumes, changes).shape
-                                 : make_solids(read_source(options), options.smallest_size, volumes, changes);
-    write_step(shape, file);
+    if (part == ExportedPart::geometry)
+      return write_step(make_solids(read_source(options), options.smallest_size, volumes, changes), file);
+    const FluidShape fluid = make_fluid(options, volumes, changes);
+    if (fluid.mixed) refuse_facets();
+    write_step(fluid.shape, file);
   });
 }
 

@@ -52,11 +52,17 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes&
 
 }  // namespace
 
-NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes) {
+NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes,
+                        std::vector<RefusedUnion>& refused) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(bodies.shape))) {
-    const std::vector<TopoDS_Solid> united =
-        group.size() > 1 ? unite(group, volumes, bodies.labels, changes) : group;
+    std::vector<TopoDS_Solid> united = group;
+    try {
+      if (group.size() > 1) united = unite(group, volumes, bodies.labels, changes);
+    } catch (const CadError& error) {
+      refused.push_back({group, error.what()});
+      continue;
+    }
     if (group.size() > united.size()) {
       changes.push_back({fmt::format("{} touching bodies united to {}", group.size(), united.size())});
     }
