@@ -59,44 +59,55 @@ struct FluidShape {
   KindDecision decision;
   std::optional<HullComparison> hull;  ///< of the shape, where it was made
   bool triangulated = false;           ///< its faces, coarsely
+  bool united = false;                 ///< several bodies by the CAD library
   std::optional<MixedFluid> mixed;     ///< with bodies of triangles; `shape` is not used then
 };
 
 /// Of a file of triangles, which has parts.
 FluidShape make_fluid_around_facets(const DomainOptions& options, Volumes& volumes, Changes& changes) {
-  return {{},
-          {DomainKind::body, "taken as bodies: there are parts"},
-          {},
-          false,
-          surround_mixed({}, {}, options, volumes, changes)};
+  return {{},    {DomainKind::body, "taken as bodies: there are parts"}, {}, false,
+          false, surround_mixed({}, {}, options, volumes, changes)};
 }
 
-FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+/// Bodies in a far field. With a reason to `distrust` unions of the CAD library, none is made.
+FluidShape surround_bodies(NamedShape solids, const DomainOptions& options, const std::string& distrust,
+                           Volumes& volumes, Changes& changes) {
+  const std::size_t before = solids_of(solids.shape).size();
+  std::vector<RefusedUnion> refused;
+  solids = distrust.empty() ? unite_bodies(std::move(solids), volumes, changes, refused)
+                            : refuse_unions(std::move(solids), distrust, refused);
+  std::size_t after = solids_of(solids.shape).size();
+  if (before > 1 && after > 0) solids = close_noise(std::move(solids), options.smallest_size, changes);
+  for (const RefusedUnion& each : refused) after += each.solids.size();
+  FluidShape fluid;
+  fluid.united = after < before;
+  if (refused.empty() && options.parts.empty())
+    fluid.shape =
+        surround(std::move(solids), options.far_field.value_or(options.default_far_field), volumes, changes);
+  else
+    fluid.mixed = surround_mixed(std::move(solids), refused, options, volumes, changes);
+  return fluid;
+}
+
+FluidShape make_fluid(const DomainOptions& options, const std::string& distrust, Volumes& volumes,
+                      Changes& changes) {
   NamedShape solids = make_solids(read_source(options), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
   const bool single = solids_of(solids.shape).size() == 1;
-  if (decision.kind == DomainKind::fluid) {
-    solids = join_regions(std::move(solids), volumes, changes);
-    if (!single) {
-      solids = close_noise(std::move(solids), options.smallest_size, changes);
-      hull.reset();  // joined ones have other faces
-    }
-  } else {
-    std::vector<RefusedUnion> refused;
-    solids = unite_bodies(std::move(solids), volumes, changes, refused);
-    if (!refused.empty() || !options.parts.empty()) {
-      if (!single && !solids_of(solids.shape).empty())
-        solids = close_noise(std::move(solids), options.smallest_size, changes);
-      MixedFluid mixed = surround_mixed(std::move(solids), refused, options, volumes, changes);
-      return {{}, std::move(decision), {}, false, std::move(mixed)};
-    }
-    if (!single) solids = close_noise(std::move(solids), options.smallest_size, changes);
-    solids =
-        surround(std::move(solids), options.far_field.value_or(options.default_far_field), volumes, changes);
+  if (decision.kind == DomainKind::body) {
+    FluidShape fluid = surround_bodies(std::move(solids), options, distrust, volumes, changes);
+    fluid.decision = std::move(decision), fluid.hull = hull;
+    fluid.triangulated = triangulated && !fluid.mixed;
+    return fluid;
   }
-  return {std::move(solids), std::move(decision), hull, triangulated, {}};
+  solids = join_regions(std::move(solids), volumes, changes);
+  if (!single) {
+    solids = close_noise(std::move(solids), options.smallest_size, changes);
+    hull.reset();  // joined ones have other faces
+  }
+  return {std::move(solids), std::move(decision), hull, triangulated, false, {}};
 }
 
 Model build_mixed(const MixedFluid& fluid, Volumes& volumes) {
@@ -149,17 +160,33 @@ bool has_facets(const DomainOptions& options) {
   return !options.transport && is_faceted_file(options.file);
 }
 
-Domain prepare(const DomainOptions& options) {
+Domain prepare(const DomainOptions& options, const std::string& distrust = {});
+
+/// With bodies united as triangles, where the CAD library cannot triangulate what it united.
+Domain prepare_anew(const DomainOptions& options, const std::string& fault) {
+  try {
+    return prepare(options, fault);
+  } catch (const CadError& error) {
+    throw CadError(fmt::format("{}; nor can the bodies be united as triangles: {}", fault, error.what()));
+  }
+}
+
+Domain prepare(const DomainOptions& options, const std::string& distrust) {
   DomainReport report;
   Volumes volumes;
   const FluidShape fluid = has_facets(options) ? make_fluid_around_facets(options, volumes, report.changes)
-                                               : make_fluid(options, volumes, report.changes);
+                                               : make_fluid(options, distrust, volumes, report.changes);
   report.kind = fluid.decision.kind;
   report.reason = fluid.decision.reason;
   Model model = build_domain(fluid, volumes);
   model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
   require_representable(model.bounds());
-  if (!fluid.triangulated) try_facets(model);
+  try {
+    if (!fluid.triangulated) try_facets(model);
+  } catch (const CadError& error) {
+    if (fluid.united && distrust.empty()) return prepare_anew(options, error.what());
+    throw;
+  }
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};
 }
@@ -202,7 +229,7 @@ void export_step(const DomainOptions& options, ExportedPart part, const std::str
     Volumes volumes;
     if (part == ExportedPart::geometry)
       return write_step(make_solids(read_source(options), options.smallest_size, volumes, changes), file);
-    const FluidShape fluid = make_fluid(options, volumes, changes);
+    const FluidShape fluid = make_fluid(options, {}, volumes, changes);
     if (fluid.mixed) refuse_facets();
     write_step(fluid.shape, file);
   });

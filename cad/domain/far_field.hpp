@@ -24,6 +24,9 @@ struct RefusedUnion {
 NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes,
                         std::vector<RefusedUnion>& refused);
 
+/// As unite_bodies, but what touches or overlaps is refused for this reason untried.
+NamedShape refuse_unions(NamedShape bodies, const std::string& reason, std::vector<RefusedUnion>& refused);
+
 /// Solids that touch come to share their common faces, so that meshes of neighbouring regions conform. Throws
 /// CadError where they overlap.
 NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes);

@@ -22,9 +22,9 @@ namespace aeroloom::cad {
 namespace {
 
 // Chosen, not measured: triangles of bodies that are united lie a tenth of the smallest size off their faces,
-// or a ten-thousandth of the body where no size is known, and turn by six degrees at most.
+// or a ten-thousandth of the body where no size is known, and turn by twelve degrees at most.
 constexpr double deflection_over_size = 0.1, deflection_over_diagonal = 1e-4;
-constexpr double facet_angle = 6 * geometry::degree;
+constexpr double facet_angle = 12 * geometry::degree;
 /// Where bodies come near each other, triangles are made as much finer in turn.
 constexpr double finer[] = {1, 0.25, 0.0625};
 

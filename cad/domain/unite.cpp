@@ -72,6 +72,16 @@ NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes,
   return bodies;
 }
 
+NamedShape refuse_unions(NamedShape bodies, const std::string& reason, std::vector<RefusedUnion>& refused) {
+  std::vector<TopoDS_Solid> single;
+  for (auto& group : touching_groups(solids_of(bodies.shape))) {
+    if (group.size() == 1) single.push_back(group.front());
+    if (group.size() > 1) refused.push_back({std::move(group), reason});
+  }
+  bodies.shape = make_compound(single);
+  return bodies;
+}
+
 namespace {
 
 /// The first pairs of solids that overlap, with places.

@@ -8,9 +8,11 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -108,8 +110,15 @@ private:
       uv += mesh.UVNode(corner).XY();
       middle += _facets.soup.points[first + corner - 1];
     }
-    const Vec3 on_face = to_vec(surface.Value(uv.X() / 3, uv.Y() / 3));
-    _facets.deviation = std::max(_facets.deviation, distance(on_face, middle / 3.0));
+    gp_Pnt point;
+    gp_Vec du, dv;
+    surface.D1(uv.X() / 3, uv.Y() / 3, point, du, dv);
+    const Vec3 off = middle / 3.0 - to_vec(point), normal = to_vec(du.Crossed(dv));
+    // Along the normal: parameters of the middle are not those of the nearest point.
+    const bool singular =
+        norm(normal) <= tolerances::rounding * (du.SquareMagnitude() + dv.SquareMagnitude());
+    _facets.deviation =
+        std::max(_facets.deviation, singular ? norm(off) : std::abs(dot(off, normalized(normal))));
   }
 
   /// The nodes along an edge of a face, in the direction of the edge's parameter.

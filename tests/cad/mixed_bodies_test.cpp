@@ -7,13 +7,16 @@
 #include "tests/cad/faceted_shapes.hpp"
 #include "tests/cad/model_checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
-#include <gp_Ax2.hxx>
+#include <gp_Ax1.hxx>
+#include <gp_Trsf.hxx>
 #include <gtest/gtest.h>
 
 namespace aeroloom::cad {
@@ -162,6 +165,26 @@ TEST(MixedBodies, ABallOfTrianglesOnACylinder) {
   const double cylinder = 2 * std::numbers::pi, own = faceted::volume_of(ball);
   EXPECT_GT(body_volume(domain.model), cylinder);
   EXPECT_LT(body_volume(domain.model), cylinder + 0.7 * own);
+}
+
+/// Cylinders turned by a ten-thousandth of a radian: the CAD library cannot triangulate what it makes of
+/// them.
+TEST(MixedBodies, BodiesOfCadThatItsLibraryCannotUniteAreUnitedAsTriangles) {
+  const TopoDS_Shape first = BRepPrimAPI_MakeCylinder(1, 2).Shape();
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0.2, 0.3)), 1e-4);
+  const TopoDS_Shape second = BRepBuilderAPI_Transform(first, turn, true).Shape();
+  DomainOptions options;
+  options.kind = DomainKind::body;
+  const Domain domain = shapes::prepare(shapes::compound_of<TopoDS_Shape>({first, second}), options);
+  checks::expect_watertight(domain.model);
+  const Changes told = shapes::changes_about(domain.report.changes, "triangles, at most");
+  ASSERT_EQ(told.size(), 2U);
+  double deviation = 0;
+  for (const Change& change : told) deviation = std::max(deviation, change.how_much);
+  // One cylinder and a sliver of the other, but for what triangles are off them.
+  EXPECT_NEAR(body_volume(domain.model), 2 * std::numbers::pi, 6 * std::numbers::pi * (deviation + 1e-4));
+  EXPECT_EQ(shapes::changes_about(domain.report.changes, "that overlap are united").size(), 1U);
 }
 
 TEST(MixedBodies, WhatLiesInsideIsLeftOut) {
