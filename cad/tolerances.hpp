@@ -141,6 +141,9 @@ inline constexpr double integrated_volume = 2e-3;
 /// Far field, bodies and fluid add up to this, of the bodies. Less than `integrated_volume`: no boolean
 /// operation lies between them, the faces integrated on both sides are the same.
 inline constexpr double sum_of_volumes = 1e-3;
+/// Volumes of closed triangles that are united exactly add up to this: what rounding of their coordinates
+/// leaves.
+inline constexpr double exact_volume = 1e-9;
 /// A solid that fills less of the cube over its diagonal is a sheet or a wire: a plate as thin as
 /// `coincident`.
 inline constexpr double no_volume = 1e-9;

@@ -16,6 +16,16 @@ namespace aeroloom::cases {
 
 namespace {
 
+void check_parts(const KeyTable& keys, const CaseDraft& draft) {
+  for (const cad::FacetedBody& part : draft.parts) {
+    const std::string key = "geometry.parts." + part.name;
+    if (part.file.empty()) throw CaseError(keys.where(key) + ": '" + key + "' needs 'file', its triangles");
+    if (draft.result.domain.kind == cad::DomainKind::fluid)
+      throw CaseError(keys.where(key) + ": '" + key +
+                      "' is a body in a far field, but 'geometry.domain' is fluid");
+  }
+}
+
 void check_geometry(const KeyTable& keys, const CaseDraft& draft, const std::string& file) {
   const auto at = [&](const std::string& key) { return keys.where("geometry." + key) + ": "; };
   const bool from_file = !draft.result.domain.file.empty(), built_in = draft.builtin != Builtin::none;
@@ -28,6 +38,7 @@ void check_geometry(const KeyTable& keys, const CaseDraft& draft, const std::str
   if (draft.dimensions_given && !built_in) {
     throw CaseError(at("dimensions") + "'geometry.dimensions' belongs to 'geometry.builtin', not to a file");
   }
+  check_parts(keys, draft);
   const cad::TrailingEdgeOptions& trailing = draft.result.domain.trailing_edges;
   const char* const needless = draft.sharpen_width       ? "sharpen_width"
                                : !trailing.faces.empty() ? "sharpen_faces"
@@ -93,6 +104,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   check_walls(keys, draft.walls);
   check_edges(keys, draft.edges);
   Case result = draft.result;
+  result.domain.parts.assign(draft.parts.begin(), draft.parts.end());
   result.groups.rules.assign(draft.groups.begin(), draft.groups.end());
   result.groups.where = keys.where("groups.strict");
   for (GroupRule& rule : result.groups.rules) {
@@ -124,10 +136,15 @@ Case read_case(const std::string& file, const std::vector<std::string>& override
   keys.read_file(file);
   for (const std::string& assignment : overrides) keys.read_override(assignment);
   Case result = finish(keys, draft, file);
-  const bool overridden = std::any_of(overrides.begin(), overrides.end(), [](const std::string& assignment) {
-    return assignment.starts_with("geometry.file=") || assignment.starts_with("geometry=");
-  });
-  if (!overridden) result.domain.file = locate(result.domain.file, file);
+  const auto is_overridden = [&](const std::string& key) {
+    return std::any_of(overrides.begin(), overrides.end(), [&](const std::string& assignment) {
+      const std::string path = assignment.substr(0, assignment.find('='));
+      return key == path || key.starts_with(path + ".");
+    });
+  };
+  if (!is_overridden("geometry.file")) result.domain.file = locate(result.domain.file, file);
+  for (cad::FacetedBody& part : result.domain.parts)
+    if (!is_overridden("geometry.parts." + part.name + ".file")) part.file = locate(part.file, file);
   return result;
 }
 
@@ -161,6 +178,7 @@ std::string resolved_yaml(const Case& input) {
     draft.extent = draft.far_field.extent, draft.extent_unit = draft.far_field.unit;
     draft.far_field_given = true;
   }
+  draft.parts.assign(input.domain.parts.begin(), input.domain.parts.end());
   draft.groups.assign(input.groups.rules.begin(), input.groups.rules.end());
   draft.patches.assign(input.patches.begin(), input.patches.end());
   draft.sources.assign(input.sizing.sources.begin(), input.sizing.sources.end());
@@ -169,6 +187,7 @@ std::string resolved_yaml(const Case& input) {
   draft.layer_rules.assign(input.layers.patches.begin(), input.layers.patches.end());
   KeyTable keys;
   declare_case_keys(keys, draft);
+  for (const cad::FacetedBody& part : input.domain.parts) keys.add_named("geometry.parts", part.name);
   for (const GroupRule& rule : input.groups.rules) keys.add_named("groups", rule.name);
   for (const PatchRule& rule : input.patches) keys.add_named("patches", rule.name);
   for (const SourceRule& rule : input.sizing.sources) keys.add_named("sizing.sources", rule.name);

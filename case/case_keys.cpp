@@ -141,6 +141,7 @@ std::vector<KeyInfo> case_keys() {
   KeyTable keys;
   declare_case_keys(keys, draft);
   keys.add_named("groups", made_up_name);
+  keys.add_named("geometry.parts", made_up_name);
   keys.add_named("patches", made_up_name);
   for (const char* each : {"sizing.sources", "sizing.walls", "sizing.edges", "layers.patches"})
     keys.add_named(each, made_up_name);

@@ -25,6 +25,7 @@ struct CaseDraft {
   bool far_field_given = false;
   std::optional<double> sharpen_width;
   // They stay where they are while others are added.
+  std::deque<cad::FacetedBody> parts;
   std::deque<PatchRule> patches;
   std::deque<GroupRule> groups;
   std::deque<SourceRule> sources;

@@ -78,6 +78,27 @@ void declare_trailing_edges(KeyTable& keys, CaseDraft& draft) {
        "3 % of the strip's length, 10 % of the breadth of each neighbour (area over common border)", "0.02"});
 }
 
+void declare_parts(KeyTable& keys, CaseDraft& draft) {
+  keys.named_sections(
+      "parts",
+      "Bodies of flat triangles beside those of `file` or `builtin`, such as a store or an ice shape. What "
+      "they overlap becomes triangles too and is united with them "
+      "([CAD and triangles in one case](faceted.md#cad-and-triangles-in-one-case)).",
+      {"A body of a name that you choose, which is the name of its patch.", "", "store"},
+      [&draft](const std::string& name, KeyTable& part) {
+        auto found = std::find_if(draft.parts.begin(), draft.parts.end(),
+                                  [&](const cad::FacetedBody& each) { return each.name == name; });
+        if (found == draft.parts.end()) found = draft.parts.insert(found, cad::FacetedBody{name, "", 1});
+        part.path("file", found->file,
+                  {"Its triangles: STL, OBJ, OFF, PLY, .poly or .smesh. Paths are as in `geometry.file`. "
+                   "Needed.",
+                   "", "store.stl"});
+        part.number("scale", found->scale, Range::above(0),
+                    "What its coordinates are multiplied by to be in the length unit of the geometry: files "
+                    "of triangles have none.");
+      });
+}
+
 void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   using cad::DomainKind;
   keys.path(
@@ -108,6 +129,7 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
            {"Of files of triangles: sides across which they turn by more are edges that the mesh keeps; "
             "across others it goes on smoothly."}));
   declare_trailing_edges(keys, draft);
+  declare_parts(keys, draft);
   declare_dimensions(
       keys.section("dimensions",
                    "Dimensions of the built-in aircraft, any of them, such as `wing: {half_span: 18}`. Goes "

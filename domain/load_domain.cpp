@@ -107,9 +107,15 @@ const parallel::NamedTask diagnose_task("geometry.diagnose", diagnose_domain);
 const parallel::NamedTask look_task("geometry.look", look_at_file);
 
 double file_bytes(const DomainOptions& options) {
-  std::error_code ignored;  // a file that is not there is reported by who reads it
-  const auto size = options.file.empty() ? 0 : std::filesystem::file_size(options.file, ignored);
-  return ignored ? 0 : double(size);
+  double sum = 0;
+  const auto add = [&](const std::string& file) {
+    std::error_code ignored;  // a file that is not there is reported by who reads it
+    const auto size = file.empty() ? 0 : std::filesystem::file_size(file, ignored);
+    if (!ignored) sum += double(size);
+  };
+  add(options.file);
+  for (const cad::FacetedBody& part : options.parts) add(part.file);
+  return sum;
 }
 
 parallel::SandboxLimits limits_for(const DomainOptions& options) {

@@ -31,6 +31,7 @@ cases::Case relevant_part(const cases::Case& input, SavedStage stage) {
   cases::Case part;
   part.domain = input.domain;
   if (!part.domain.file.empty()) part.domain.file = std::filesystem::path(input.domain.file).filename();
+  for (cad::FacetedBody& body : part.domain.parts) body.file = std::filesystem::path(body.file).filename();
   if (stage >= SavedStage::sizing) {
     part.groups.rules = input.groups.rules;
     for (cases::GroupRule& rule : part.groups.rules) rule.type.reset();

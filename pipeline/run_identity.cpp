@@ -3,10 +3,12 @@
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "report/library_versions.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
 namespace aeroloom::pipeline {
 namespace {
@@ -31,6 +33,22 @@ bool is_readable(const std::string& path) {
   return std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).is_open();
 }
 
+/// The geometry of a case comes from these, in this order.
+std::vector<std::string> files_of(const cad::DomainOptions& domain) {
+  std::vector<std::string> files;
+  if (!domain.file.empty()) files.push_back(domain.file);
+  for (const cad::FacetedBody& part : domain.parts) files.push_back(part.file);
+  return files;
+}
+
+/// Of one file its own digest, of several that of theirs.
+parallel::Digest digest_of_files(const std::vector<std::string>& files, std::int64_t* bytes = nullptr) {
+  if (files.size() == 1) return digest_of_file(files.front(), bytes);
+  parallel::Digester digester;
+  for (const std::string& file : files) digester.text(digest_of_file(file, bytes).text());
+  return digester.result();
+}
+
 }  // namespace
 
 RunIdentity identify_run(const parallel::Communicator& communicator, const cases::Case& input) {
@@ -43,10 +61,9 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
   std::vector<std::int64_t> bytes{0};
   if (communicator.is_root()) {
     digests[0] = digest_of_file("/proc/self/exe");
-    if (!input.domain.file.empty()) {
-      known[0] = is_readable(input.domain.file) ? 1 : 0;
-      if (known[0] != 0) digests[1] = digest_of_file(input.domain.file, &bytes[0]);
-    }
+    const std::vector<std::string> files = files_of(input.domain);
+    known[0] = std::all_of(files.begin(), files.end(), is_readable) ? 1 : 0;
+    if (known[0] != 0 && !files.empty()) digests[1] = digest_of_files(files, &bytes[0]);
   }
   communicator.broadcast_items(digests);
   communicator.broadcast_items(bytes);
@@ -54,11 +71,15 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
   communicator.broadcast_items(known);
   identity.is_known = known[0] != 0;
   identity.build = digests[0];
+  identity.files = digests[1];
   if (input.domain.file.empty()) {
     cases::Case dimensions;
     dimensions.domain.transport = input.domain.transport;
     identity.input = "built-in aircraft";
-    identity.digest = parallel::Digester().text(cases::resolved_yaml(dimensions)).result();
+    parallel::Digester digester;
+    digester.text(cases::resolved_yaml(dimensions));
+    if (!input.domain.parts.empty()) digester.text(digests[1].text());
+    identity.digest = digester.result();
   } else {
     identity.input = std::filesystem::path(input.domain.file).filename().string();
     identity.digest = digests[1];
@@ -69,9 +90,13 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
 void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
                        const cases::Case& input) {
   parallel::agree(communicator, [&] {
-    if (!communicator.is_root() || input.domain.file.empty() || !identity.is_known) return;
-    if (is_readable(input.domain.file) && digest_of_file(input.domain.file) == identity.digest) return;
-    throw std::filesystem::filesystem_error("the file was changed while it was read", input.domain.file,
+    const std::vector<std::string> files = files_of(input.domain);
+    if (!communicator.is_root() || files.empty() || !identity.is_known) return;
+    if (std::all_of(files.begin(), files.end(), is_readable) && digest_of_files(files) == identity.files)
+      return;
+    const char* const what =
+        files.size() == 1 ? "the file was changed while it was read" : "a file was changed while it was read";
+    throw std::filesystem::filesystem_error(what, files.front(),
                                             std::make_error_code(std::errc::interrupted));
   });
 }

@@ -14,9 +14,10 @@ struct RunIdentity {
   std::string version;      ///< of the program and its libraries
   parallel::Digest build;   ///< of the program's file
   std::string input;        ///< name of the geometry file, or of what is built in
-  bool is_known = true;     ///< whether the geometry file can be read
-  parallel::Digest digest;  ///< of the bytes of that file, or of the dimensions
-  std::int64_t bytes = 0;   ///< of that file
+  bool is_known = true;     ///< whether the files of the geometry can be read
+  parallel::Digest digest;  ///< of the bytes of these files, or of the dimensions and these
+  parallel::Digest files;   ///< of the bytes alone
+  std::int64_t bytes = 0;   ///< of these files
 };
 
 /// Rank 0 reads the files. That a geometry file cannot be read is for the reader to tell. Collective.

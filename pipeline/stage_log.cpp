@@ -19,7 +19,10 @@ void log_geometry(const cad::Model& model, const report::RunRecord& record) {
                        record.regions, record.faces, record.edges, size.x, size.y, size.z,
                        record.unit.empty() ? "(no unit declared)" : record.unit));
   if (!record.domain.reason.empty()) log_info("geometry: " + record.domain.reason);
-  for (const cad::Change& change : record.domain.changes) log_info("geometry: " + cad::describe(change));
+  for (const cad::Change& change : record.domain.changes) {
+    const std::string text = "geometry: " + cad::describe(change);
+    change.is_warning ? parallel::log_warning(text) : log_info(text);
+  }
 }
 
 void log_sizing(const report::RunRecord& record) {

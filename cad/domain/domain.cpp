@@ -2,6 +2,7 @@
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
+#include "cad/domain/mixed_bodies.hpp"
 #include "cad/domain/sharpen.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
@@ -39,6 +40,7 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
     return {options.kind, options.kind == DomainKind::fluid ? "fluid, as requested" : "bodies, as requested"};
   if (options.transport) return {DomainKind::body, "the built-in aircraft is a body"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
+  if (!options.parts.empty()) return {DomainKind::body, "taken as bodies: there are parts"};
   const std::vector<TopoDS_Solid> all = solids_of(solids.shape);
   if (const int nested = all.size() > 1 ? count_in_cavities(all, volumes) : 0) {
     return {
@@ -57,30 +59,67 @@ struct FluidShape {
   KindDecision decision;
   std::optional<HullComparison> hull;  ///< of the shape, where it was made
   bool triangulated = false;           ///< its faces, coarsely
+  bool united = false;                 ///< several bodies by the CAD library
+  std::optional<MixedFluid> mixed;     ///< with bodies of triangles; `shape` is not used then
 };
 
-FluidShape make_fluid(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+/// Of a file of triangles, which has parts.
+FluidShape make_fluid_around_facets(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+  return {{},    {DomainKind::body, "taken as bodies: there are parts"}, {}, false,
+          false, surround_mixed({}, {}, options, volumes, changes)};
+}
+
+/// Bodies in a far field. With a reason to `distrust` unions of the CAD library, none is made.
+FluidShape surround_bodies(NamedShape solids, const DomainOptions& options, const std::string& distrust,
+                           Volumes& volumes, Changes& changes) {
+  const std::size_t before = solids_of(solids.shape).size();
+  std::vector<RefusedUnion> refused;
+  solids = distrust.empty() ? unite_bodies(std::move(solids), volumes, changes, refused)
+                            : refuse_unions(std::move(solids), distrust, refused);
+  std::size_t after = solids_of(solids.shape).size();
+  if (before > 1 && after > 0) solids = close_noise(std::move(solids), options.smallest_size, changes);
+  for (const RefusedUnion& each : refused) after += each.solids.size();
+  FluidShape fluid;
+  fluid.united = after < before;
+  if (refused.empty() && options.parts.empty())
+    fluid.shape =
+        surround(std::move(solids), options.far_field.value_or(options.default_far_field), volumes, changes);
+  else
+    fluid.mixed = surround_mixed(std::move(solids), refused, options, volumes, changes);
+  return fluid;
+}
+
+FluidShape make_fluid(const DomainOptions& options, const std::string& distrust, Volumes& volumes,
+                      Changes& changes) {
   NamedShape solids = make_solids(read_source(options), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
   const bool single = solids_of(solids.shape).size() == 1;
-  if (decision.kind == DomainKind::fluid) {
-    solids = join_regions(std::move(solids), volumes, changes);
-    if (!single) {
-      solids = close_noise(std::move(solids), options.smallest_size, changes);
-      hull.reset();  // joined ones have other faces
-    }
-  } else {
-    solids = unite_bodies(std::move(solids), volumes, changes);
-    if (!single) solids = close_noise(std::move(solids), options.smallest_size, changes);
-    solids =
-        surround(std::move(solids), options.far_field.value_or(options.default_far_field), volumes, changes);
+  if (decision.kind == DomainKind::body) {
+    FluidShape fluid = surround_bodies(std::move(solids), options, distrust, volumes, changes);
+    fluid.decision = std::move(decision), fluid.hull = hull;
+    fluid.triangulated = triangulated && !fluid.mixed;
+    return fluid;
   }
-  return {std::move(solids), std::move(decision), hull, triangulated};
+  solids = join_regions(std::move(solids), volumes, changes);
+  if (!single) {
+    solids = close_noise(std::move(solids), options.smallest_size, changes);
+    hull.reset();  // joined ones have other faces
+  }
+  return {std::move(solids), std::move(decision), hull, triangulated, false, {}};
+}
+
+Model build_mixed(const MixedFluid& fluid, Volumes& volumes) {
+  std::vector<FaceTag> tags = tag_faces(fluid.shape, DomainKind::body, nullptr);
+  tags.insert(tags.end(), fluid.wall_tags.begin(), fluid.wall_tags.end());
+  Model model = build_model(fluid.shape, tags, fluid.walls ? &*fluid.walls : nullptr);
+  require_mixed_volume(model, fluid, volumes);
+  return model;
 }
 
 Model build_domain(const FluidShape& fluid, Volumes& volumes) {
+  if (fluid.mixed) return build_mixed(*fluid.mixed, volumes);
   if (fluid.decision.kind != DomainKind::fluid)
     return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::body, nullptr));
   const HullComparison hull = fluid.hull ? *fluid.hull : compare(fluid.shape, volumes);
@@ -117,22 +156,39 @@ void try_facets(const Model& model) {
     model.facets(f, deflection * model.bounds().diagonal(), angle);
 }
 
-Domain prepare(const DomainOptions& options) {
+bool has_facets(const DomainOptions& options) {
+  return !options.transport && is_faceted_file(options.file);
+}
+
+Domain prepare(const DomainOptions& options, const std::string& distrust = {});
+
+/// With bodies united as triangles, where the CAD library cannot triangulate what it united.
+Domain prepare_anew(const DomainOptions& options, const std::string& fault) {
+  try {
+    return prepare(options, fault);
+  } catch (const CadError& error) {
+    throw CadError(fmt::format("{}; nor can the bodies be united as triangles: {}", fault, error.what()));
+  }
+}
+
+Domain prepare(const DomainOptions& options, const std::string& distrust) {
   DomainReport report;
   Volumes volumes;
-  const FluidShape fluid = make_fluid(options, volumes, report.changes);
+  const FluidShape fluid = has_facets(options) ? make_fluid_around_facets(options, volumes, report.changes)
+                                               : make_fluid(options, distrust, volumes, report.changes);
   report.kind = fluid.decision.kind;
   report.reason = fluid.decision.reason;
   Model model = build_domain(fluid, volumes);
   model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
   require_representable(model.bounds());
-  if (!fluid.triangulated) try_facets(model);
+  try {
+    if (!fluid.triangulated) try_facets(model);
+  } catch (const CadError& error) {
+    if (fluid.united && distrust.empty()) return prepare_anew(options, error.what());
+    throw;
+  }
   report.reference_length = largest_extent(model.body_bounds().size());
   return {std::move(model), std::move(report)};
-}
-
-bool has_facets(const DomainOptions& options) {
-  return !options.transport && is_faceted_file(options.file);
 }
 
 std::string source_name(const DomainOptions& options) {
@@ -147,7 +203,10 @@ auto with_source(const DomainOptions& options, Action&& action) {
     return guarded("preparing the domain", std::forward<Action>(action));
   } catch (const CadError& error) {
     const std::string text = error.what();
-    if (text.find(source) != std::string::npos) throw;
+    const auto is_told = [&](const std::string& name) { return text.find(name) != std::string::npos; };
+    if (is_told(source)) throw;
+    for (const FacetedBody& part : options.parts)
+      if (is_told(part.file)) throw;
     throw CadError(source + ": " + text);
   }
 }
@@ -155,20 +214,24 @@ auto with_source(const DomainOptions& options, Action&& action) {
 }  // namespace
 
 Domain prepare_domain(const DomainOptions& options) {
-  return with_source(options,
-                     [&] { return has_facets(options) ? prepare_faceted(options) : prepare(options); });
+  return with_source(options, [&] {
+    return has_facets(options) && options.parts.empty() ? prepare_faceted(options) : prepare(options);
+  });
 }
 
 void export_step(const DomainOptions& options, ExportedPart part, const std::string& file) {
   with_source(options, [&] {
-    if (has_facets(options))
+    const auto refuse_facets = [] {
       throw CadError("triangles are not written as STEP. Remedy: geometry of a CAD program");
+    };
+    if (has_facets(options) || !options.parts.empty()) refuse_facets();
     Changes changes;
     Volumes volumes;
-    const NamedShape shape = part == ExportedPart::domain
-                                 ? make_fluid(options, volumes, changes).shape
-                                 : make_solids(read_source(options), options.smallest_size, volumes, changes);
-    write_step(shape, file);
+    if (part == ExportedPart::geometry)
+      return write_step(make_solids(read_source(options), options.smallest_size, volumes, changes), file);
+    const FluidShape fluid = make_fluid(options, {}, volumes, changes);
+    if (fluid.mixed) refuse_facets();
+    write_step(fluid.shape, file);
   });
 }
 

@@ -236,18 +236,33 @@ NamedShape surround_whole(NamedShape bodies, const TopoDS_Solid& far_field, Volu
   return bodies;
 }
 
+/// Triangles are not cut at the plane of symmetry.
+void require_off_plane(const Box& beside, const SymmetryPlane& symmetry) {
+  const double ahead = beside.low[symmetry.axis] - symmetry.position,
+               behind = symmetry.position - beside.high[symmetry.axis];
+  if ((symmetry.positive ? ahead : behind) > symmetry.tolerance) return;
+  throw CadError(
+      fmt::format("bodies of triangles reach the plane of symmetry, {}, where triangles are not cut. Remedy: "
+                  "farfield.symmetry: none, or triangles on the kept side of the plane alone",
+                  describe(symmetry)));
+}
+
 }  // namespace
 
-NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes) {
+NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes,
+                    const Box& beside) {
   tell_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
   Box box = tight_box(bodies.shape);
-  const Box whole = box;
+  if (symmetry && !beside.empty()) require_off_plane(beside, *symmetry);
+  Box whole = box;
+  whole.add(beside);
   if (symmetry) changes.push_back({describe(*symmetry)});
   if (symmetry) {
     bodies = cut_at_symmetry(std::move(bodies), *symmetry, volumes, changes);
     box = tight_box(bodies.shape);
   }
+  box.add(beside);
   const TopoDS_Solid far_field = place_far_field(options, {whole, box}, symmetry, bodies.labels);
   if (!symmetry) return surround_whole(std::move(bodies), far_field, volumes, changes);
   return surround_half(std::move(bodies), *symmetry, far_field, volumes, changes);

@@ -52,17 +52,33 @@ std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes&
 
 }  // namespace
 
-NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes) {
+NamedShape unite_bodies(NamedShape bodies, Volumes& volumes, Changes& changes,
+                        std::vector<RefusedUnion>& refused) {
   std::vector<TopoDS_Solid> result;
   for (const auto& group : touching_groups(solids_of(bodies.shape))) {
-    const std::vector<TopoDS_Solid> united =
-        group.size() > 1 ? unite(group, volumes, bodies.labels, changes) : group;
+    std::vector<TopoDS_Solid> united = group;
+    try {
+      if (group.size() > 1) united = unite(group, volumes, bodies.labels, changes);
+    } catch (const CadError& error) {
+      refused.push_back({group, error.what()});
+      continue;
+    }
     if (group.size() > united.size()) {
       changes.push_back({fmt::format("{} touching bodies united to {}", group.size(), united.size())});
     }
     result.insert(result.end(), united.begin(), united.end());
   }
   bodies.shape = make_compound(result);
+  return bodies;
+}
+
+NamedShape refuse_unions(NamedShape bodies, const std::string& reason, std::vector<RefusedUnion>& refused) {
+  std::vector<TopoDS_Solid> single;
+  for (auto& group : touching_groups(solids_of(bodies.shape))) {
+    if (group.size() == 1) single.push_back(group.front());
+    if (group.size() > 1) refused.push_back({std::move(group), reason});
+  }
+  bodies.shape = make_compound(single);
   return bodies;
 }
 

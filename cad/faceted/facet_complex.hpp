@@ -17,6 +17,8 @@ struct FacetComplex {
     std::string name, part;                        ///< as in the file; empty where it gives none
     RegionId front = no_entity, back = no_entity;  ///< as in Face
     bool cavity = false;                           ///< beyond it lies a void that is enclosed by its region
+    std::string patch = {}, layer = {}, colour = {};  ///< of faces of CAD, as in FacetSoup::Group
+    std::int32_t number = -1;
   };
   /// A chain of sides between two of `vertices`; a closed one begins and ends with the same vertex.
   struct Curve {
@@ -32,6 +34,7 @@ struct FacetComplex {
   std::vector<Curve> curves;
   std::vector<std::int32_t> vertices;  ///< points, ascending
   std::vector<std::string> regions;    ///< names of what is enclosed
+  bool united = false;                 ///< components that crossed became one
 };
 
 }  // namespace aeroloom::cad

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace aeroloom::cad {
 namespace {
-
-using geometry::Vec3;
 
 constexpr int facets_per_leaf = 8;  // chosen, not measured
 
@@ -219,25 +219,43 @@ private:
 
 }  // namespace
 
-FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components) {
+std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup) {
   const CandidateSearch search(soup);
-  FacetContacts contacts;
-  bool parts = false;
+  std::vector<FacetContact> contacts;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(soup.triangles.size()); ++t) {
-    // Of the pairs of this triangle: that of two components first, then the lowest.
-    std::int32_t chosen = -1;
-    bool apart = false;
+    const auto begin = static_cast<std::ptrdiff_t>(contacts.size());
     search.for_each(t, [&](std::int32_t other) {
-      if (other <= t || !pair_conflicts(soup, t, other)) return;
-      ++contacts.pairs;
-      const bool other_part = components.of[t] != components.of[other];
-      if (chosen < 0 || (other_part && !apart) || (other_part == apart && other < chosen))
-        chosen = other, apart = other_part;
+      if (other > t && pair_conflicts(soup, t, other)) contacts.push_back({t, other});
     });
-    if (chosen < 0 || (contacts.first >= 0 && (parts || !apart))) continue;
-    contacts.first = t, contacts.second = chosen, parts = apart;
+    std::sort(contacts.begin() + begin, contacts.end());
   }
   return contacts;
+}
+
+FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components) {
+  const std::vector<FacetContact> all = list_facet_contacts(soup);
+  if (all.empty()) return {};
+  const auto apart = std::find_if(all.begin(), all.end(), [&](const FacetContact& pair) {
+    return components.of[pair.first] != components.of[pair.second];
+  });
+  const FacetContact& shown = apart == all.end() ? all.front() : *apart;
+  return {all.size(), shown.first, shown.second};
+}
+
+std::string shown_place(Vec3 at) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
+}
+
+Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle) {
+  const auto& [a, b, c] = soup.triangles[triangle];
+  return (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
+}
+
+std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle) {
+  const FacetSoup::Group& group = soup.groups[soup.group_of[triangle]];
+  const std::string& name = group.part.empty() ? group.name : group.part;
+  return fmt::format("component {}{}", components.of[triangle],
+                     name.empty() ? "" : fmt::format(" ('{}')", name));
 }
 
 FacetComponents find_components(const FacetSoup& soup) {

@@ -5,9 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace aeroloom::cad {
+
+using geometry::Vec3;
 
 /// For each triangle what hangs together with it over sides, counted in the order of the file.
 struct FacetComponents {
@@ -22,7 +25,21 @@ struct FacetContacts {
   std::int32_t first = -1, second = -1;
 };
 
-/// Exact. Points with equal coordinates must be one.
+/// Two triangles, the lower number first.
+struct FacetContact {
+  std::int32_t first, second;
+  friend auto operator<=>(const FacetContact&, const FacetContact&) = default;
+};
+
+/// All pairs, ascending. Exact. Points with equal coordinates must be one.
+std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup);
+
+/// What a component is called in messages, by one of its triangles, and where that is.
+std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle);
+Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle);
+std::string shown_place(Vec3 at);
+
+/// As list_facet_contacts.
 FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components);
 
 }  // namespace aeroloom::cad

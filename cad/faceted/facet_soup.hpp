@@ -22,6 +22,9 @@ struct FacetSoup {
   /// What the file tells apart by name: solids, objects, groups, materials, boundary markers.
   struct Group {
     std::string name, part;  ///< empty where the file gives none
+    /// Of faces of CAD that became triangles, as in FaceTag; a patch of its own where it is not empty.
+    std::string patch = {}, layer = {}, colour = {};
+    std::int32_t number = -1;
     friend bool operator==(const Group&, const Group&) = default;
   };
   struct RegionPoint {

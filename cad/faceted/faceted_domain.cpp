@@ -32,8 +32,9 @@ std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullCompariso
     const FacetComplex::Face& face = complex.faces[f];
     FaceTag tag{face.name, face.name};
     if (tag.name.empty()) tag.name = fmt::format("face_{}", f);
-    tag.part = face.part;
+    tag.part = face.part, tag.layer = face.layer, tag.colour = face.colour;
     tag.number = static_cast<std::int32_t>(f);
+    if (!face.patch.empty()) tag.patch = face.patch, tag.number = face.number;
     if (tag.patch.empty() && face.back != no_entity)
       tag.patch =
           fmt::format("interface_{}_{}", std::min(face.front, face.back), std::max(face.front, face.back));
@@ -64,30 +65,9 @@ double volume_of_regions(const Model& model) {
   return volume;
 }
 
-void refuse_symmetry(const FarFieldOptions& options) {
-  const bool asked = options.symmetry != Symmetry::automatic && options.symmetry != Symmetry::none;
-  if (!asked && options.shape != FarFieldShape::hemisphere) return;
-  throw CadError(
-      "a half model of a faceted file is not made: its triangles would have to be cut at the plane of "
-      "symmetry. Remedy: farfield.symmetry: none with a sphere, box or cylinder around the whole body, or a "
-      "STEP file of it");
-}
-
-NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options) {
-  Box box;
-  for (const Vec3 p : walls.points) box.add(p);
-  NamedShape named;
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  builder.Add(compound, place_far_field(options, {box, box}, std::nullopt, named.labels));
-  named.shape = compound;
-  return named;
-}
-
 /// The fluid around bodies.
 Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options, Changes& changes) {
-  refuse_symmetry(options);
+  refuse_symmetry(options, "a faceted file");
   FacetComplex walls = outer_walls(bodies, changes);
   tell_step("building the far field");
   const NamedShape far_field = far_field_around(walls, options);
@@ -117,6 +97,36 @@ KindDecision choose_faceted_kind(const DomainOptions& options, const std::option
 }
 
 }  // namespace
+
+void refuse_symmetry(const FarFieldOptions& options, const std::string& who) {
+  const bool asked = options.symmetry != Symmetry::automatic && options.symmetry != Symmetry::none;
+  if (!asked && options.shape != FarFieldShape::hemisphere) return;
+  throw CadError(
+      "a half model of " + who +
+      " is not made: its triangles would have to be cut at the plane of symmetry. Remedy: "
+      "farfield.symmetry: none with a sphere, box or cylinder around the whole body, or a STEP file "
+      "of it");
+}
+
+NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options) {
+  Box box;
+  for (const Vec3 p : walls.points) box.add(p);
+  NamedShape named;
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  builder.Add(compound, place_far_field(options, {box, box}, std::nullopt, named.labels));
+  named.shape = compound;
+  return named;
+}
+
+std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered) {
+  std::vector<FaceTag> tags = tag_facets(walls, nullptr);
+  for (std::size_t f = 0; f < tags.size(); ++f) {
+    if (!numbered && walls.faces[f].patch.empty()) tags[f].number = -1;
+  }
+  return tags;
+}
 
 Domain make_faceted_domain(const DomainOptions& options, FacetComplex complex, Changes changes) {
   DomainReport report;

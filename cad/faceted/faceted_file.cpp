@@ -1,25 +1,83 @@
 #include "cad/faceted/facet_facts.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/faceted/make_facet_complex.hpp"
 #include "cad/model/step_trace.hpp"
 #include "geometry/angle.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
 
-Domain prepare_faceted(const DomainOptions& options) {
+namespace {
+
+Domain prepare_triangles(const DomainOptions& options, CrossingFacets crossing) {
   Changes changes;
   tell_step("reading the triangles");
   FacetSoup soup = read_facets(options.file);
   tell_step("repairing the triangles");
   FacetComplex complex =
-      make_facet_complex(std::move(soup), options.feature_angle * geometry::degree, changes);
+      make_facet_complex(std::move(soup), options.feature_angle * geometry::degree, changes, crossing);
   tell_step("making faces of the triangles");
-  return make_faceted_domain(options, std::move(complex), std::move(changes));
+  const bool united = complex.united;
+  Domain domain = make_faceted_domain(options, std::move(complex), std::move(changes));
+  // What crosses is united as bodies; a fluid is what is left between them, and is for the user to make.
+  if (united && domain.report.kind == DomainKind::fluid)
+    return prepare_triangles(options, CrossingFacets::refuse);
+  return domain;
+}
+
+/// The triangles of outer walls as those of bodies.
+FacetSoup soup_of(const FacetComplex& walls, const std::string& file) {
+  FacetSoup soup;
+  soup.file = file;
+  soup.points = walls.points;
+  for (const FacetComplex::Face& face : walls.faces)
+    soup.groups.push_back({face.name, face.part, face.patch, face.layer, face.colour, face.number});
+  soup.group_of.assign(walls.face_of.begin(), walls.face_of.end());
+  for (const auto& [a, b, c] : walls.triangles) soup.triangles.push_back({a, c, b});
+  return soup;
+}
+
+}  // namespace
+
+Domain prepare_faceted(const DomainOptions& options) {
+  return prepare_triangles(
+      options, options.kind == DomainKind::fluid ? CrossingFacets::refuse : CrossingFacets::unite);
+}
+
+FacetSoup read_bodies(const std::string& file, double scale, double feature_angle, Changes& changes) {
+  FacetSoup soup = read_facets(file);
+  if (scale != 1) {
+    for (Vec3& p : soup.points) p = scale * p;
+    for (Vec3& p : soup.holes) p = scale * p;
+    for (auto& region : soup.regions) region.point = scale * region.point;
+  }
+  const FacetComplex complex =
+      make_facet_complex(std::move(soup), feature_angle * geometry::degree, changes, CrossingFacets::unite);
+  return soup_of(outer_walls(complex, changes), file);
+}
+
+FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& changes) {
+  Changes own;
+  FacetSoup soup = read_bodies(part.file, part.scale, feature_angle, own);
+  for (Change& change : own) {
+    change.what = fmt::format("part '{}': {}", part.name, change.what);
+    changes.push_back(std::move(change));
+  }
+  const bool several =
+      std::any_of(soup.groups.begin(), soup.groups.end(),
+                  [&](const FacetSoup::Group& group) { return group.name != soup.groups.front().name; });
+  for (FacetSoup::Group& group : soup.groups) {
+    const bool named = several && !group.name.empty();
+    group.name = named ? part.name + "_" + group.name : part.name;
+    group.part = part.name;
+  }
+  return soup;
 }
 
 void examine_facets(const std::string& file, Diagnosis& diagnosis) {

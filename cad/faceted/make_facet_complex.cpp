@@ -5,6 +5,7 @@
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/split_facets.hpp"
+#include "cad/faceted/unite_components.hpp"
 #include "cad/faceted/weld_facets.hpp"
 #include "geometry/disjoint_sets.hpp"
 
@@ -16,22 +17,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-std::string shown_place(Vec3 at) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
-}
-
-Vec3 middle_of(const FacetSoup& soup, std::int32_t t) {
-  const auto& [a, b, c] = soup.triangles[t];
-  return (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
-}
-
-/// What a component is called in messages.
-std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t t) {
-  const FacetSoup::Group& group = soup.groups[soup.group_of[t]];
-  const std::string& name = group.name.empty() ? group.part : group.name;
-  return fmt::format("component {}{}", components.of[t], name.empty() ? "" : fmt::format(" ('{}')", name));
-}
 
 void refuse_contacts(const FacetSoup& soup) {
   const FacetComponents components = find_components(soup);
@@ -117,11 +102,17 @@ std::vector<std::string> name_regions(const Chambers& chambers) {
 
 }  // namespace
 
-FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes) {
-  weld_equal_points(soup);
-  drop_void_triangles(soup, changes);
-  close_facets(soup, changes);
-  refuse_open_sides(soup);
+FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
+                                CrossingFacets crossing) {
+  const auto close = [&] {
+    weld_equal_points(soup);
+    drop_void_triangles(soup, changes);
+    close_facets(soup, changes);
+    refuse_open_sides(soup);
+  };
+  close();
+  const bool united = crossing == CrossingFacets::unite && unite_components(soup, changes);
+  if (united) close();
   refuse_contacts(soup);
   const Chambers chambers = find_chambers(soup, changes);
   const std::vector<FacetSkin> skins = orient_facets(soup, chambers, changes);
@@ -131,6 +122,7 @@ FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& c
   replace_points(soup, same);  // those of triangles left out go
   FacetComplex complex = split_facets(soup, skins, feature_angle);
   complex.regions = name_regions(chambers);
+  complex.united = united;
   return complex;
 }
 

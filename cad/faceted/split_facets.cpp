@@ -82,7 +82,8 @@ FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetSkin>& s
   complex.face_of = gather_faces(soup, table, features, first_of_face);
   for (const std::int32_t t : first_of_face) {
     const FacetSoup::Group& group = soup.groups[soup.group_of[t]];
-    complex.faces.push_back({group.name, group.part, skins[t].front, skins[t].back, skins[t].cavity});
+    complex.faces.push_back({group.name, group.part, skins[t].front, skins[t].back, skins[t].cavity,
+                             group.patch, group.layer, group.colour, group.number});
   }
   complex.curves = CurveTracer(table, features, soup.points.size()).curves;
   complex.vertices = features.vertices;

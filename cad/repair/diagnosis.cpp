@@ -104,6 +104,20 @@ void examine(const NamedShape& named, Diagnosis& diagnosis) {
   find_slivers(named, diagonal, diagnosis);
 }
 
+/// Adds what a part brings to that of the file.
+void examine_part(const FacetedBody& part, Diagnosis& diagnosis) {
+  Diagnosis own;
+  examine_facets(part.file, own);
+  for (const Vec3& corner : {own.bounds.low, own.bounds.high}) diagnosis.bounds.add(part.scale * corner);
+  diagnosis.counts.shells += own.counts.shells;
+  diagnosis.counts.faces += own.counts.faces;
+  diagnosis.counts.open_edges += own.counts.open_edges;
+  for (Change& finding : own.findings) {
+    finding.what = fmt::format("part '{}': {}", part.name, finding.what);
+    diagnosis.findings.push_back(std::move(finding));
+  }
+}
+
 }  // namespace
 
 Diagnosis diagnose(const DomainOptions& options) {
@@ -117,6 +131,7 @@ Diagnosis diagnose(const DomainOptions& options) {
               diagnosis);
     });
   }
+  for (const FacetedBody& part : options.parts) examine_part(part, diagnosis);
   try {
     diagnosis.domain = prepare_domain(options);
   } catch (const CadError& error) {

@@ -78,6 +78,40 @@ inline FacetSoup cylinder_soup(int corners, int layers, double height) {
   return soup;
 }
 
+/// A ball of `rows` rows of quads from pole to pole, 2 `rows` to a row, poles on z.
+inline FacetSoup ball_soup(Vec3 center, double radius, int rows) {
+  FacetSoup soup = empty_soup();
+  const int around = 2 * rows;
+  for (int k = 1; k < rows; ++k) {
+    for (int i = 0; i < around; ++i) {
+      const double a = 2 * std::numbers::pi * i / around, b = std::numbers::pi * k / rows;
+      soup.points.push_back(
+          center + radius * Vec3{std::sin(b) * std::cos(a), std::sin(b) * std::sin(a), -std::cos(b)});
+    }
+  }
+  const auto at = [&](int k, int i) { return (k - 1) * around + i % around; };
+  const auto south = static_cast<std::int32_t>(soup.points.size());
+  soup.points.push_back(center - Vec3{0, 0, radius});
+  soup.points.push_back(center + Vec3{0, 0, radius});
+  for (int i = 0; i < around; ++i) {
+    add_triangle(soup, south, at(1, i + 1), at(1, i));
+    add_triangle(soup, south + 1, at(rows - 1, i), at(rows - 1, i + 1));
+    for (int k = 1; k + 1 < rows; ++k) {
+      add_triangle(soup, at(k, i), at(k, i + 1), at(k + 1, i + 1));
+      add_triangle(soup, at(k, i), at(k + 1, i + 1), at(k + 1, i));
+    }
+  }
+  return soup;
+}
+
+/// What the triangles enclose; normals outwards.
+inline double volume_of(const FacetSoup& soup) {
+  double volume = 0;
+  for (const auto& [a, b, c] : soup.triangles)
+    volume += dot(soup.points[a], cross(soup.points[b], soup.points[c])) / 6;
+  return volume;
+}
+
 /// As many programs write it: corners of each triangle on their own.
 inline std::string ascii_stl(const FacetSoup& soup, const std::string& name = "body") {
   std::string text = "solid " + name + "\n";

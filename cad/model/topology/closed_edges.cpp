@@ -8,6 +8,7 @@
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/topology/border_path.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
+#include "cad/model/topology/facets_aside.hpp"
 #include "cad/model/topology/middle_curves.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "geometry/disjoint_sets.hpp"
@@ -383,7 +384,10 @@ private:
 Model close_blunt_edges(const Model& model, const std::vector<BluntEdge>& strips) {
   if (model.data().joined || model.data().closed)
     throw std::invalid_argument("edges of this model are closed or faces joined already");
-  return guarded("closing blunt edges", [&] { return Closing(model, strips).run(); });
+  return guarded("closing blunt edges", [&] {
+    if (!model.data().faceted) return Closing(model, strips).run();
+    return with_facets_of(model, Closing(without_facets(model), strips).run());
+  });
 }
 
 }  // namespace aeroloom::cad

@@ -68,6 +68,17 @@ struct TrailingEdgeOptions {
   }
 };
 
+/// A body of flat triangles beside the geometry of DomainOptions, such as a store or an ice shape.
+struct FacetedBody {
+  std::string name;  ///< of the part that its faces belong to
+  std::string file;  ///< STL, OBJ, OFF, PLY, .poly or .smesh
+  double scale = 1;  ///< what its coordinates are multiplied by, to be in the unit of the geometry
+
+  static constexpr auto fields() {
+    return std::tuple(&FacetedBody::name, &FacetedBody::file, &FacetedBody::scale);
+  }
+};
+
 struct DomainOptions {
   std::string file;  ///< STEP, IGES or BREP, by content and extension; empty for `transport`
   std::optional<TransportDimensions> transport;  ///< the built-in aircraft
@@ -78,12 +89,13 @@ struct DomainOptions {
   /// Of faceted files: sides at which triangles turn by more, in degrees, become curves between faces.
   double feature_angle = 40;
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
+  std::vector<FacetedBody> parts = {};  ///< united with what they overlap
 
   static constexpr auto fields() {
     return std::tuple(&DomainOptions::file, &DomainOptions::transport, &DomainOptions::kind,
                       &DomainOptions::far_field, &DomainOptions::default_far_field,
                       &DomainOptions::trailing_edges, &DomainOptions::feature_angle,
-                      &DomainOptions::smallest_size);
+                      &DomainOptions::smallest_size, &DomainOptions::parts);
   }
 };
 

@@ -17,8 +17,11 @@ struct Change {
   std::string what;                ///< one sentence: entity and deed
   std::optional<Vec3> where = {};  ///< a place to look at
   double how_much = 0;             ///< largest distance anything moved, in the model's unit; 0: nothing moved
+  bool is_warning = false;         ///< the user may not want it
 
-  static constexpr auto fields() { return std::tuple(&Change::what, &Change::where, &Change::how_much); }
+  static constexpr auto fields() {
+    return std::tuple(&Change::what, &Change::where, &Change::how_much, &Change::is_warning);
+  }
 };
 
 using Changes = std::vector<Change>;
