@@ -83,7 +83,9 @@ private:
     }
     _checkpoints.emplace(_communicator, _input, _identity);
     if (!_input.domain.file.empty() && _identity.is_known) {
-      parallel::log_info(fmt::format("geometry: '{}', {} bytes, hash {}", _input.domain.file, _identity.bytes,
+      const std::size_t parts = _input.domain.parts.size();
+      parallel::log_info(fmt::format("geometry: '{}'{}, {} bytes, hash {}", _input.domain.file,
+                                     parts > 0 ? fmt::format(" and {} parts", parts) : "", _identity.bytes,
                                      _record.input_hash));
     }
     cases::TypedPatches patches =

@@ -24,6 +24,8 @@ namespace {
 // Chosen, not measured: triangles of bodies that are united lie a tenth of the smallest size off their faces,
 // or a ten-thousandth of the body where no size is known, and turn by twelve degrees at most.
 constexpr double deflection_over_size = 0.1, deflection_over_diagonal = 1e-4;
+/// Of the diagonal, however small sizes are: the built-in aircraft has 100,000 triangles then.
+constexpr double least_deflection = 5e-5;
 constexpr double facet_angle = 12 * geometry::degree;
 /// Where bodies come near each other, triangles are made as much finer in turn.
 constexpr double finer[] = {1, 0.25, 0.0625};
@@ -133,8 +135,9 @@ private:
   };
 
   double deflection(const CadBody& body) const {
-    return _options.smallest_size > 0 ? deflection_over_size * _options.smallest_size
-                                      : deflection_over_diagonal * body.box.diagonal();
+    const double diagonal = body.box.diagonal();
+    if (_options.smallest_size == 0) return deflection_over_diagonal * diagonal;
+    return std::max(deflection_over_size * _options.smallest_size, least_deflection * diagonal);
   }
 
   const ShapeFacets& triangulate(CadBody& body, double share) {

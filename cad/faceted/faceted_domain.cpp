@@ -128,7 +128,7 @@ std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered) {
   return tags;
 }
 
-Domain make_faceted_domain(const DomainOptions& options, FacetComplex complex, Changes changes) {
+Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes) {
   DomainReport report;
   report.changes = std::move(changes);
   std::optional<HullComparison> hull;

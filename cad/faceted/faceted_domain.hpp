@@ -16,7 +16,7 @@ namespace aeroloom::cad {
 /// As prepare_domain, of a faceted file. Throws CadError also where a plane of symmetry is asked for.
 Domain prepare_faceted(const DomainOptions& options);
 /// The same from the triangles on.
-Domain make_faceted_domain(const DomainOptions& options, FacetComplex complex, Changes changes);
+Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes);
 
 /// The outer triangles of the bodies in a file, closed and repaired, times `scale`; those that cross are
 /// united.

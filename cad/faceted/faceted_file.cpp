@@ -20,13 +20,12 @@ Domain prepare_triangles(const DomainOptions& options, CrossingFacets crossing) 
   tell_step("reading the triangles");
   FacetSoup soup = read_facets(options.file);
   tell_step("repairing the triangles");
-  FacetComplex complex =
+  const FacetComplex complex =
       make_facet_complex(std::move(soup), options.feature_angle * geometry::degree, changes, crossing);
   tell_step("making faces of the triangles");
-  const bool united = complex.united;
-  Domain domain = make_faceted_domain(options, std::move(complex), std::move(changes));
+  Domain domain = make_faceted_domain(options, complex, std::move(changes));
   // What crosses is united as bodies; a fluid is what is left between them, and is for the user to make.
-  if (united && domain.report.kind == DomainKind::fluid)
+  if (complex.united && domain.report.kind == DomainKind::fluid)
     return prepare_triangles(options, CrossingFacets::refuse);
   return domain;
 }

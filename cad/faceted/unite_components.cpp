@@ -158,6 +158,7 @@ private:
 
   geometry::UnitedSurface unite(const std::vector<std::int32_t>& group) const {
     std::vector<ClosedSurface> surfaces;
+    surfaces.reserve(group.size());
     for (const std::int32_t component : group) surfaces.push_back(surface_of(_soup, _members[component]));
     tell_step(fmt::format("uniting {} and {} others", name(group.front()), group.size() - 1));
     try {

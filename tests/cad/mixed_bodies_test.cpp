@@ -229,6 +229,21 @@ TEST(MixedBodies, TrailingEdgesCloseBesideTriangles) {
   EXPECT_EQ(Model::from_bytes(model.serialise()).serialise(), model.serialise());
 }
 
+TEST(MixedBodies, PartsStandBesideAFileOfTrianglesToo) {
+  const real::TemporaryFile hull("hull.stl",
+                                 faceted::ascii_stl(faceted::box_soup({0, 0, 0}, {2, 2, 2}), "hull")),
+      store("store.stl", faceted::ascii_stl(faceted::box_soup({1, 1, 1}, {3, 3, 3}))),
+      pod("pod.stl", faceted::ascii_stl(faceted::box_soup({5, 5, 5}, {6, 6, 6})));
+  DomainOptions options;
+  options.file = hull.path();
+  options.parts = {{"store", store.path(), 1}, {"pod", pod.path(), 1}};
+  const Domain domain = prepare_domain(options);
+  checks::expect_watertight(domain.model);
+  EXPECT_NEAR(body_volume(domain.model), 15 + 1, 1e-7);
+  for (const char* const patch : {"hull", "store", "pod"})
+    EXPECT_EQ(shapes::faces_of_patch(domain.model, patch).size(), 6U) << patch;
+}
+
 TEST(MixedBodies, AFileWithoutTrianglesIsNoPart) {
   const real::TemporaryFile file("store.step", "ISO-10303-21;");
   DomainOptions options;

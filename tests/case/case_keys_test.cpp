@@ -37,7 +37,8 @@ TEST(CaseKeys, WhatHasNoDefaultSaysWhatIsTakenOrIsLeftOut) {
   for (const KeyInfo& key : case_keys()) {
     if (key.has_keys_below()) continue;
     EXPECT_NE(key.default_value.empty(), key.doc.example.empty()) << key.path;
-    const bool geometry = key.path == "geometry.file" || key.path == "geometry.builtin";
+    const bool geometry = key.path == "geometry.file" || key.path == "geometry.builtin" ||
+                          key.path == "geometry.parts.NAME.file";
     EXPECT_EQ(geometry, key.default_value.empty() && key.doc.left_out.empty()) << key.path;
   }
 }
