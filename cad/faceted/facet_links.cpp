@@ -1,5 +1,7 @@
 #include "cad/faceted/facet_links.hpp"
 
+#include "geometry/sort_by_number.hpp"
+
 #include <algorithm>
 #include <tuple>
 
@@ -41,8 +43,9 @@ std::vector<SideRow> list_sides(const FacetComplex& complex) {
     row.half_edge = h;
     rows.push_back(row);
   }
-  std::sort(rows.begin(), rows.end(),
-            [](const SideRow& a, const SideRow& b) { return a.order() < b.order(); });
+  geometry::sort_by_number(
+      rows, [](const SideRow& row) { return row.low; },
+      [](const SideRow& a, const SideRow& b) { return a.order() < b.order(); });
   return rows;
 }
 
