@@ -25,6 +25,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import layer_peers_cases as cases
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
 # Corners of a cell with their neighbours, right-handed; VTK's numbering of wedges has its first triangle seen from inside anticlockwise.
 HEXAHEDRON = [(0, 1, 3, 4), (1, 2, 0, 5), (2, 3, 1, 6), (3, 0, 2, 7), (4, 7, 5, 0), (5, 4, 6, 1), (6, 5, 7, 2), (7, 6, 4, 3)]
 PRISM = [(0, 1, 2, 3), (1, 2, 0, 4), (2, 0, 1, 5), (3, 5, 4, 0), (4, 3, 5, 1), (5, 4, 3, 2)]
@@ -67,13 +69,13 @@ def row_of(jacobians, covered, seconds, cells):
     return f"{len(jacobians):,} | {shares} | {worst} | {cells:,} | {seconds}"
 
 
-def timed(command, folder, log, limit):
-    """CPU seconds of a command; what it says is in the log."""
+def timed(command, folder, log, limit, where=None):
+    """CPU seconds of a command, run in the folder or elsewhere; what it says is in the log."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    environment = os.environ | {"WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam"), "PWD": str(folder)}
+    environment = os.environ | {"WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam"), "PWD": str(where or folder)}
     with open(folder / log, "w", encoding="utf-8") as out:
         try:
-            code = subprocess.run([str(word) for word in command], cwd=folder, stdout=out, stderr=subprocess.STDOUT, timeout=limit,
+            code = subprocess.run([str(word) for word in command], cwd=where or folder, stdout=out, stderr=subprocess.STDOUT, timeout=limit,
                                   env=environment, check=False).returncode
         except subprocess.TimeoutExpired:
             sys.exit(f"{command[0]}: not within {limit} s. Remedy: a larger --limit or a coarser case")
@@ -206,7 +208,7 @@ def main():
     for folder in folders.values():
         folder.mkdir(parents=True, exist_ok=True)
     whole = timed([options.program.resolve(), "run", options.case.resolve(), "--set", f"output.directory={folders['ours']}"], root,
-                  "log.ours", options.limit)
+                  "log.ours", options.limit, ROOT)
     wall = Wall(folders["ours"])
     part = sum(wall.stages[name] for name in ("layers", "decompose", "volume", "improve"))
     print(f"{len(wall.walls):,} triangles of walls, median edge {wall.edge:.4g}, {len(wall.heights)} layers from {wall.heights[0]:.4g} "

@@ -77,7 +77,7 @@ def figures(folder):
     low, high, average = (float(word) for word in found[max(found)][1:4])
     cells = next(int(line.split()[-1]) for line in (folder / "log.checkMesh").read_text().splitlines() if "cells:" in line)
     return {"step": steps[-1], "lift": mean["lift"], "drag": mean["drag"], "lift_spread": (max(lift) - min(lift)) / size,
-            "drag_spread": (max(drag) - min(drag)) / mean["drag"], "y_least": low, "y_most": high, "y_mean": average,
+            "drag_spread": (max(drag) - min(drag)) / abs(mean["drag"]), "y_least": low, "y_most": high, "y_mean": average,
             "cells": cells, "steps_seen": len(steps)}
 
 

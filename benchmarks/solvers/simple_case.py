@@ -75,7 +75,7 @@ SIMPLE { nNonOrthogonalCorrectors 0; consistent yes; }
 relaxationFactors { fields { p RELAX_P; } equations { U RELAX_U; "(k|omega)" RELAX_T; } }
 """
 
-# The first steps from a uniform flow diverge with the relaxation that later steps bear. Steps are written by the hundred.
+# SIMPLEC without relaxation of the pressure diverges from the start on. Steps are written by the hundred.
 CAREFUL_STEPS = 100
 CAREFUL, QUICK = (0.5, 0.7, 0.5), (0.8, 0.9, 0.7)
 
