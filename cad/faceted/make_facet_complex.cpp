@@ -59,6 +59,7 @@ std::vector<char> enclosed_voids(const Chambers& chambers) {
     if (!chambers.chambers[ahead].filled && !chambers.chambers[behind].filled) spaces.unite(ahead, behind);
   }
   std::vector<char> enclosed;
+  enclosed.reserve(spaces.size());
   for (std::int32_t c = 0; c < static_cast<std::int32_t>(spaces.size()); ++c)
     enclosed.push_back(!chambers.chambers[c].filled && spaces.root(c) != 0);
   return enclosed;
