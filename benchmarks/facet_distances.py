@@ -4,7 +4,8 @@
 Reads the outputs that `real_cad.py FOLDER --keep OUTPUTS` leaves. Both surfaces are sampled densely: corners, and points on
 triangles no further apart than a fraction of the diagonal of the body. The nearest point of the other surface is found by a search of
 its own, not the program's. Edges of the file are sides at which it turns by more than --angle; they are compared with edges of the
-mesh between its faces. Lengths are over the diagonal, but for `over element`: over the longest side of the element there. Runs on Python with VTK (python3-vtk9).
+mesh between its faces. Lengths are over the diagonal, but for `over element`: over the longest side of the element there. Runs
+on Python with VTK (python3-vtk9).
 """
 
 import argparse
@@ -101,11 +102,13 @@ def within(points, triangles, low, high):
     return inside[triangles].all(axis=1)
 
 
-def sample_triangles(points, triangles, apart):
-    """Points on triangles, corners among them, no further apart than that, about, and their triangles."""
+def sample_triangles(points, triangles, apart, least):
+    """Points on triangles, corners among them, no further apart than that, about, and their triangles. Triangles that are
+    lower than that are sampled on their sides alone, and every side is cut into `least` parts or more."""
     corners = points[triangles]
     longest = numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    steps = numpy.maximum(1, numpy.ceil(longest / apart)).astype(int)
+    area = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    steps = numpy.where(area > apart * longest, numpy.ceil(longest / apart), 1).clip(least).astype(int)
     samples, owners = [], []
     for step in numpy.unique(steps):
         chosen = numpy.flatnonzero(steps == step)
@@ -114,6 +117,12 @@ def sample_triangles(points, triangles, apart):
                 weights = numpy.array([i, j, step - i - j]) / step
                 samples.append(numpy.einsum("k,tkx->tx", weights, corners[chosen]))
                 owners.append(chosen)
+    for a in range(3):
+        low = numpy.flatnonzero((steps == least) & (longest > least * apart))
+        ends = triangles[low][:, [a, (a + 1) % 3]]
+        along, which = sample_edges(points, ends, apart)
+        samples.append(along)
+        owners.append(low[which])
     samples, first = numpy.unique(numpy.concatenate(samples), axis=0, return_index=True)
     return samples, numpy.concatenate(owners)[first]
 
@@ -121,12 +130,13 @@ def sample_triangles(points, triangles, apart):
 def sample_edges(points, edges, apart):
     ends = points[edges]
     steps = numpy.maximum(1, numpy.ceil(numpy.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) / apart)).astype(int)
-    samples = [numpy.empty((0, 3))]
+    samples, owners = [numpy.empty((0, 3))], [numpy.empty(0, int)]
     for step in numpy.unique(steps):
-        chosen = ends[steps == step]
+        chosen = numpy.flatnonzero(steps == step)
         for i in range(step + 1):
-            samples.append(chosen[:, 0] + (i / step) * (chosen[:, 1] - chosen[:, 0]))
-    return numpy.concatenate(samples)
+            samples.append(ends[chosen, 0] + (i / step) * (ends[chosen, 1] - ends[chosen, 0]))
+            owners.append(chosen)
+    return numpy.concatenate(samples), numpy.concatenate(owners)
 
 
 def locator_of(points, cells, count):
@@ -193,8 +203,8 @@ def compare(file, output, options):
     apart = diagonal / options.samples
     corners = mesh[cells]
     longest = numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    there = distances(sample_triangles(points, triangles, apart)[0], mesh, cells)
-    samples, owners = sample_triangles(mesh, cells, apart)
+    there = distances(sample_triangles(points, triangles, apart, 1)[0], mesh, cells)
+    samples, owners = sample_triangles(mesh, cells, apart, 2)
     back = distances(samples, points, triangles)
     ratio = max((there.away / longest[there.cell]).max(), (back.away / longest[owners]).max())
     rms = numpy.sqrt(numpy.mean(numpy.concatenate([there.away, back.away])**2))
@@ -207,7 +217,7 @@ def compare(file, output, options):
         on_sides = f"{distances(mesh[numpy.unique(edges)], points, sides).away.max() / diagonal:.0e}"
         sharp = sharp_sides(points, triangles, options.angle)
         if len(sharp):
-            away = distances(sample_edges(points, sharp, apart), mesh, edges).away
+            away = distances(sample_edges(points, sharp, apart)[0], mesh, edges).away
             kept = f"{100 * (away < options.near * diagonal).mean():.1f}"
     print(f"| {file.name} | {len(triangles):,} | {len(cells):,} | {there.away.max() / diagonal:.1e} | {back.away.max() / diagonal:.1e} | "
           f"{rms / diagonal:.1e} | {ratio:.3f} | {nodes / diagonal:.0e} | {on_sides} | {kept} |", flush=True)
@@ -219,7 +229,7 @@ def main():
     parser.add_argument("outputs", type=pathlib.Path, help="what real_cad.py kept")
     parser.add_argument("--angle", type=float, default=40, help="degrees at which a side is an edge")
     parser.add_argument("--near", type=float, default=1e-3, help="over the diagonal: how far from the mesh's edges an edge is kept")
-    parser.add_argument("--samples", type=float, default=300, help="along the diagonal")
+    parser.add_argument("--samples", type=float, default=150, help="along the diagonal")
     options = parser.parse_args()
     print("| file | triangles | of the mesh | file to mesh | mesh to file | rms | over element | nodes | nodes on edges | edges kept, % |")
     print("|---" * 10 + "|")

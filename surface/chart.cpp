@@ -28,6 +28,9 @@ constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
 constexpr double endurable_excess = 2;
 /// A domain below this area, in squares of the size, is not split any further. Any map does for them.
 constexpr double few_elements = 4;
+/// Supports with more points are split before they are mapped: factors of the map's equations grow faster
+/// than points, and triangles of a file may be any number. Chosen, not measured.
+constexpr std::size_t most_points = 40000;
 /// Of the map that keeps triangles as rigid as may be; each lowers its energy. Chosen, not measured.
 constexpr int rigid_steps = 15;
 /// 16,384 charts of a face: a face that asks for more has no sensible normals (docs/bounds.md).
@@ -126,6 +129,7 @@ private:
       return true;
     }
     if (!is_planar_domain(support, geometry::match_half_edges(support.triangles))) return false;
+    if (support.points.size() > most_points && domain.depth < deepest_split) return false;
     const double spread = normal_spread(support);
     domain.best = choose_map(support, _limits, spread);
     const MapQuality& quality = domain.best->quality;
@@ -152,6 +156,10 @@ private:
       push(std::move(parts), domain.depth + 1);
       return;
     }
+    const bool may_map =
+        is_planar_domain(domain.support, geometry::match_half_edges(domain.support.triangles));
+    if (!domain.best && may_map)
+      domain.best = choose_map(domain.support, _limits, normal_spread(domain.support));
     if (!domain.best || !is_bearable(domain.best->quality)) fail(domain.support);
     accept(std::move(domain.support), std::move(domain.best->map));
   }

@@ -15,7 +15,6 @@ namespace aeroloom::surface {
 namespace {
 
 using cad::PrimitiveKind;
-using geometry::Vec3;
 
 /// The facets of all faces, as an exporter writes them.
 cad::FacetSoup facets_of(const cad::Model& model, double deflection) {
