@@ -54,9 +54,11 @@ def solve(folder, make, options):
 
 
 def rows_of(folder, name, file):
-    """By step, the columns of what a function object wrote in all starts; later starts win."""
+    """By step, the columns of what a function object wrote in all starts; later starts win. A start from a step that had one
+    before gives its file another name."""
     rows = {}
-    for path in sorted((folder / "postProcessing" / name).glob(f"*/{file}"), key=lambda p: float(p.parent.name)):
+    stem, ending = file.split(".")
+    for path in sorted((folder / "postProcessing" / name).glob(f"*/{stem}*.{ending}"), key=lambda p: p.stat().st_mtime_ns):
         for line in path.read_text().splitlines():
             words = line.split()
             if words and not words[0].startswith("#"):
