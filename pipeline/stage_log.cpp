@@ -189,7 +189,8 @@ void log_pinned(const report::RunRecord& record) {
       part(report.pinned), report.entities.size(), part(report.at_features), report.features.size(),
       report.held.tetrahedra == 0
           ? ""
-          : part(report.held) + " have a side or all corners on a surface or front of layers that stays as it is, ",
+          : part(report.held) +
+                " have a side or all corners on a surface or front of layers that stays as it is, ",
       part(report.rest)));
 }
 
