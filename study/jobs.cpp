@@ -37,17 +37,24 @@ mkdir -p "$run"
 keep=--checkpoints
 [ -d "$run/checkpoint" ] && keep=--resume
 echo "begin $(date +%s.%N) ${{SLURM_JOB_ID:-$$}} $(hostname)" >> "$run/marks"
-started=
+own=$(mktemp -d)
+trap 'rm -rf "$own"' EXIT
 over=
-# Asked to end: so is the run, which says where it stands.
-tell() {{ over=$1; [ -z "$started" ] || kill -TERM "$started" 2> /dev/null; }}
+# Asked to end: so is the run, which says where it stands. Whichever of the two comes first, the word or the
+# number of the run's process, the other finds it.
+tell() {{ over=$1; : > "$own/told"; kill -TERM "$(cat "$own/process" 2> /dev/null)" 2> /dev/null; }}
 trap 'tell time' USR1
 trap 'tell end' TERM
-{line} > "$run/log" 2>&1 &
+# A shell of its own takes down the run's code: bash loses it where a signal interrupts its wait for a run
+# that ends at that moment.
+(
+  trap : USR1 TERM
+  ( echo "$BASHPID" > "$own/process"; [ ! -e "$own/told" ] || exit 143; exec {line} ) > "$run/log" 2>&1
+  echo "$?" > "$own/code"
+) &
 started=$!
-wait "$started"
-code=$?
-while kill -0 "$started" 2> /dev/null; do wait "$started"; code=$?; done
+while kill -0 "$started" 2> /dev/null; do wait "$started"; done
+code=$(cat "$own/code")
 echo "end $(date +%s.%N) $code" >> "$run/marks"
 {again}
 tail -n 3 "$run/log"

@@ -48,6 +48,10 @@ protected:
     marks = read_marks(folder_of(study.options.directory, study.runs[0]));
     return code;
   }
+  /// The script is the parent of the shell that the program is started by.
+  inline static const std::string tell_script =
+      "read -r _ _ _ script _ < /proc/$PPID/stat\nkill -USR1 $script\n";
+
   std::string said() const { return read_file(folder.path / "said"); }
 
   StudyFolder folder{"script"};
@@ -73,11 +77,15 @@ TEST_F(ScriptOfJob, NamesWhatGoesOn) {
 }
 
 TEST_F(ScriptOfJob, SubmitsItselfWhenItsTimeIsOver) {
-  // The parent of the program is the script, which waits for it.
-  EXPECT_EQ(run("trap 'exit 143' TERM\nkill -USR1 $PPID\nsleep 20 & wait\n"), 143);
+  EXPECT_EQ(run("trap 'exit 143' TERM\n" + tell_script + "sleep 20 & wait\n"), 143);
   EXPECT_EQ(marks.code, 143);
   EXPECT_NE(said().find("time is over; goes on as job 4711"), std::string::npos) << said();
   EXPECT_EQ(read_file(folder.path / "jobs" / "submitted"), "strong_1_1 4711\n");
+}
+
+TEST_F(ScriptOfJob, HasTheCodeOfARunThatEndsAtOnce) {
+  // Whether the signal or the end of the run comes first to the script is left to chance.
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(run("trap '' TERM\n" + tell_script + "exit 3\n"), 3) << said();
 }
 
 TEST(Jobs, TellWhatTheQueueWroteOfTheirEnd) {
