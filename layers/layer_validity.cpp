@@ -17,7 +17,40 @@ using Level = std::array<Vec3, 3>;
 constexpr double kept_jacobian = 0.5;  // of the scaled Jacobian at vanishing height
 constexpr double kept_angle = 0.6;     // of the wall triangle's smallest angle
 
-bool is_good_prism(const Level& q, const Level& t) {
+/// Twice the area of a triangle along its normal.
+Vec3 normal_of(const Level& level) {
+  return cross(level[1] - level[0], level[2] - level[0]);
+}
+
+/// No component of a vector between two of the six nodes is longer, nor the sum of its components.
+double extent(const Level& q, const Level& t) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] =
+        std::minmax({q[0][axis], q[1][axis], q[2][axis], t[0][axis], t[1][axis], t[2][axis]});
+    sum += high - low;
+  }
+  return sum;
+}
+
+/// Whether all twelve tetrahedra of corners are positive, as far as rounding cannot matter; their
+/// determinants share normals of triangles and of lateral halves.
+bool is_clearly_positive(const Level& q, const Level& t, Vec3 below, Vec3 above) {
+  constexpr double beyond_rounding = 1e-14;
+  const double size = extent(q, t);
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) least = std::min({least, dot(below, t[i] - q[0]), dot(above, t[0] - q[i])});
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vec3 side = q[i] - q[j], at_j = cross(side, t[j] - q[j]), at_i = cross(side, t[i] - q[i]);
+    least = std::min({least, dot(at_j, t[k] - q[j]), dot(at_i, t[k] - q[j])});
+  }
+  return least > beyond_rounding * size * size * size;
+}
+
+/// `below` and `above` are the normals of the triangles.
+bool is_good_prism(const Level& q, const Level& t, Vec3 below, Vec3 above) {
+  if (is_clearly_positive(q, t, below, above)) return true;
   for (int i = 0; i < 3; ++i) {
     if (!has_positive_volume(q[0], q[1], q[2], t[i]) || !has_positive_volume(t[0], t[2], t[1], q[i]))
       return false;
@@ -39,12 +72,14 @@ bool is_good_pyramid(const Level& q, const Level& t, int i) {
 }
 
 /// The smallest determinant of unit vectors at the corners of a triangle: along its sides and the column.
-double corner_determinant(const Level& level, const TriangleColumns& columns) {
-  const Vec3 sides[3] = {normalized(level[1] - level[0]), normalized(level[2] - level[1]),
-                         normalized(level[0] - level[2])};
+double corner_determinant(const Level& level, Vec3 normal, const TriangleColumns& columns) {
+  const double sides[3] = {distance(level[0], level[1]), distance(level[1], level[2]),
+                           distance(level[2], level[0])};
   double least = 1;
-  for (int i = 0; i < 3; ++i)
-    least = std::min(least, dot(cross(sides[i], -sides[(i + 2) % 3]), columns[i].direction));
+  for (int i = 0; i < 3; ++i) {
+    const double area = sides[i] * sides[(i + 2) % 3];
+    least = std::min(least, area > 0 ? dot(normal, columns[i].direction) / area : 0);
+  }
   return least;
 }
 
@@ -89,10 +124,11 @@ private:
 };
 
 /// The cell of layer k between two levels, by how many of its columns are live there.
-bool is_good_cell(const TriangleColumns& columns, std::int32_t k, const Level& lower, const Level& upper) {
+bool is_good_cell(const TriangleColumns& columns, std::int32_t k, const Level& lower, const Level& upper,
+                  Vec3 below, Vec3 above) {
   const bool live[3] = {columns[0].count >= k, columns[1].count >= k, columns[2].count >= k};
   const int count = live[0] + live[1] + live[2];
-  if (count == 3) return is_good_prism(lower, upper);
+  if (count == 3) return is_good_prism(lower, upper, below, above);
   if (count == 2) return is_good_pyramid(lower, upper, !live[2] ? 0 : !live[0] ? 1 : 2);
   const int alone = live[0] ? 0 : live[1] ? 1 : 2;
   return has_positive_volume(lower[0], lower[1], lower[2], upper[alone]);
@@ -104,7 +140,7 @@ struct Least {
 
   explicit Least(const TriangleColumns& columns) {
     const Level wall{columns[0].point, columns[1].point, columns[2].point};
-    determinant = kept_jacobian * corner_determinant(wall, columns);
+    determinant = kept_jacobian * corner_determinant(wall, normal_of(wall), columns);
     cosine = std::cos(kept_angle * std::acos(largest_cosine(wall)));
   }
 };
@@ -131,7 +167,8 @@ bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least
     front[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
     prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
   }
-  return largest_cosine(front) <= least.cosine && corner_determinant(prism, columns) >= least.determinant;
+  return largest_cosine(front) <= least.cosine &&
+         corner_determinant(prism, normal_of(prism), columns) >= least.determinant;
 }
 
 }  // namespace
@@ -142,11 +179,15 @@ std::int32_t good_layers(const TriangleColumns& columns) {
   const Least least(columns);
   Levels levels(columns);
   Level lower = levels.level();
+  Vec3 below = normal_of(lower);
   for (std::int32_t k = 1; k <= most; ++k) {
     levels.advance();
-    if (!is_good_cell(columns, k, lower, levels.level())) return k - 1;
-    if (k <= prisms && corner_determinant(levels.level(), columns) < least.determinant) return k - 1;
-    lower = levels.level();
+    const Level& upper = levels.level();
+    const Vec3 above = normal_of(upper);
+    if (!is_good_cell(columns, k, lower, upper, below, above)) return k - 1;
+    if (k <= prisms && corner_determinant(upper, above, columns) < least.determinant) return k - 1;
+    lower = upper;
+    below = above;
   }
   return most;
 }
