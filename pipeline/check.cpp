@@ -42,14 +42,14 @@ constexpr std::int64_t least_tetrahedra = 10'000, most_tetrahedra = 1'000'000;
 
 /// How many ranks a run is worth, by what the clock has of geometry and sizing. Collective.
 study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicator,
-                                        const parallel::StageClock& clock,
-                                        const sizing::PredictedCounts& counts, const cases::Case& input) {
+                                        const parallel::StageClock& clock, const RunForecast& forecast,
+                                        const cases::Case& input) {
   const std::string tasks = report::task_table(communicator, clock);
   const Json measured{{"status", "ok"},
                       {"ranks", communicator.size()},
                       {"stages", report::stages_json(clock.summarise(communicator))}};
   if (!communicator.is_root()) return {};
-  return predicted_ranks(study::costs_of(measured, tasks), counts, input);
+  return predicted_ranks(study::costs_of(measured, tasks), forecast.counts, forecast.layers, input);
 }
 
 /// The clock has the stage `geometry`.
@@ -73,7 +73,6 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cases
   if (sized.level)
     forecast.levels = forecast_levels(*sized.level, sized.counts, input.sizing, communicator.size());
   clock.end();
-  forecast.worthwhile = worthwhile_ranks(communicator, clock, forecast.counts, input);
   const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
   forecast.seconds = predicted_seconds(forecast.counts);
   forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
@@ -83,6 +82,7 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cases
     forecast.seconds += forecast.layers->seconds();
     forecast.bytes += forecast.layers->bytes();
   });
+  forecast.worthwhile = worthwhile_ranks(communicator, clock, forecast, input);
   const double pieces = pieces_per_rank * communicator.size();
   forecast.piece_triangles =
       std::clamp<std::int64_t>(std::llround(triangles / pieces), least_triangles, most_triangles);

@@ -1,5 +1,6 @@
 #include "pipeline/forecast.hpp"
 
+#include "aeroloom/layers/columns.hpp"
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "partition/piece_size.hpp"
@@ -37,18 +38,30 @@ constexpr std::array<StageShare, 5> stage_shares{{{"decompose", nullptr, 1.0e-6,
 
 constexpr double gibibyte = 1024.0 * 1024 * 1024;
 
-/// The advice on what would fit on a node of `ranks_here` of all `ranks`, where `needed` bytes do not.
-std::string advise(double tetrahedra, double limit, int ranks_here, int ranks) {
+/// Of what layers add to the seconds of a run, the share of their own stage: DLR-F6, 7 million cells of
+/// layers (docs/boundary_layers.md). Checks and files have the rest.
+constexpr double share_of_layer_stage = 0.35;
+
+/// What a run is predicted to make and to hold, layers included, all ranks together but for what each starts
+/// with.
+struct Elements {
+  double tetrahedra, layer_cells, bytes;
+};
+
+/// The advice on what would fit on a node of `ranks_here` of all `ranks`. Of layers as many are taken to go
+/// as of tetrahedra.
+std::string advise(const Elements& elements, double limit, int ranks_here, int ranks) {
   const double for_elements = limit - base_bytes * ranks_here;
   if (for_elements <= 0) {
     return fmt::format("{} rank(s) on a node take {:.3g} GiB before the first element: fewer ranks on each",
                        ranks_here, base_bytes * ranks_here / gibibyte);
   }
-  const double fitting = for_elements * ranks / (bytes_per_tetrahedron * ranks_here);
+  const double share = for_elements * ranks / (elements.bytes * ranks_here);
+  const double fitting = share * elements.tetrahedra;
   return fmt::format(
       "{:.2g} tetrahedra would fit: sizes {:.2f} times as large (sizing.minimum, sizing.maximum "
       "or sizing.target_tetrahedra), or {} times as many nodes",
-      fitting, std::cbrt(tetrahedra / fitting), std::ceil(tetrahedra / fitting));
+      fitting, std::cbrt(1 / share), std::ceil(1 / share));
 }
 
 // Zones hold about two fifths of the tetrahedra, the rest comes from a table (volume.core_tetrahedra of the
@@ -80,7 +93,7 @@ study::TaskGroup uneven_tasks(const char* kind, double seconds, double elements,
 }  // namespace
 
 study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::PredictedCounts& counts,
-                                       const cases::Case& input) {
+                                       const std::optional<LayerForecast>& layers, const cases::Case& input) {
   const double held = measured.stages.empty() ? 0 : measured.stages.back().own_bytes;
   measured.ranks = 1;
   study::StageCosts surface{.name = "surface", .own_bytes = held};
@@ -88,12 +101,19 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
   surface.groups = {uneven_tasks("surface piece", surface_per_triangle * counts.triangles, counts.triangles,
                                  static_cast<double>(input.surface.piece_triangles), spread_of_surface)};
   measured.stages.push_back(std::move(surface));
+  const double layer_seconds = layers ? layers->seconds() : 0, layer_bytes = layers ? layers->bytes() : 0;
+  if (layer_seconds > 0) {
+    study::StageCosts stage{.name = "layers", .own_bytes = held + layer_bytes};
+    stage.groups = {uneven_tasks("wall piece", share_of_layer_stage * layer_seconds, counts.triangles,
+                                 double{layers::wall_piece_triangles}, spread_of_surface)};
+    measured.stages.push_back(std::move(stage));
+  }
   const auto of_piece = static_cast<double>(
       input.volume.piece_tets.value_or(partition::suitable_piece_tets(counts.tetrahedra)));
   for (const StageShare& share : stage_shares) {
     const double seconds = share.seconds_per_tetrahedron * counts.tetrahedra;
     study::StageCosts stage{.name = share.name, .repeated = share.repeated * seconds};
-    stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra;
+    stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra + layer_bytes;
     const double rest = seconds - stage.repeated;
     if (share.pieces == nullptr)
       stage.divisible = rest;
@@ -102,6 +122,7 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
           uneven_tasks(share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
     measured.stages.push_back(std::move(stage));
   }
+  measured.stages.back().divisible += (1 - share_of_layer_stage) * layer_seconds;
   return study::worthwhile_ranks(measured, {});
 }
 
@@ -114,22 +135,34 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks) {
 }
 
 void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
-                    std::int64_t bytes_of_node) {
-  const auto limit = static_cast<double>(communicator.minimum(bytes_of_node));
+                    const std::vector<mesh::PatchType>& types, const cases::Case& input) {
+  const auto limit = static_cast<double>(communicator.minimum(input.memory_limit));
   if (limit <= 0) return;
   const int ranks = communicator.size();
   const auto ranks_here = static_cast<int>(
       communicator.maximum(std::int64_t{parallel::find_node_shape(communicator).ranks_here}));
-  const sizing::PredictedCounts& counts = sized.counts;
-  const double needed = predicted_bytes(counts, ranks) * ranks_here / ranks;
+  Elements elements{sized.counts.tetrahedra, 0, bytes_per_tetrahedron * sized.counts.tetrahedra};
+  if (input.layers.given) {
+    double cells = 0, bytes = 0;
+    parallel::agree(communicator, [&] {
+      if (!communicator.is_root()) return;
+      const LayerForecast layers = forecast_layers(sized.model, types, input, sized.field);
+      cells = layers.cells();
+      bytes = layers.bytes();
+    });
+    elements.layer_cells = communicator.maximum(cells);
+    elements.bytes += communicator.maximum(bytes);
+  }
+  const double needed = (base_bytes + elements.bytes / ranks) * ranks_here;
   if (needed <= limit) return;
+  const std::string layers =
+      elements.layer_cells > 0 ? fmt::format(" and {:.2g} cells of layers", elements.layer_cells) : "";
   throw parallel::CollectiveError(
       parallel::FailureKind::resources,
-      fmt::format(
-          "about {:.2g} tetrahedra are predicted, which take {:.3g} GiB on a node with {} of {} rank(s); "
-          "{:.3g} GiB are allowed (--max-memory). {}",
-          counts.tetrahedra, needed / gibibyte, ranks_here, ranks, limit / gibibyte,
-          advise(counts.tetrahedra, limit, ranks_here, ranks)));
+      fmt::format("about {:.2g} tetrahedra{} are predicted, which take {:.3g} GiB on a node with {} of {} "
+                  "rank(s); {:.3g} GiB are allowed (--max-memory). {}",
+                  elements.tetrahedra, layers, needed / gibibyte, ranks_here, ranks, limit / gibibyte,
+                  advise(elements, limit, ranks_here, ranks)));
 }
 
 }  // namespace aeroloom::pipeline

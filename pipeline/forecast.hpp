@@ -5,9 +5,12 @@
 #include "aeroloom/domain/size_domain.hpp"
 #include "aeroloom/parallel/communication/communicator.hpp"
 #include "aeroloom/sizing/size_field.hpp"
+#include "pipeline/layer_forecast.hpp"
 #include "study/prediction_files.hpp"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace aeroloom::pipeline {
 
@@ -16,15 +19,16 @@ double predicted_seconds(const sizing::PredictedCounts& counts);
 /// Bytes of memory of all ranks together.
 double predicted_bytes(const sizing::PredictedCounts& counts, int ranks);
 
-/// How many ranks are worth asking for: a replay of geometry and sizing as `measured`, and of the rest as
-/// equal pieces of predicted cost that exchange nothing. Throws std::runtime_error where there is no record
-/// of those.
+/// How many ranks are worth asking for: a replay of geometry and sizing as `measured`, and of the rest,
+/// layers among it where there are any, as equal pieces of predicted cost that exchange nothing. Throws
+/// std::runtime_error where there is no record of those.
 study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::PredictedCounts& counts,
-                                       const cases::Case& input);
+                                       const std::optional<LayerForecast>& layers, const cases::Case& input);
 
-/// Ends a run that is predicted to take more than `bytes_of_node` on its fullest node, and says what would
-/// fit: CollectiveError (resources). Nothing where the limit is 0. Collective.
+/// Ends a run that is predicted to take more than `input.memory_limit` bytes on its fullest node, and says
+/// what would fit: CollectiveError (resources). Nothing where the limit is 0. `types` are those of the
+/// model's patches, which layers depend on. Collective.
 void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
-                    std::int64_t bytes_of_node);
+                    const std::vector<mesh::PatchType>& types, const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

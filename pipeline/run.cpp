@@ -21,6 +21,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,7 +42,7 @@ public:
     domain::SizedDomain sized = stage("sizing", report::ExitCode::cad, [&] {
       domain::SizedDomain found = find_or_build_sizes(domain);
       domain::require_walls_apart(found);
-      require_memory(_communicator, found, _input.memory_limit);
+      require_memory(_communicator, found, types_of(found.model.patches()), _input);
       return found;
     });
     FinishedSurface surface =
@@ -96,6 +97,12 @@ private:
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     describe(patches.model);
     return std::move(patches.model);
+  }
+
+  std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches) const {
+    std::vector<mesh::PatchType> types;
+    for (const std::string& patch : patches) types.push_back(_record.type_of_patch.at(patch));
+    return types;
   }
 
   cad::Model find_or_load_domain() {

@@ -20,11 +20,11 @@ groups:
   outer: {{faces: '*', type: farfield}}
 sizing:
   solver: cell
-  minimum: 0.002
-  surface_maximum: 0.7
-  maximum: 0.7
-  curvature_angle: 8
-  growth: 1.3
+  minimum: 0.001
+  surface_maximum: 0.9
+  maximum: 0.9
+  curvature_angle: 4
+  growth: 1.2
   proximity: 0             # the planes are nearer to each other than the far field's elements are long
   walls:
     foil: {{faces: [foil], size: 0.02, distance: 0}}

@@ -46,10 +46,12 @@ functions
 }}
 """
 
-# Convection of second order for the velocity; limits of gradients bite beyond twice the neighbours' range alone.
+# Convection of second order for the velocity; limits of gradients bite beyond twice the neighbours' range alone. Gradients take a face's
+# value from its corners: the mean of two cells is that of another point where their centres' line misses the face's centre, and on
+# tetrahedra it does.
 SCHEMES = """ddtSchemes { default steadyState; }
-gradSchemes { default Gauss linear; grad(U) cellLimited Gauss linear 0.5; grad(k) cellLimited Gauss linear 1;
-    grad(omega) cellLimited Gauss linear 1; }
+gradSchemes { default Gauss linear; grad(p) Gauss pointLinear; grad(U) cellLimited Gauss pointLinear 0.5;
+    grad(k) cellLimited Gauss linear 1; grad(omega) cellLimited Gauss linear 1; }
 divSchemes
 {
     default none;

@@ -41,6 +41,9 @@ def main():
     expect(0, ["hash"], 2, "run", "case.yaml")
     free = report()["mesh"]["hash"]
     expect(0, [free], 2, "run", "case.yaml", "--max-memory", "4G")
+    # The tetrahedra alone would fit.
+    expect(8, ["tetrahedra and", "cells of layers are predicted", "would fit"], 1, "run", "case.yaml", "--set", "layers.first=1e-3",
+           "--max-memory", "180M")
     for ranks in (1, 2):
         # Known to be too much once sizes are known.
         expect(8, ["stage sizing failed", "are predicted", "would fit", "--max-memory"], ranks, "run", "case.yaml",
