@@ -51,6 +51,7 @@ def solve(folder, make, options, start=None):
     run(["checkMesh"], folder, "log.checkMesh")
     careful = [min(simple_case.CAREFUL_STEPS, options.steps)]
     if start and not any(path.name.isdigit() and path.name != "0" for path in folder.iterdir()):
+        simple_case.write_case(folder, options.angle, grids.REYNOLDS)  # renumberMesh left its fields in binary
         start_from.start_from(folder, start)
         careful = []
     for steps in (*careful, options.steps):
