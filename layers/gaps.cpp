@@ -69,7 +69,7 @@ double least_diameter(const TouchingBall& ball, const Box& box) {
     ahead += std::max(low * ball.direction[axis], high * ball.direction[axis]);
   }
   if (ahead <= 0) return std::numeric_limits<double>::infinity();
-  return std::max(std::sqrt(squared), squared / ahead);
+  return ahead * ahead < squared ? squared / ahead : std::sqrt(squared);  // the larger of the two
 }
 
 Box box_of_ball(const TouchingBall& ball) {
