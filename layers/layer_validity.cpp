@@ -22,7 +22,7 @@ Vec3 normal_of(const Level& level) {
   return cross(level[1] - level[0], level[2] - level[0]);
 }
 
-/// No component of a vector between two of the six nodes is longer, nor the sum of its components.
+/// No vector between two of the six nodes has a larger sum of absolute components.
 double extent(const Level& q, const Level& t) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -37,7 +37,7 @@ mkdir -p "$run"
 keep=--checkpoints
 [ -d "$run/checkpoint" ] && keep=--resume
 echo "begin $(date +%s.%N) ${{SLURM_JOB_ID:-$$}} $(hostname)" >> "$run/marks"
-own=$(mktemp -d)
+own=$(mktemp -d) || exit 1
 trap 'rm -rf "$own"' EXIT
 over=
 # Asked to end: so is the run, which says where it stands. Whichever of the two comes first, the word or the
@@ -54,7 +54,8 @@ trap 'tell end' TERM
 ) &
 started=$!
 while kill -0 "$started" 2> /dev/null; do wait "$started"; done
-code=$(cat "$own/code")
+# That shell was killed where it left none.
+code=$(cat "$own/code" 2> /dev/null || echo 137)
 echo "end $(date +%s.%N) $code" >> "$run/marks"
 {again}
 tail -n 3 "$run/log"

@@ -4,10 +4,10 @@ layers and on a C-grid of blockMesh, with the same domain, schemes and wall func
 
 usage: naca0012.py FOLDER [--angle 10] [--steps 3000] [--y-plus 30] [--program AEROLOOM] [--report]
 
-The run on the C-grid starts from a uniform flow, that on the other mesh from the C-grid's flow, which saves a thousand steps of the
-dearer run; each is one process. Called again, they go on from their last written step. Needs OpenFOAM v1912 or later, Gmsh,
-which makes the CAD, and Python's scipy. Ends with a line RESULT; the exit code says whether lift lies within 3 % and drag within 10 % of the C-grid's
-(drag alone without incidence) and both were steady to 0.5 % over the last 300 steps.
+The run on the C-grid starts from a uniform flow, that on the other mesh, whose steps are dearer, from the C-grid's flow; each is one
+process. Called again, they go on from their last written step. Needs OpenFOAM v1912 or later, Gmsh, which makes the CAD, and Python's
+scipy. Ends with a line RESULT; the exit code says whether lift lies within 3 % and drag within 10 % of the C-grid's (drag alone without
+incidence) and both were steady to 0.5 % over the last 300 steps.
 """
 import argparse
 import pathlib
