@@ -67,6 +67,12 @@ void draw_polygon(Canvas& canvas, const Camera& camera, const CutPolygon& polygo
   canvas.draw_triangle({p[0], p[2], p[3]}, style);
 }
 
+/// Whether some of these corners are above the plane and others are not.
+bool straddles(const std::vector<double>& heights, const LocalIndex* corners, int count) {
+  const bool first = heights[corners[0]] > 0;
+  return std::any_of(corners + 1, corners + count, [&](LocalIndex v) { return (heights[v] > 0) != first; });
+}
+
 /// Where a plane cuts the edges of a pyramid, prism or tetrahedron, one after another around the cell.
 std::vector<ScreenPoint> cut_of_cell(const mesh::Piece& piece, mesh::CellOfPiece cell,
                                      const std::vector<double>& heights, const Camera& camera) {
@@ -95,7 +101,9 @@ std::vector<ScreenPoint> cut_of_cell(const mesh::Piece& piece, mesh::CellOfPiece
 void draw_layers(Canvas& canvas, const Camera& camera, const mesh::Piece& piece,
                  const std::vector<double>& heights, double edge_opacity) {
   for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) {
-    const std::vector<ScreenPoint> p = cut_of_cell(piece, mesh::cell_of(piece, c), heights, camera);
+    const mesh::CellOfPiece cell = mesh::cell_of(piece, c);
+    if (!straddles(heights, vertices_of(piece, cell), mesh::corners_of(cell.shape))) continue;
+    const std::vector<ScreenPoint> p = cut_of_cell(piece, cell, heights, camera);
     double area = 0, around = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const ScreenPoint &a = p[i], &b = p[(i + 1) % p.size()];
@@ -123,15 +131,17 @@ void draw_cut(Canvas& canvas, const Camera& camera, const mesh::DistributedMesh&
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       heights[v] = dot(plane.normal, piece.point(v)) - plane.offset;
     }
+    const auto is_above = [](double height) { return height > 0; };
+    const auto above = std::count_if(heights.begin(), heights.end(), is_above);
+    if (above == 0 || above == static_cast<std::ptrdiff_t>(heights.size())) continue;
     if (!piece.layers.empty()) {
       draw_layers(canvas, camera, piece, heights, edge_opacity);
       continue;
     }
     for (LocalIndex c = 0; c < piece.cell_count(); ++c) {
       const LocalIndex* v = piece.cell(c);
+      if (!straddles(heights, v, 4)) continue;
       const std::array<double, 4> h = {heights[v[0]], heights[v[1]], heights[v[2]], heights[v[3]]};
-      const auto [low, high] = std::minmax_element(h.begin(), h.end());
-      if (!(*high > 0) || *low > 0) continue;
       std::array<Vec3, 4> corners;
       for (int i = 0; i < 4; ++i) corners[i] = piece.point(v[i]);
       const CutPolygon polygon = cut(corners, h);

@@ -2,6 +2,7 @@
 
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/local_file.hpp"
+#include "io/vtk/file_plan.hpp"
 #include "parallel/observation/progress.hpp"
 
 #include <algorithm>
@@ -55,62 +56,27 @@ std::span<const Block> blocks_of(const FilePart& part, PartContent content) {
   return part.faces;
 }
 
-/// The plan for a file, the same on every rank.
-struct FilePlan {
-  parallel::Rank writer = 0;
-  std::size_t round = 0;  ///< the files of this writer before it
-};
-
-/// Which part goes into which file, a function of the mesh alone, and who writes that.
-struct Plan {
-  std::vector<std::size_t> file_of;  ///< per part
-  std::vector<FilePlan> files;
-  std::size_t rounds = 0;  ///< that the busiest writer takes
-
-  const FilePlan& plan_of(const PartPiece& piece) const { return files[file_of[piece.part.id]]; }
-};
-
-/// A part and where it lives.
-struct PlaceRow {
-  mesh::GlobalIndex items;
-  std::int32_t id, rank;
-
-  static constexpr auto fields() { return std::tuple(&PlaceRow::items, &PlaceRow::id, &PlaceRow::rank); }
-};
-
-/// The rows of all parts by id.
-std::vector<PlaceRow> gather_rows(const parallel::Communicator& communicator,
-                                  std::span<const PartPiece> pieces, PartContent content) {
-  std::vector<PlaceRow> mine;
-  for (const PartPiece& piece : pieces)
-    mine.push_back({items_of(piece.part, content), piece.part.id, communicator.rank()});
-  auto rows = communicator.all_gather_items(std::span<const PlaceRow>(mine));
-  std::sort(rows.begin(), rows.end(), [](const PlaceRow& a, const PlaceRow& b) { return a.id < b.id; });
-  return rows;
+/// The items of a part in corners.
+mesh::GlobalIndex work_of(const FilePart& part, PartContent content) {
+  mesh::GlobalIndex corners = 0;
+  for (const Block& block : blocks_of(part, content))
+    corners += static_cast<mesh::GlobalIndex>(block.count()) * block.corners;
+  return corners;
 }
 
-Plan plan_files(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
-                PartContent content, mesh::GlobalIndex items_per_file) {
-  Plan plan;
-  std::vector<std::size_t> rounds(communicator.size(), 0);
-  std::map<parallel::Rank, mesh::GlobalIndex> held;  // of the file that is being filled
-  mesh::GlobalIndex filled = 0;
-  const auto close = [&] {
-    const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
-    const parallel::Rank writer = std::max_element(held.begin(), held.end(), less)->first;
-    plan.files.push_back({writer, rounds[writer]++});
-    plan.rounds = std::max(plan.rounds, rounds[writer]);
-    held.clear();
-    filled = 0;
-  };
-  for (const PlaceRow& row : gather_rows(communicator, mine, content)) {
-    plan.file_of.push_back(plan.files.size());
-    held[row.rank] += row.items;
-    filled += row.items;
-    if (filled >= items_per_file) close();
+/// Collective.
+FilePlan plan_for(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
+                  PartContent content, mesh::GlobalIndex items_per_file) {
+  std::vector<PartPlace> places;
+  for (const PartPiece& piece : mine) {
+    places.push_back({.id = piece.part.id,
+                      .rank = communicator.rank(),
+                      .items = items_of(piece.part, content),
+                      .work = work_of(piece.part, content)});
   }
-  if (!held.empty()) close();
-  return plan;
+  auto all = communicator.all_gather_items(std::span<const PartPlace>(places));
+  std::sort(all.begin(), all.end(), [](const PartPlace& a, const PartPlace& b) { return a.id < b.id; });
+  return plan_files(all, items_per_file, communicator.size());
 }
 
 /// The arrays of a part that travel.
@@ -184,12 +150,13 @@ PartPiece view(const BroughtPiece& brought) {
   return piece;
 }
 
-/// Brings the parts that the files of this round lack on their writers.
+/// Brings the parts that the files of this round lack on their writers. Collective.
 std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicator,
-                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t round) {
+                                       std::span<const PartPiece> mine, const FilePlan& plan,
+                                       std::size_t round) {
   std::map<parallel::Rank, parallel::Packer> packers;
   for (const PartPiece& piece : mine) {
-    const FilePlan& file = plan.plan_of(piece);
+    const PlannedFile& file = plan.plan_of(piece.part.id);
     if (file.round == round && file.writer != communicator.rank())
       parallel::pack(packers[file.writer], arrays_of(piece));
   }
@@ -205,19 +172,24 @@ std::vector<BroughtPiece> bring_pieces(const parallel::Communicator& communicato
   return pieces;
 }
 
-/// The parts of this rank's file of a round, ascending; none where its files are written.
-std::vector<PartPiece> pieces_of_round(const parallel::Communicator& communicator,
-                                       std::span<const PartPiece> mine, const Plan& plan, std::size_t round,
-                                       const std::vector<BroughtPiece>& brought) {
-  std::vector<PartPiece> pieces;
-  for (const PartPiece& piece : mine) {
-    const FilePlan& file = plan.plan_of(piece);
-    if (file.round == round && file.writer == communicator.rank()) pieces.push_back(piece);
+/// The files of a round by number, and the parts of each, ascending.
+using PiecesOfFiles = std::map<std::size_t, std::vector<PartPiece>>;
+
+/// Of this rank: those that it holds, and those that were brought.
+PiecesOfFiles pieces_of_round(parallel::Rank rank, std::span<const PartPiece> mine, const FilePlan& plan,
+                              std::size_t round, const std::vector<BroughtPiece>& brought) {
+  PiecesOfFiles files;
+  const auto add = [&](const PartPiece& piece) {
+    const std::size_t file = plan.file_of[static_cast<std::size_t>(piece.part.id)];
+    if (plan.files[file].writer == rank && plan.files[file].round == round) files[file].push_back(piece);
+  };
+  std::for_each(mine.begin(), mine.end(), add);
+  for (const BroughtPiece& other : brought) add(view(other));
+  for (auto& [file, pieces] : files) {
+    std::sort(pieces.begin(), pieces.end(),
+              [](const PartPiece& a, const PartPiece& b) { return a.part.id < b.part.id; });
   }
-  for (const BroughtPiece& other : brought) pieces.push_back(view(other));
-  std::sort(pieces.begin(), pieces.end(),
-            [](const PartPiece& a, const PartPiece& b) { return a.part.id < b.part.id; });
-  return pieces;
+  return files;
 }
 
 }  // namespace
@@ -288,16 +260,21 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) prepare_folder(files);
   });
-  const Plan plan = plan_files(communicator, mine, content, items_per_file);
-  parallel::Progress progress("output", static_cast<std::int64_t>(plan.rounds), "files");
-  for (std::size_t round = 0; round < plan.rounds; ++round) {
-    const std::vector<BroughtPiece> brought = bring_pieces(communicator, mine, plan, round);
-    const std::vector<PartPiece> pieces = pieces_of_round(communicator, mine, plan, round, brought);
+  const FilePlan plan = plan_for(communicator, mine, content, items_per_file);
+  const auto of_this_rank = [&](const PlannedFile& file) { return file.writer == communicator.rank(); };
+  parallel::Progress progress("output", std::count_if(plan.files.begin(), plan.files.end(), of_this_rank),
+                              "files");
+  const auto write_round = [&](std::size_t round, const std::vector<BroughtPiece>& brought) {
     parallel::agree(communicator, [&] {
-      if (!pieces.empty()) write(pieces, files.part_path(plan.file_of[pieces[0].part.id]));
+      for (const auto& [file, pieces] : pieces_of_round(communicator.rank(), mine, plan, round, brought)) {
+        write(pieces, files.part_path(file));
+        progress.advance(1, 1);
+      }
     });
-    progress.advance(1, pieces.empty() ? 0 : 1);
-  }
+  };
+  for (std::size_t round = 0; round < plan.rounds; ++round)
+    write_round(round, bring_pieces(communicator, mine, plan, round));
+  write_round(PlannedFile::no_round, {});
   return plan.files.size();
 }
 

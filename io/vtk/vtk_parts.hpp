@@ -1,5 +1,4 @@
-/// How a mesh becomes part files: fixed groups of consecutive parts, each written by the rank that holds
-/// most of it.
+/// How a mesh becomes part files: fixed groups of consecutive parts, written by all ranks (file_plan.hpp).
 #pragma once
 
 #include "aeroloom/io/file_mesh.hpp"
@@ -57,10 +56,9 @@ struct PartFiles {
 using PartWriter = std::function<void(const std::vector<PartPiece>& pieces, const std::string& path)>;
 
 /// Makes the folders, removes index and parts of an earlier run, and writes the files: consecutive parts
-/// together until they have `items_per_file` cells (or faces), each file by the rank that holds most of it.
-/// Only parts that live elsewhere travel, and each rank holds those of one file at a time. `mine` are the
-/// parts on this rank, ascending; ids run from 0 over all ranks. Returns the number of files. Collective;
-/// throws CollectiveError when anything cannot be written.
+/// together until they have `items_per_file` cells (or faces), as plan_files() says. Only parts that live
+/// elsewhere travel, in rounds. `mine` are the parts on this rank, ascending; ids run from 0 over all ranks.
+/// Returns the number of files. Collective; throws CollectiveError when anything cannot be written.
 std::size_t write_parts(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
                         PartContent content, mesh::GlobalIndex items_per_file, const PartFiles& files,
                         const PartWriter& write);
