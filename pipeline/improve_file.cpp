@@ -1,5 +1,7 @@
 #include "pipeline/improve_file.hpp"
 
+#include "aeroloom/mesh/quality.hpp"
+#include "aeroloom/parallel/observation/log.hpp"
 #include "imported/imported_mesh.hpp"
 #include "mesh/boundary_mesh.hpp"
 #include "pipeline/finished_volume.hpp"
@@ -7,7 +9,35 @@
 #include "pipeline/write_outputs.hpp"
 #include "report/pictures.hpp"
 
+#include <fmt/format.h>
+
 namespace aeroloom::pipeline {
+
+namespace {
+
+/// Tetrahedra of boundary layers are flat on purpose: improvement takes them for bad ones. Collective.
+void warn_of_layers(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume) {
+  constexpr double flat_deg = 1, share_of_layers = 0.1;  // no mesher leaves so many by mistake
+  std::int64_t flat = 0, all = 0;
+  for (const mesh::Piece& piece : volume.pieces) {
+    all += piece.cell_count();
+    for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
+      const mesh::LocalIndex* v = piece.cell(c);
+      const auto p = [&](int k) { return piece.point(v[k]); };
+      flat += mesh::dihedral_range(p(0), p(1), p(2), p(3)).smallest < flat_deg ? 1 : 0;
+    }
+  }
+  flat = communicator.sum(flat), all = communicator.sum(all);
+  if (!communicator.is_root() || static_cast<double>(flat) <= share_of_layers * static_cast<double>(all))
+    return;
+  parallel::log_warning(fmt::format(
+      "improve: {:.0f} % of the tetrahedra have an angle below {} degree, as those of boundary layers have: "
+      "improvement takes time over each of them and destroys the layers. Remedy: improve the mesh in the run "
+      "that makes it, which leaves layers as they are",
+      100.0 * static_cast<double>(flat) / static_cast<double>(all), flat_deg));
+}
+
+}  // namespace
 
 void improve_file(const parallel::Communicator& communicator, const std::string& file,
                   const cases::Case& input, report::RunRecord& record) {
@@ -17,6 +47,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
     return imported::import_mesh(communicator, file, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
+  warn_of_layers(communicator, volume);
   run_stage(record, "improve", report::ExitCode::volume,
             [&] { improve_volume(communicator, fixed, {}, volume, record); });
   const mesh::Numbering numbering = run_stage(record, "inspect", report::ExitCode::volume, [&] {

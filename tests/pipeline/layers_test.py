@@ -3,6 +3,7 @@
 surface as it is without layers, rows of the report. usage: layers_test.py PROGRAM"""
 import collections
 import json
+import subprocess
 import sys
 
 import jsonschema
@@ -109,6 +110,20 @@ def check_tets(program, folder, prisms):
     gate, = runs[1].report["quality"]["gate"]
     assert gate["key"] == "layers.gate.full_area" and gate["met"] and gate["limit"] == 0.9 and gate["value"] > 0.99, gate
     check_measured(runs[1])
+    check_warning(program, runs[1].output)
+
+
+def check_warning(program, folder):
+    """Improvement of a file would destroy layers: it warns before it begins."""
+    done = subprocess.Popen([program, "improve", folder / "mesh.pvtu", "--set", f"output.directory={folder / 'improved'}"],
+                            stderr=subprocess.PIPE, text=True)
+    for line in done.stderr:
+        if "as those of boundary layers have" in line:
+            break
+    else:
+        raise AssertionError("no warning")
+    done.terminate()
+    done.communicate(timeout=60)
 
 
 def check_gate(program):
