@@ -1,6 +1,7 @@
 #include "surface/piece_mesher.hpp"
 
 #include "cad/model/evaluation/face_width.hpp"
+#include "surface/pointed_tips.hpp"
 #include "surface/support_mesher.hpp"
 
 #include <algorithm>
@@ -34,6 +35,10 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   piece.shared_keys = vertices.vertex_keys;
   piece.vertex_dimension.resize(mesh.points.size(), mesh::CadDimension::face);
   piece.vertex_entity.resize(mesh.points.size(), mesh.face);
+  for (const FaceMesh::Tip& tip : mesh.tips) {
+    piece.vertex_dimension[tip.at] = mesh::CadDimension::vertex;
+    piece.vertex_entity[tip.at] = tip.vertex;
+  }
   piece.triangle_face.assign(mesh.triangles.size(), mesh.face);
   piece.triangle_patch.assign(mesh.triangles.size(), model.face(mesh.face).patch);
   return piece;
@@ -64,8 +69,9 @@ mesh::Piece mesh_piece(const cad::Model& model, const Subface& subface, const si
                        const SurfaceOptions& options) {
   const SupportMeshing meshing{.chart_spread = options.chart_spread,
                                .remeshing = {.sweeps = options.smoothing_sweeps}};
-  return piece_of(model, subface.vertices,
-                  mesh_support(model, field, subface.support, subface.vertices, meshing));
+  FaceMesh mesh = mesh_support(model, field, subface.support, subface.vertices, meshing);
+  cap_pointed_tips(field, find_pointed_tips(model, subface.support), mesh);
+  return piece_of(model, subface.vertices, mesh);
 }
 
 }  // namespace aeroloom::surface
