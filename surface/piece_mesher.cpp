@@ -71,6 +71,7 @@ mesh::Piece mesh_piece(const cad::Model& model, const Subface& subface, const si
                                .remeshing = {.sweeps = options.smoothing_sweeps}};
   FaceMesh mesh = mesh_support(model, field, subface.support, subface.vertices, meshing);
   cap_pointed_tips(field, find_pointed_tips(model, subface.support), mesh);
+  split_tips_of_two_faces(model, subface.vertices, mesh);
   return piece_of(model, subface.vertices, mesh);
 }
 

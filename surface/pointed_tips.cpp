@@ -1,5 +1,9 @@
 #include "surface/pointed_tips.hpp"
 
+#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "mesh/shared_vertex_keys.hpp"
+#include "surface/sharp_corners.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +18,9 @@ namespace {
 using geometry::Vec3;
 
 constexpr double widest_tip = 340 * std::numbers::pi / 180;
+/// Of the distance to the next point of the support: what tolerances of the CAD model leave between a vertex
+/// and the pole of a surface. Chosen, not measured.
+constexpr double same_place = 1e-3;
 /// Sizes that fit around a tip at the ring of its fan, at least: with three the fan has no inside.
 constexpr double least_around = 4;
 /// The disk that gives way grows by this factor, so often, until it is one.
@@ -24,20 +31,27 @@ double angle_between(Vec3 a, Vec3 b) {
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-/// Angles of the support's triangles around a point, together; nothing on the border.
-std::optional<double> angle_around(const Support& support, std::int32_t point) {
+/// The triangles of a support around a point inside of it.
+struct Surroundings {
+  double angle = 0;                                   ///< of all triangles there together
+  double reach = std::numeric_limits<double>::max();  ///< to the nearest other point
+};
+
+/// Nothing on the border.
+std::optional<Surroundings> look_around(const Support& support, std::int32_t point) {
   const auto uses = [&](const auto& edge) { return edge[0] == point || edge[1] == point; };
   if (std::any_of(support.loop_edges.begin(), support.loop_edges.end(), uses)) return std::nullopt;
-  double angle = 0;
+  Surroundings around;
   for (const auto& t : support.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (t[k] != point) continue;
-      const Vec3 p = support.points[point];
-      angle += angle_between(support.points[t[(k + 1) % 3]] - p, support.points[t[(k + 2) % 3]] - p);
+      const Vec3 out = support.points[t[(k + 1) % 3]] - support.points[point];
+      const Vec3 back = support.points[t[(k + 2) % 3]] - support.points[point];
+      around.angle += angle_between(out, back);
+      around.reach = std::min(around.reach, norm(out));
     }
   }
-  if (angle == 0) return std::nullopt;
-  return angle;
+  return around;
 }
 
 std::int32_t nearest_point(const std::vector<Vec3>& points, Vec3 place) {
@@ -137,7 +151,77 @@ void cap(const PointedTip& tip, double size, FaceMesh& mesh) {
   }
 }
 
+/// Where a triangle lies, as its number and the corner at a vertex.
+struct CornerOfTriangle {
+  std::size_t triangle = 0;
+  int corner = 0;
+};
+
+/// The triangle at a vertex that one alone uses.
+std::optional<CornerOfTriangle> only_triangle_at(const FaceMesh& mesh, std::int32_t vertex) {
+  std::optional<CornerOfTriangle> only;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (mesh.triangles[t][k] != vertex) continue;
+      if (only) return std::nullopt;
+      only = {t, k};
+    }
+  }
+  return only;
+}
+
+/// The triangle with this side, from `to` to `from`, and the corner opposite.
+std::optional<CornerOfTriangle> triangle_behind(const FaceMesh& mesh, std::int32_t from, std::int32_t to) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto& triangle = mesh.triangles[t];
+      if (triangle[(k + 1) % 3] == to && triangle[(k + 2) % 3] == from) return CornerOfTriangle{t, k};
+    }
+  }
+  return std::nullopt;
+}
+
+/// A value of a periodic parameter next to another.
+double beside(double value, double other, double period) {
+  return period > 0 ? value - period * std::round((value - other) / period) : value;
+}
+
+/// Half-way between two vertices in the parameters of the face.
+geometry::Vec2 middle_in_parameters(const cad::Model& model, const FaceMesh& mesh, std::int32_t a,
+                                    std::int32_t b) {
+  const geometry::Vec2 from = mesh.uv[a], period = model.parameter_periods(mesh.face, from);
+  const geometry::Vec2 to = {beside(mesh.uv[b].x, from.x, period.x), beside(mesh.uv[b].y, from.y, period.y)};
+  return model.wrap(mesh.face, 0.5 * (from + to));
+}
+
+void split_tip(const cad::Model& model, const cad::FaceCorner& corner, std::int32_t vertex, FaceMesh& mesh) {
+  const auto at_tip = only_triangle_at(mesh, vertex);
+  if (!at_tip) return;
+  const auto tip = mesh.triangles[at_tip->triangle];
+  const std::int32_t from = tip[(at_tip->corner + 1) % 3], to = tip[(at_tip->corner + 2) % 3];
+  const auto behind = triangle_behind(mesh, from, to);
+  constexpr double part_of_side = 0.5;
+  const double near = part_of_side * distance(mesh.points[vertex], mesh.points[from]);
+  if (!behind || !is_tip_of_two_faces(model, corner, near)) return;
+  const std::int32_t opposite = mesh.triangles[behind->triangle][behind->corner];
+  const geometry::Vec2 uv = middle_in_parameters(model, mesh, from, to);
+  const auto middle = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.push_back(model.face_point(mesh.face, uv)), mesh.uv.push_back(uv);
+  mesh.triangles[at_tip->triangle] = {vertex, from, middle};
+  mesh.triangles[behind->triangle] = {opposite, to, middle};
+  mesh.triangles.push_back({vertex, middle, to});
+  mesh.triangles.push_back({opposite, middle, from});
+}
+
 }  // namespace
+
+void split_tips_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh) {
+  for (const cad::FaceCorner& corner : cad::corners_of(model, mesh.face)) {
+    const mesh::SharedVertexKey key = mesh::cad_vertex_key(corner.vertex);
+    if (std::binary_search(vertices.vertex_keys.begin(), vertices.vertex_keys.end(), key))
+      split_tip(model, corner, vertices.find(key), mesh);
+  }
+}
 
 std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support& support) {
   std::vector<PointedTip> tips;
@@ -147,11 +231,12 @@ std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support
       if (!edge.degenerate || support.points.empty()) continue;
       const Vec3 place = model.vertex(edge.first);
       const std::int32_t point = nearest_point(support.points, place);
-      if (support.points[point] != place || support.mesh_vertex[point] >= 0) continue;
-      const std::optional<double> angle = angle_around(support, point);
-      if (!angle || *angle >= widest_tip) continue;
+      if (support.mesh_vertex[point] >= 0) continue;
+      const auto around = look_around(support, point);
+      if (!around || around->angle == 0 || around->angle >= widest_tip) continue;
+      if (distance(support.points[point], place) > same_place * around->reach) continue;
       const double middle = 0.5 * (edge.first_parameter + edge.last_parameter);
-      tips.push_back({edge.first, place, model.edge_uv(support.face, use, middle), *angle});
+      tips.push_back({edge.first, place, model.edge_uv(support.face, use, middle), around->angle});
     }
   }
   return tips;

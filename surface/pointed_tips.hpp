@@ -29,4 +29,9 @@ std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support
 /// no disk.
 void cap_pointed_tips(const sizing::SizeField& field, const std::vector<PointedTip>& tips, FaceMesh& mesh);
 
+/// Where two CAD faces alone meet in a tip, the halves of a cone or the shells of a lens, a single triangle
+/// of each would fill it, the same one twice. Such triangles are split, as is the one behind each, by a
+/// vertex on the face between the two curves. After it no edge may change.
+void split_tips_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh);
+
 }  // namespace aeroloom::surface

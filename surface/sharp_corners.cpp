@@ -18,8 +18,12 @@ using geometry::Vec3;
 
 /// Degrees, as where sizes look for sharp corners (sizing/corner_sources.cpp).
 constexpr double sharp = 30;
+/// As above, in tips of two faces. Chosen, not measured.
+constexpr double sharp_tip = 100;
 /// A leg ends where the gap between the edges is this fraction of the size there. Chosen, not measured.
 constexpr double fitting = 0.8;
+/// In tips of two faces: longer edges than 1.4 sizes are divided (remesh.hpp), so that none spans half a cone.
+constexpr double fitting_tip = 1.6;
 /// Legs are sought in steps of this ratio, from the size at the corner on. Chosen, not measured.
 constexpr double step = 1.1;
 constexpr int most_steps = 36;  // to 31 times the size at the corner
@@ -46,9 +50,10 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
                      {end_at_corner(corner.arriving, false), end_at_corner(corner.leaving, true)}};
   double distance_along = field(model.vertex(corner.vertex));
   const double closed = sizing::closing_angle(model, corner);
+  const bool is_tip = is_tip_of_two_faces(model, corner, distance_along);
   for (int k = 0; k < most_steps; ++k, distance_along *= step) {
     const auto opening = cad::open_corner(model, corner, distance_along);
-    if (!opening || opening->degrees >= sharp) break;
+    if (!opening || opening->degrees >= (is_tip ? sharp_tip : sharp)) break;
     if (k == 0) result.degrees = opening->degrees;
     bool both_straight = true;
     for (int i = 0; i < 2; ++i) {
@@ -56,7 +61,7 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
     }
     if (!both_straight) break;
     const double size = std::min(field(opening->points[0]), field(opening->points[1]));
-    if (opening->width >= fitting * size) {
+    if (opening->width >= (is_tip ? fitting_tip : fitting) * size) {
       if (opening->degrees >= closed) result.leg = distance_along;
       break;
     }
@@ -67,6 +72,17 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
 }
 
 }  // namespace
+
+bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance) {
+  const auto &arriving = model.edge(corner.arriving.edge), &leaving = model.edge(corner.leaving.edge);
+  if (corner.arriving.edge == corner.leaving.edge || arriving.faces.size() != 2) return false;
+  if (arriving.faces != leaving.faces) return false;
+  const cad::FaceId other = arriving.faces[arriving.faces[0] == corner.face ? 1 : 0];
+  for (const cad::FaceCorner& beyond : cad::corners_of(model, other)) {
+    if (beyond.vertex == corner.vertex) return cad::open_corner(model, beyond, distance).has_value();
+  }
+  return false;
+}
 
 std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator, const Model& model,
                                             const sizing::SizeField& field, parallel::StageClock& clock) {

@@ -15,6 +15,7 @@
 namespace aeroloom::surface {
 
 /// Where two edges of a face meet below 30 degrees, as elements see it: from the distance of the local size.
+/// In a tip of two faces below 100: the sides of a cone of 50 degrees about its axis.
 struct SharpCorner {
   cad::FaceId face = cad::no_entity;
   cad::VertexId vertex = cad::no_entity;
@@ -31,6 +32,10 @@ struct SharpCorner {
                       &SharpCorner::leg, &SharpCorner::closes);
   }
 };
+
+/// Whether the same other face lies beyond both edges of a corner, and its corner there is not reflex either,
+/// as edges are at that distance: both faces end in one tip, halves of a cone or shells of a lens.
+bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);
 
 /// All of them by face, the same on every rank. Collective.
 std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator,

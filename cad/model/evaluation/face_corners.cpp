@@ -23,6 +23,13 @@ Vec3 normal_at(const Model& model, const FaceCorner& corner) {
   return {};
 }
 
+/// The normal half-way between the edges where a corner is cut off.
+Vec3 normal_between(const Model& model, const FaceCorner& corner, const CornerOpening& opening) {
+  const Vec2 a = model.edge_uv(corner.face, corner.arriving, opening.parameters[0]);
+  const Vec2 b = model.edge_uv(corner.face, corner.leaving, opening.parameters[1]);
+  return model.face_frame(corner.face, 0.5 * (a + b)).normal;
+}
+
 }  // namespace
 
 std::vector<FaceCorner> corners_of(const Model& model, FaceId id) {
@@ -109,7 +116,11 @@ std::optional<CornerOpening> open_corner(const Model& model, const FaceCorner& c
   }
   const Vec3 back = opening.points[0] - vertex, out = opening.points[1] - vertex;
   const Vec3 area = cross(out, back);
-  if (dot(area, normal_at(model, corner)) < 0) return std::nullopt;
+  // The normal beside the edge of half a cone lies in the plane of both its edges.
+  constexpr double undecided = 0.1;
+  double along = dot(area, normal_at(model, corner));
+  if (std::abs(along) < undecided * norm(area)) along = dot(area, normal_between(model, corner, opening));
+  if (along < 0) return std::nullopt;
   opening.width = distance(opening.points[0], opening.points[1]);
   opening.degrees = std::atan2(norm(area), dot(out, back)) * 180 / std::numbers::pi;
   return opening;

@@ -1,0 +1,130 @@
+/// Faces that run to a point: cones in one face, in halves, in thirds.
+#include "surface/pointed_tips.hpp"
+
+#include "aeroloom/surface/surface_mesher.hpp"
+#include "surface/piece_mesher.hpp"
+#include "tests/cad/cad_shapes.hpp"
+#include "tests/surface/face_fixture.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <gp_Ax2.hxx>
+#include <gtest/gtest.h>
+
+namespace aeroloom::surface {
+namespace {
+
+using cad::Model;
+using geometry::Vec3;
+
+constexpr double height = 2;
+
+/// But for rounding of the CAD library.
+bool is_apex(Vec3 p) {
+  return distance(p, {0, 0, height}) < 1e-12;
+}
+
+double base_radius(double degrees) {
+  return height * std::tan(degrees * std::numbers::pi / 180);
+}
+
+/// A cone so many degrees about its axis, its side in as many faces.
+TopoDS_Shape cone(double degrees, int faces) {
+  const double part = 2 * std::numbers::pi / faces;
+  TopoDS_Shape whole;
+  for (int i = 0; i < faces; ++i) {
+    const gp_Ax2 axes({0, 0, 0}, {0, 0, 1}, {std::cos(0.3 + i * part), std::sin(0.3 + i * part), 0});
+    const TopoDS_Shape one = BRepPrimAPI_MakeCone(axes, base_radius(degrees), 0, height, part).Shape();
+    whole = i == 0 ? one : BRepAlgoAPI_Fuse(whole, one).Shape();
+  }
+  return whole;
+}
+
+struct Shape {
+  double degrees = 0;
+  int faces = 1;
+};
+
+class PointedTips : public ::testing::TestWithParam<Shape> {
+protected:
+  PointedTips() : _model(cad::shapes::prepare_fluid(cone(GetParam().degrees, GetParam().faces)).model) {}
+
+  /// The mesh; throws where triangles cross or lie on each other.
+  SurfaceMesh mesh(const parallel::Communicator& communicator) const {
+    parallel::StageClock clock;
+    const double size = 0.1;
+    const sizing::SizeField field =
+        sizing::build_size_field(communicator, _model, {0.5 * size, size, 15, 1.3, 0}, clock);
+    return mesh_surface(communicator, _model, field, {}, clock);
+  }
+
+  Model _model;
+};
+
+TEST_P(PointedTips, AreMeshedUpToTheirPoint) {
+  const auto communicator = parallel::Communicator::world();
+  const SurfaceMesh surface = mesh(communicator);
+  double volume = 0;
+  std::int64_t at_apex = 0;
+  for (const mesh::Piece& piece : surface.mesh.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), c = piece.point(v[2]);
+      volume += dot(a, cross(b, c)) / 6;
+      at_apex += is_apex(a) || is_apex(b) || is_apex(c);
+    }
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (is_apex(piece.point(v))) {
+        EXPECT_EQ(piece.vertex_dimension[v], mesh::CadDimension::vertex);
+      }
+    }
+  }
+  EXPECT_GE(communicator.sum(at_apex), 3);
+  const double radius = base_radius(GetParam().degrees);
+  const double wanted = std::numbers::pi * radius * radius * height / 3;
+  EXPECT_NEAR(std::abs(communicator.sum(volume)), wanted, 0.1 * wanted);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cones, PointedTips,
+                         ::testing::Values(Shape{4, 1}, Shape{10, 1}, Shape{20, 1}, Shape{45, 1}, Shape{4, 2},
+                                           Shape{10, 2}, Shape{20, 2}, Shape{30, 2}, Shape{10, 3}),
+                         [](const auto& each) {
+                           return "of_" + std::to_string(static_cast<int>(each.param.degrees)) +
+                                  "_degrees_in_" + std::to_string(each.param.faces);
+                         });
+
+std::vector<PointedTip> tips_of(const TopoDS_Shape& shape) {
+  const Model model = cad::shapes::prepare_fluid(shape).model;
+  parallel::StageClock clock;
+  const sizing::SizeField field =
+      sizing::build_size_field(parallel::Communicator::self(), model, {0.05, 0.1, 15, 1.3, 0}, clock);
+  const CurveMesh curves = testing::curves_of(model, field);
+  std::vector<PointedTip> tips;
+  for (cad::FaceId face = 0; face < model.face_count(); ++face) {
+    FaceVertices vertices;
+    const Support support =
+        build_support(model, face, curves, support_facets(model, face, {}), field, vertices);
+    const auto found = find_pointed_tips(model, support);
+    tips.insert(tips.end(), found.begin(), found.end());
+  }
+  return tips;
+}
+
+TEST(FindPointedTips, KnowsACone) {
+  const auto tips = tips_of(cone(20, 1));
+  ASSERT_EQ(tips.size(), 1u);
+  EXPECT_TRUE(is_apex(tips[0].point));
+  EXPECT_NEAR(tips[0].angle, 2 * std::numbers::pi * std::sin(20 * std::numbers::pi / 180), 0.05);
+}
+
+TEST(FindPointedTips, TakesNoPoleOfASmoothFace) {
+  EXPECT_TRUE(tips_of(BRepPrimAPI_MakeSphere(1).Shape()).empty());
+}
+
+}  // namespace
+}  // namespace aeroloom::surface
