@@ -36,6 +36,7 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   piece.vertex_dimension.resize(mesh.points.size(), mesh::CadDimension::face);
   piece.vertex_entity.resize(mesh.points.size(), mesh.face);
   for (const FaceMesh::Tip& tip : mesh.tips) {
+    if (tip.vertex == cad::no_entity) continue;
     piece.vertex_dimension[tip.at] = mesh::CadDimension::vertex;
     piece.vertex_entity[tip.at] = tip.vertex;
   }

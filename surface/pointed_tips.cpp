@@ -18,6 +18,7 @@ namespace {
 using geometry::Vec3;
 
 constexpr double widest_tip = 340 * std::numbers::pi / 180;
+constexpr double widest_tip_of_facets = std::numbers::pi;
 /// Of the distance to the next point of the support: what tolerances of the CAD model leave between a vertex
 /// and the pole of a surface. Chosen, not measured.
 constexpr double same_place = 1e-3;
@@ -213,17 +214,7 @@ void split_tip(const cad::Model& model, const cad::FaceCorner& corner, std::int3
   mesh.triangles.push_back({opposite, middle, from});
 }
 
-}  // namespace
-
-void split_tips_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh) {
-  for (const cad::FaceCorner& corner : cad::corners_of(model, mesh.face)) {
-    const mesh::SharedVertexKey key = mesh::cad_vertex_key(corner.vertex);
-    if (std::binary_search(vertices.vertex_keys.begin(), vertices.vertex_keys.end(), key))
-      split_tip(model, corner, vertices.find(key), mesh);
-  }
-}
-
-std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support& support) {
+std::vector<PointedTip> tips_at_poles(const cad::Model& model, const Support& support) {
   std::vector<PointedTip> tips;
   for (const auto& loop : model.face(support.face).loops) {
     for (const cad::Coedge& use : loop) {
@@ -240,6 +231,41 @@ std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support
     }
   }
   return tips;
+}
+
+/// Vertices of the facets inside of the face. What is wider is meshed across, as noise is.
+std::vector<PointedTip> tips_of_facets(const Support& support) {
+  std::vector<double> angles(support.points.size(), 0);
+  std::vector<geometry::Vec2> uv(support.points.size());
+  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+    const auto& v = support.triangles[t];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = support.points[v[k]];
+      angles[v[k]] += angle_between(support.points[v[(k + 1) % 3]] - p, support.points[v[(k + 2) % 3]] - p);
+      uv[v[k]] = support.corner_uv[t][k];
+    }
+  }
+  for (const auto& edge : support.loop_edges) angles[edge[0]] = angles[edge[1]] = widest_tip;
+  std::vector<PointedTip> tips;
+  for (std::size_t v = 0; v < angles.size(); ++v) {
+    if (angles[v] > 0 && angles[v] < widest_tip_of_facets)
+      tips.push_back({cad::no_entity, support.points[v], uv[v], angles[v]});
+  }
+  return tips;
+}
+
+}  // namespace
+
+void split_tips_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh) {
+  for (const cad::FaceCorner& corner : cad::corners_of(model, mesh.face)) {
+    const mesh::SharedVertexKey key = mesh::cad_vertex_key(corner.vertex);
+    if (std::binary_search(vertices.vertex_keys.begin(), vertices.vertex_keys.end(), key))
+      split_tip(model, corner, vertices.find(key), mesh);
+  }
+}
+
+std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support& support) {
+  return model.is_faceted(support.face) ? tips_of_facets(support) : tips_at_poles(model, support);
 }
 
 void cap_pointed_tips(const sizing::SizeField& field, const std::vector<PointedTip>& tips, FaceMesh& mesh) {

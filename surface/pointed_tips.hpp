@@ -15,13 +15,13 @@
 namespace aeroloom::surface {
 
 struct PointedTip {
-  cad::VertexId vertex = cad::no_entity;  ///< of the CAD model
+  cad::VertexId vertex = cad::no_entity;  ///< of the CAD model; none in faces of facets
   geometry::Vec3 point;
   geometry::Vec2 uv;  ///< one valid pair of parameters
   double angle = 0;   ///< radians of surface around it
 };
 
-/// Those inside of a support, whose angle is below 340 degrees.
+/// Those inside of a support: poles with less than 340 degrees, vertices of facets with less than 180.
 std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support& support);
 
 /// Puts a fan around each tip into a finished mesh of its face; after it no edge may change. Sizes of the

@@ -22,7 +22,8 @@ constexpr double sharp = 30;
 constexpr double sharp_tip = 100;
 /// A leg ends where the gap between the edges is this fraction of the size there. Chosen, not measured.
 constexpr double fitting = 0.8;
-/// In tips of two faces: longer edges than 1.4 sizes are divided (remesh.hpp), so that none spans half a cone.
+/// In tips of two faces: longer edges than 1.4 sizes are divided (remesh.hpp), so that none spans half a
+/// cone.
 constexpr double fitting_tip = 1.6;
 /// Legs are sought in steps of this ratio, from the size at the corner on. Chosen, not measured.
 constexpr double step = 1.1;
