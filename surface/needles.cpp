@@ -71,10 +71,11 @@ public:
   }
 
 private:
-  /// The vertex of the curves, -1 for others.
+  /// The vertex of the curves, -1 for others: also for pointed tips inside of a face (pointed_tips.hpp).
   CurveVertex curve_vertex(const Piece& piece, LocalIndex v) const {
     if (!is_on_curve(piece.vertex_dimension[v])) return -1;
     const auto at = std::lower_bound(piece.shared_vertices.begin(), piece.shared_vertices.end(), v);
+    if (at == piece.shared_vertices.end() || *at != v) return -1;
     return _curves.vertex_of(piece.shared_keys[at - piece.shared_vertices.begin()]);
   }
   std::span<const EdgeId> edges_at(CurveVertex v, EdgeId& own) const {
