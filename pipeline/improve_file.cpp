@@ -17,7 +17,7 @@ namespace {
 
 /// Tetrahedra of boundary layers are flat on purpose: improvement takes them for bad ones. Collective.
 void warn_of_layers(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume) {
-  constexpr double flat_deg = 1, share_of_layers = 0.1;  // no mesher leaves so many by mistake
+  constexpr double flat_deg = 1, share_of_layers = 0.1;  // chosen, not measured
   std::int64_t flat = 0, all = 0;
   for (const mesh::Piece& piece : volume.pieces) {
     all += piece.cell_count();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -17,14 +18,15 @@ namespace {
 
 using geometry::Vec3;
 
+/// Radians of surface around a point. Chosen, not measured.
 constexpr double widest_tip = 340 * std::numbers::pi / 180;
 constexpr double widest_tip_of_facets = std::numbers::pi;
 /// Of the distance to the next point of the support: what tolerances of the CAD model leave between a vertex
 /// and the pole of a surface. Chosen, not measured.
 constexpr double same_place = 1e-3;
-/// Sizes that fit around a tip at the ring of its fan, at least: with three the fan has no inside.
+/// Sizes that fit around a tip at the ring of its fan, at least. Chosen, not measured.
 constexpr double least_around = 4;
-/// The disk that gives way grows by this factor, so often, until it is one.
+/// The disk that gives way grows by this factor, so often, until it is one. Chosen, not measured.
 constexpr double growth_of_disk = 1.3;
 constexpr int most_disks = 5;
 
@@ -60,35 +62,30 @@ std::int32_t nearest_point(const std::vector<Vec3>& points, Vec3 place) {
   return static_cast<std::int32_t>(std::min_element(points.begin(), points.end(), nearer) - points.begin());
 }
 
-/// Vertices next to each vertex.
-std::vector<std::vector<std::int32_t>> neighbours_of(const FaceMesh& mesh) {
-  std::vector<std::vector<std::int32_t>> neighbours(mesh.points.size());
-  for (const auto& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      neighbours[t[k]].push_back(t[(k + 1) % 3]);
-      neighbours[t[k]].push_back(t[(k + 2) % 3]);
-    }
-  }
-  return neighbours;
-}
-
-/// By vertex: whether it gives way. Those nearer than `radius` that hang together with the nearest of all;
-/// empty where a border vertex is among them.
+/// By vertex: whether it gives way. Those nearer than `radius` that hang together with the nearest of all.
+/// Empty where one of them has to stay, on the border or another tip.
 std::vector<char> vertices_within(const FaceMesh& mesh, Vec3 place, double radius) {
-  const auto neighbours = neighbours_of(mesh);
-  std::vector<char> within(mesh.points.size(), 0);
-  std::vector<std::int32_t> open = {nearest_point(mesh.points, place)};
-  within[open.front()] = 1;
-  while (!open.empty()) {
-    const std::int32_t v = open.back();
-    open.pop_back();
-    if (v < mesh.fixed) return {};
-    for (const std::int32_t next : neighbours[v]) {
-      if (within[next] || distance(mesh.points[next], place) >= radius) continue;
-      within[next] = 1;
-      open.push_back(next);
+  std::vector<char> near(mesh.points.size(), 0), within(mesh.points.size(), 0);
+  for (std::size_t v = 0; v < near.size(); ++v) near[v] = distance(mesh.points[v], place) < radius;
+  within[nearest_point(mesh.points, place)] = 1;
+  std::vector<std::array<std::int32_t, 3>> beside;
+  std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(beside),
+               [&](const auto& t) { return near[t[0]] || near[t[1]] || near[t[2]]; });
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const auto& t : beside) {
+      if (!within[t[0]] && !within[t[1]] && !within[t[2]]) continue;
+      for (const std::int32_t v : t) {
+        if (within[v] || !near[v]) continue;
+        within[v] = 1, grows = true;
+      }
     }
   }
+  const bool has_border =
+      std::any_of(within.begin(), within.begin() + mesh.fixed, [](char w) { return w != 0; });
+  const bool has_tip = std::any_of(mesh.tips.begin(), mesh.tips.end(),
+                                   [&](const FaceMesh::Tip& tip) { return within[tip.at]; });
+  if (has_border || has_tip) within.clear();
   return within;
 }
 
@@ -258,6 +255,7 @@ std::vector<PointedTip> tips_of_facets(const Support& support) {
 
 void split_tips_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh) {
   for (const cad::FaceCorner& corner : cad::corners_of(model, mesh.face)) {
+    if (face_beyond_both_edges(model, corner) == cad::no_entity) continue;
     const mesh::SharedVertexKey key = mesh::cad_vertex_key(corner.vertex);
     if (std::binary_search(vertices.vertex_keys.begin(), vertices.vertex_keys.end(), key))
       split_tip(model, corner, vertices.find(key), mesh);

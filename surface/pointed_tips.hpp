@@ -25,8 +25,8 @@ struct PointedTip {
 std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support& support);
 
 /// Puts a fan around each tip into a finished mesh of its face; after it no edge may change. Sizes of the
-/// field are taken at the tip. A tip stays as it is where what gives way reaches the border of the face or is
-/// no disk.
+/// field are taken at the tip. A tip stays as it is where what gives way reaches the border of the face or
+/// another tip, or is no disk.
 void cap_pointed_tips(const sizing::SizeField& field, const std::vector<PointedTip>& tips, FaceMesh& mesh);
 
 /// Where two CAD faces alone meet in a tip, the halves of a cone or the shells of a lens, a single triangle

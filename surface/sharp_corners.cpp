@@ -74,12 +74,17 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
 
 }  // namespace
 
-bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance) {
+cad::FaceId face_beyond_both_edges(const Model& model, const FaceCorner& corner) {
   const auto &arriving = model.edge(corner.arriving.edge), &leaving = model.edge(corner.leaving.edge);
-  if (corner.arriving.edge == corner.leaving.edge || arriving.faces.size() != 2) return false;
-  if (arriving.faces != leaving.faces) return false;
-  const cad::FaceId other = arriving.faces[arriving.faces[0] == corner.face ? 1 : 0];
-  for (const cad::FaceCorner& beyond : cad::corners_of(model, other)) {
+  if (corner.arriving.edge == corner.leaving.edge || arriving.faces.size() != 2) return cad::no_entity;
+  if (arriving.faces != leaving.faces) return cad::no_entity;
+  return arriving.faces[arriving.faces[0] == corner.face ? 1 : 0];
+}
+
+bool is_tip_of_two_faces(const Model& model, const FaceCorner& corner, double distance) {
+  const cad::FaceId other = face_beyond_both_edges(model, corner);
+  if (other == cad::no_entity) return false;
+  for (const FaceCorner& beyond : cad::corners_of(model, other)) {
     if (beyond.vertex == corner.vertex) return cad::open_corner(model, beyond, distance).has_value();
   }
   return false;

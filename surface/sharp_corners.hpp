@@ -33,6 +33,8 @@ struct SharpCorner {
   }
 };
 
+/// The other face where the same one lies beyond both edges of a corner, else no_entity.
+cad::FaceId face_beyond_both_edges(const cad::Model& model, const cad::FaceCorner& corner);
 /// Whether the same other face lies beyond both edges of a corner, and its corner there is not reflex either,
 /// as edges are at that distance: both faces end in one tip, halves of a cone or shells of a lens.
 bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);

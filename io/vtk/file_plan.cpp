@@ -70,7 +70,7 @@ FilePlan plan_files(std::span<const PartPlace> places, GlobalIndex items_per_fil
   const std::vector<Rank> writers = choose_writers(contents, ranks);
   GlobalIndex all = 0;
   for (const Content& content : contents) all += content.items;
-  constexpr int share_at_once = 8;
+  constexpr int share_at_once = 8;  // chosen, not measured
   const GlobalIndex at_once = std::max(items_per_file, all / ranks / share_at_once);
   struct Round {
     std::size_t number = 0;

@@ -122,6 +122,38 @@ TEST(FindPointedTips, KnowsACone) {
   EXPECT_NEAR(tips[0].angle, 2 * std::numbers::pi * std::sin(20 * std::numbers::pi / 180), 0.05);
 }
 
+// A plane of squares: the second tip's disk would take the first tip with it.
+TEST(CapPointedTips, LeavesAnotherTipInPlace) {
+  constexpr int side = 20;
+  FaceMesh mesh;
+  for (int i = 0; i < side * side; ++i) {
+    mesh.points.push_back({0.1 * (i % side), 0.1 * (i / side), 0});
+    mesh.uv.push_back({0.1 * (i % side), 0.1 * (i / side)});
+  }
+  for (int i = 0; i < side * (side - 1); ++i) {
+    if (i % side == side - 1) continue;
+    mesh.triangles.push_back({i, i + 1, i + side});
+    mesh.triangles.push_back({i + 1, i + side + 1, i + side});
+  }
+  parallel::StageClock clock;
+  const Model model = cad::shapes::prepare_fluid(cone(20, 1)).model;
+  const sizing::SizeField field =
+      sizing::build_size_field(parallel::Communicator::self(), model, {0.1, 0.1, 15, 1.3, 0}, clock);
+  const Vec3 first{0.93, 0.94, 0}, second{0.95, 1, 0};
+  cap_pointed_tips(field, {{0, first, {0.93, 0.94}, 4}, {1, second, {0.95, 1}, 4}}, mesh);
+  ASSERT_EQ(mesh.tips.size(), 1u);
+  EXPECT_EQ(mesh.tips[0].vertex, 0);
+  EXPECT_EQ(mesh.points[static_cast<std::size_t>(mesh.tips[0].at)], first);
+  double area = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.points[t[0]];
+    const double twice = cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a).z;
+    EXPECT_GT(twice, 0);
+    area += 0.5 * twice;
+  }
+  EXPECT_NEAR(area, std::pow(0.1 * (side - 1), 2), 1e-12);
+}
+
 TEST(FindPointedTips, TakesNoPoleOfASmoothFace) {
   EXPECT_TRUE(tips_of(BRepPrimAPI_MakeSphere(1).Shape()).empty());
 }
