@@ -126,9 +126,11 @@ TEST(FindPointedTips, KnowsACone) {
 TEST(CapPointedTips, LeavesAnotherTipInPlace) {
   constexpr int side = 20;
   FaceMesh mesh;
-  for (int i = 0; i < side * side; ++i) {
-    mesh.points.push_back({0.1 * (i % side), 0.1 * (i / side), 0});
-    mesh.uv.push_back({0.1 * (i % side), 0.1 * (i / side)});
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      mesh.points.push_back({0.1 * column, 0.1 * row, 0});
+      mesh.uv.push_back({0.1 * column, 0.1 * row});
+    }
   }
   for (int i = 0; i < side * (side - 1); ++i) {
     if (i % side == side - 1) continue;
