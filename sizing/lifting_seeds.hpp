@@ -2,7 +2,7 @@
 #pragma once
 
 #include "aeroloom/cad/model/topology/blunt_edges.hpp"
-#include "aeroloom/sizing/lifting.hpp"
+#include "aeroloom/sizing/lifting_bodies.hpp"
 
 #include <optional>
 #include <vector>

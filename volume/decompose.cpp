@@ -1,5 +1,6 @@
 #include "aeroloom/parallel/communication/collective_error.hpp"
 #include "partition/piece_size.hpp"
+#include "volume/cut_blocks.hpp"
 #include "volume/decomposition_data.hpp"
 #include "volume/evidence.hpp"
 #include "volume/filling_limits.hpp"

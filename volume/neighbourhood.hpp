@@ -5,7 +5,6 @@
 #include "aeroloom/parallel/observation/timers.hpp"
 #include "geometry/runs.hpp"
 #include "volume/block_points.hpp"
-#include "volume/zone_cuts.hpp"
 
 #include <span>
 #include <tuple>
@@ -53,8 +52,5 @@ void learn_what_touches(const parallel::Communicator& communicator, const KnownL
 /// Where there are far finer blocks on the surface (see looks_of_block), one of them.
 void learn_what_is_far_finer(const parallel::Communicator& communicator, const KnownLattice& lattice,
                              const LatticeSource& source, parallel::StageClock& clock);
-/// Blocks across the borders of zones that halos of a width are told by (ZonesAround).
-void learn_what_is_cut(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                       const ZoneCuts& cuts, double width, parallel::StageClock& clock);
 
 }  // namespace aeroloom::volume
