@@ -1,12 +1,12 @@
 // From a case to its surface mesh, for benchmarks of the stages behind it.
 #pragma once
 
-#include "aeroloom/domain/load_domain.hpp"
-#include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/observation/timers.hpp"
+#include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/size_domain.hpp"
+#include "surface/surface_mesher.hpp"
 
 namespace aeroloom::benchmarks {
 

@@ -1,6 +1,6 @@
 /// The front kernel alone: a disk and a square under uniform and graded sizes.
-#include "aeroloom/mesh/quality.hpp"
-#include "front/front.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/front/front.hpp"
 
 #include <algorithm>
 #include <chrono>

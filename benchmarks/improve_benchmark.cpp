@@ -1,11 +1,11 @@
 /// The improver alone, piece by piece on one rank: improve_benchmark CASE [KEY=VALUE ...] prints one RESULT
 /// line. The boundary may change, but does not slide on the CAD.
-#include "aeroloom/improve/improver.hpp"
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "benchmarks/case_surface.hpp"
+#include "improve/improver.hpp"
+#include "mesh/quality/quality.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/observation/log.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <array>
 #include <cstdio>

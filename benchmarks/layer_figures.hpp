@@ -1,8 +1,8 @@
 // What the cells of boundary layers are like, measured from columns alone, for benchmarks.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
-#include "aeroloom/mesh/cell_measures.hpp"
+#include "layers/columns.hpp"
+#include "mesh/quality/cell_measures.hpp"
 
 #include <algorithm>
 #include <array>

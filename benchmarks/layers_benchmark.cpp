@@ -4,12 +4,12 @@
 /// isotropic.
 ///
 /// CPU figures are those of the stage clock: without waiting.
-#include "aeroloom/layers/columns.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
 #include "benchmarks/case_surface.hpp"
 #include "benchmarks/layer_figures.hpp"
-#include "mesh/split_pieces.hpp"
+#include "layers/columns.hpp"
+#include "mesh/transfer/split_pieces.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
-/// A recorded run's messages without its work, beside what the model of study/exchange_model.hpp says that
-/// they take: mpirun -n N message_benchmark FOLDER [REPEATS], where FOLDER is what a run has left.
+/// A recorded run's messages without its work, beside what the model of pipeline/study/exchange_model.hpp
+/// says that they take: mpirun -n N message_benchmark FOLDER [REPEATS], where FOLDER is what a run has left.
 ///
 /// Two cores cannot tell waiting for a message from waiting for a processor; ranks that have nothing else to
 /// do can. Of each kind a stage makes as many calls as the record has, of equal lengths that add up to the
 /// recorded bytes; partners are the ranks next to a rank. Latency and bandwidth are measured first, between
 /// the same ranks. Prints a line for each stage: the median of the repeats of the slowest rank.
-#include "aeroloom/parallel/observation/timers.hpp"
 #include "parallel/communication/environment.hpp"
 #include "parallel/communication/neighbour_exchange.hpp"
 #include "parallel/communication/network_probe.hpp"
-#include "study/exchange_model.hpp"
+#include "parallel/observation/timers.hpp"
+#include "pipeline/study/exchange_model.hpp"
 
 #include <algorithm>
 #include <cstdio>

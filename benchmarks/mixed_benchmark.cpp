@@ -3,15 +3,15 @@
 /// squares along each side (353: a million cells), and prints one RESULT line with the seconds of each step
 /// and the hash, the same on any number of ranks. Every check must then find out a mesh that is broken on
 /// purpose; exit code 1 otherwise.
-#include "aeroloom/mesh/face_links.hpp"
-#include "aeroloom/mesh/mixed_quality.hpp"
-#include "aeroloom/mesh/repartition.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/raw_mesh.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/face_links.hpp"
+#include "mesh/quality/mixed_quality.hpp"
+#include "mesh/transfer/repartition.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/observation/timers.hpp"
 #include "tests/mesh/mixed_mesh.hpp"
 
 #include <algorithm>

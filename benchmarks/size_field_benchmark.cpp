@@ -1,7 +1,7 @@
 /// Build and evaluation of a size field around a sphere whose sizes vary along it, in a cube ten diameters
 /// wide. Arguments: smallest sizes; default 0.03 0.01 0.005.
-#include "aeroloom/parallel/observation/timers.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "parallel/observation/timers.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <cmath>
 #include <cstdio>

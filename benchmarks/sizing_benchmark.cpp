@@ -1,11 +1,11 @@
 /// The sizing stage alone: mpirun -n N sizing_benchmark CASE ... prints one RESULT line per case, with what
 /// geometry and sizing cost by the stage clock and a hash of the field, the same on any number of ranks.
-#include "aeroloom/domain/load_domain.hpp"
-#include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/observation/log.hpp"
+#include "parallel/observation/timers.hpp"
+#include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/size_domain.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -5,15 +5,15 @@
 ///
 /// CPU figures are those of the stage clock: around the tasks, without waiting. "Cut" triangles have a vertex
 /// on a border between pieces of one CAD face. Needles: below 10 degrees, below 5, the least angle.
-#include "aeroloom/domain/load_domain.hpp"
-#include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/io/vtk/vtk_writer.hpp"
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
 #include "benchmarks/surface_details.hpp"
+#include "io/vtk/vtk_writer.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/observation/log.hpp"
+#include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/size_domain.hpp"
+#include "surface/surface_mesher.hpp"
 
 #include <algorithm>
 #include <cstdio>

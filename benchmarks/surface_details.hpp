@@ -2,11 +2,11 @@
 // touch, and histograms. docs/experiments.md is made from it.
 #pragma once
 
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/surface/surface_report.hpp"
-#include "mesh/shared_vertex_keys.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
+#include "mesh/quality/quality.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "surface/surface_report.hpp"
 
 #include <algorithm>
 #include <array>

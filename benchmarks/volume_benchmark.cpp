@@ -1,12 +1,12 @@
 /// The volume stage alone: mpirun -n N volume_benchmark CASE [KEY=VALUE ...] prints one RESULT line.
 ///
 /// CPU figures are those of the stage clock: around the tasks and in the sandboxed children, without waiting.
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "benchmarks/case_surface.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/observation/log.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <cstdio>
 #include <exception>

@@ -1,5 +1,5 @@
 # Most of the time of a compiler goes into headers, the same ones for every source, so several sources make one
-# unit. Names in anonymous namespaces are therefore unique within a folder. 1: each source on its own.
+# unit. Names in anonymous namespaces are therefore unique within a library. 1: each source on its own.
 set(AEROLOOM_SOURCES_AT_ONCE 8 CACHE STRING "Sources of a folder that are compiled together")
 function(aeroloom_compile_at_once target)
   if(AEROLOOM_SOURCES_AT_ONCE GREATER 1)
@@ -7,25 +7,44 @@ function(aeroloom_compile_at_once target)
   endif()
 endfunction()
 
-# One folder, one library, one namespace: aeroloom_library(<folder> SOURCES ... PUBLIC ... PRIVATE ...
-# ALONE ...). PUBLIC and PRIVATE name libraries; a library of another folder is written aeroloom_<folder>.
-# Sources are compiled several at a time, in the order given (AEROLOOM_SOURCES_AT_ONCE), but those of ALONE:
-# dear ones, or ones whose third-party headers leave macros behind.
+# One folder, one library: aeroloom_library(<folder> SOURCES ... ALONE ... HEADERS ... PUBLIC ... PRIVATE ... [FOLDER ...]).
+# <folder> is a path from the root, as mesh or mesh/data; the library is aeroloom_mesh, aeroloom_mesh_data. Sources and
+# headers are named within the folder, or within FOLDER where a library has a part of one. HEADERS are those of host programs, installed under
+# aeroloom/; they include no others. PUBLIC and PRIVATE name libraries. Sources are compiled several at a time, in the order
+# given (AEROLOOM_SOURCES_AT_ONCE), but those of ALONE: dear ones, or ones whose third-party headers leave macros behind. A
+# folder whose sources all lie in its sub-folders has an interface library, which links theirs.
 function(aeroloom_library folder)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;ALONE" ${ARGN})
-  add_library(aeroloom_${folder} STATIC ${ARG_SOURCES} ${ARG_ALONE})
-  aeroloom_compile_at_once(aeroloom_${folder})
+  cmake_parse_arguments(ARG "" "FOLDER" "SOURCES;PUBLIC;PRIVATE;ALONE;HEADERS" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${folder})
+  endif()
+  string(REPLACE / _ name ${folder})
+  set(library aeroloom_${name})
+  set_property(GLOBAL APPEND PROPERTY AEROLOOM_LIBRARIES ${library})
+  foreach(list IN ITEMS SOURCES ALONE HEADERS)
+    list(TRANSFORM ARG_${list} PREPEND ${CMAKE_SOURCE_DIR}/${ARG_FOLDER}/)
+  endforeach()
+  if(NOT ARG_SOURCES AND NOT ARG_ALONE)
+    add_library(${library} INTERFACE)
+    target_link_libraries(${library} INTERFACE ${ARG_PUBLIC})
+    set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
+    return()
+  endif()
+  add_library(${library} STATIC ${ARG_SOURCES} ${ARG_ALONE})
+  aeroloom_compile_at_once(${library})
   if(ARG_ALONE)
     set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
-  set_target_properties(aeroloom_${folder} PROPERTIES EXPORT_NAME ${folder})
-  target_include_directories(aeroloom_${folder} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
-  target_compile_features(aeroloom_${folder} PUBLIC cxx_std_20)
+  set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
+  target_sources(${library} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${ARG_HEADERS})
+  # Host programs write <aeroloom/mesh/data/piece.hpp>, the headers themselves "mesh/data/piece.hpp".
+  target_include_directories(${library} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/aeroloom>)
+  target_compile_features(${library} PUBLIC cxx_std_20)
   # One mesh on every machine: no contraction into fused multiply-add, no value-changing optimisation. Headers
   # compute too, so the flags travel with the target.
-  target_compile_options(aeroloom_${folder} PUBLIC -ffp-contract=off -fno-fast-math)
-  target_link_libraries(aeroloom_${folder} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  target_compile_options(${library} PUBLIC -ffp-contract=off -fno-fast-math)
+  target_link_libraries(${library} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
 # aeroloom_test_program(<name> LIBRARIES ... [FAST]): the test program of a folder. FAST: built by the target

@@ -1,14 +1,20 @@
-# cmake --install: the program, the stages as static libraries, the headers of include/aeroloom, what
-# find_package(Aeroloom) reads, manual pages, completion, cases and documentation. The program's own folder, pipeline/, is
-# no library for others.
+# cmake --install: the program, the stages as static libraries with their public headers, what find_package(Aeroloom)
+# reads, manual pages, completion, cases and documentation. Of the program's own folder, pipeline/, only cases and their
+# domains are libraries for others.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-list(REMOVE_ITEM AEROLOOM_FOLDERS pipeline)
-foreach(folder IN LISTS AEROLOOM_FOLDERS)
-  install(TARGETS aeroloom_${folder} EXPORT AeroloomTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+get_property(libraries GLOBAL PROPERTY AEROLOOM_LIBRARIES)
+list(FILTER libraries EXCLUDE REGEX "^aeroloom_pipeline(_commands|_report|_study|$)")
+foreach(library IN LISTS libraries)
+  get_target_property(type ${library} TYPE)
+  if(type STREQUAL INTERFACE_LIBRARY)
+    install(TARGETS ${library} EXPORT AeroloomTargets)
+  else()
+    install(TARGETS ${library} EXPORT AeroloomTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aeroloom)
+  endif()
 endforeach()
-install(DIRECTORY include/aeroloom DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 install(TARGETS aeroloom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 # Completion for bash, printed by the program itself.

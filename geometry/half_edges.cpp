@@ -1,4 +1,4 @@
-#include "aeroloom/geometry/half_edges.hpp"
+#include "geometry/half_edges.hpp"
 
 #include "geometry/runs.hpp"
 #include "geometry/sort_by_number.hpp"

@@ -1,7 +1,7 @@
 /// Triangles of a plane map, hashed into a uniform grid.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <array>
 #include <cstdint>

@@ -2,7 +2,7 @@
 /// All functions return -1, 0 or 1 and never a wrong sign.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <cmath>
 

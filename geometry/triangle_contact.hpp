@@ -1,7 +1,7 @@
 /// The exact decision whether two triangles of a surface meet where they must not.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 namespace aeroloom::geometry {
 

@@ -4,8 +4,8 @@
 /// union is rounded, so that triangles of the result may cross by as little as that.
 #pragma once
 
-#include "aeroloom/geometry/half_edges.hpp"
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/half_edges.hpp"
+#include "geometry/vec.hpp"
 
 #include <cstddef>
 #include <cstdint>

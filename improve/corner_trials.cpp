@@ -1,9 +1,9 @@
 #include "improve/corner_trials.hpp"
 
-#include "aeroloom/mesh/cad_dimension.hpp"
-#include "improve/attainable_quality.hpp"
-#include "improve/corner_relief.hpp"
+#include "improve/limits/attainable_quality.hpp"
 #include "improve/mending_queue.hpp"
+#include "improve/operations/corner_relief.hpp"
+#include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
 #include <limits>

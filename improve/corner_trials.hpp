@@ -2,10 +2,10 @@
 /// is around, and kept where that can be made good again.
 #pragma once
 
-#include "aeroloom/improve/improve_options.hpp"
-#include "aeroloom/mesh/piece.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "improve/improve_options.hpp"
 #include "improve/tet_mesh.hpp"
+#include "mesh/data/piece.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <cstdint>
 #include <vector>

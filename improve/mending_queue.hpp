@@ -1,17 +1,17 @@
 /// Which bad tetrahedron is worked on when, and with what.
 #pragma once
 
-#include "aeroloom/improve/improve_options.hpp"
-#include "improve/attainable_quality.hpp"
-#include "improve/boundary_flip.hpp"
-#include "improve/cavity_insertion.hpp"
-#include "improve/corner_count.hpp"
-#include "improve/edge_contraction.hpp"
-#include "improve/edge_removal.hpp"
-#include "improve/face_removal.hpp"
-#include "improve/sliding.hpp"
-#include "improve/small_polyhedron.hpp"
-#include "improve/smoothing.hpp"
+#include "improve/improve_options.hpp"
+#include "improve/limits/attainable_quality.hpp"
+#include "improve/operations/boundary_flip.hpp"
+#include "improve/operations/cavity_insertion.hpp"
+#include "improve/operations/corner_count.hpp"
+#include "improve/operations/edge_contraction.hpp"
+#include "improve/operations/edge_removal.hpp"
+#include "improve/operations/face_removal.hpp"
+#include "improve/operations/sliding.hpp"
+#include "improve/operations/small_polyhedron.hpp"
+#include "improve/operations/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <cstdint>

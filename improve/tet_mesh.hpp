@@ -2,9 +2,9 @@
 /// change goes through, the replacement of a cavity.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
-#include "aeroloom/mesh/piece.hpp"
-#include "mesh/tet_quality.hpp"
+#include "geometry/vec.hpp"
+#include "mesh/data/piece.hpp"
+#include "mesh/quality/tet_quality.hpp"
 
 #include <array>
 #include <cstdint>

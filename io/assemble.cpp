@@ -1,10 +1,10 @@
-#include "aeroloom/mesh/cell_measures.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "geometry/predicates.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
-#include "mesh/build_pieces.hpp"
-#include "mesh/id_table.hpp"
+#include "mesh/quality/cell_measures.hpp"
+#include "mesh/transfer/build_pieces.hpp"
+#include "mesh/transfer/id_table.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <cmath>

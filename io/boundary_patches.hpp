@@ -1,7 +1,7 @@
 /// The patches that formats of the boundary alone write, and names that they can hold.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "io/checkpoint_file.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/storage/shared_file.hpp"
 

@@ -5,8 +5,8 @@
 /// and for the common bytes and each item its number, bytes and digest; then their bytes, without gaps.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/storage/digest.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/storage/digest.hpp"
 
 #include <cstdint>
 #include <functional>

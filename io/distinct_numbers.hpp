@@ -1,8 +1,8 @@
 /// The different numbers among many, of all ranks. Internal to io/.
 #pragma once
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,5 @@
-#include "aeroloom/io/file_formats.hpp"
+#include "io/file_formats.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
 #include "io/cgns/cgns_writer.hpp"
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/medit/medit_writer.hpp"
@@ -10,6 +8,8 @@
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>

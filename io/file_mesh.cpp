@@ -1,6 +1,6 @@
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "io/raw_faces.hpp"
 
-#include "aeroloom/mesh/piece_faces.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "mesh/rendezvous.hpp"
+#include "mesh/data/piece_faces.hpp"
+#include "mesh/exchange/rendezvous.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "io/raw_mesh.hpp"
-#include "mesh/build_pieces.hpp"
+#include "mesh/transfer/build_pieces.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 /// The mesh of a file as it stands there: on each rank a share of its points, cells and boundary faces.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

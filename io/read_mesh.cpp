@@ -1,12 +1,12 @@
 #include "io/read_mesh.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/gmsh/gmsh_reader.hpp"
 #include "io/medit/medit_reader.hpp"
 #include "io/su2/su2_reader.hpp"
 #include "io/ugrid/ugrid_reader.hpp"
 #include "io/vtk/vtk_reader.hpp"
 #include "io/vtkhdf/vtkhdf_reader.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <array>

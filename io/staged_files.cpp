@@ -1,6 +1,6 @@
 #include "io/staged_files.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <filesystem>
 #include <system_error>

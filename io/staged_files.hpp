@@ -1,7 +1,7 @@
 /// Files that appear together, or not at all.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <functional>
 #include <string>

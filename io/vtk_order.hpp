@@ -1,7 +1,7 @@
 /// VTK's order of corners.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

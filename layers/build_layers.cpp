@@ -1,9 +1,9 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "layers/directions.hpp"
 #include "layers/front.hpp"
 #include "layers/gaps.hpp"
 #include "layers/good_columns.hpp"
 #include "layers/layer_report.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <cstdint>

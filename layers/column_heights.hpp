@@ -1,7 +1,7 @@
 /// The heights of one column.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
+#include "layers/columns.hpp"
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-#include "aeroloom/layers/columns.hpp"
+#include "layers/columns.hpp"
 
 #include "layers/column_heights.hpp"
 

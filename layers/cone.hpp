@@ -1,7 +1,7 @@
 /// The smallest cone around unit vectors.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <span>
 

@@ -1,7 +1,7 @@
 /// Planes that layers end on.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
+#include "layers/columns.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "layers/fans.hpp"
 
-#include "mesh/intersection.hpp"
-#include "mesh/rendezvous.hpp"
+#include "mesh/checks/intersection.hpp"
+#include "mesh/exchange/rendezvous.hpp"
 
 #include <algorithm>
 #include <cmath>

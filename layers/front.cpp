@@ -1,10 +1,10 @@
 #include "layers/front.hpp"
 
-#include "aeroloom/mesh/delivery.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "layers/good_columns.hpp"
 #include "layers/swallowed_parts.hpp"
-#include "mesh/intersection.hpp"
+#include "mesh/checks/intersection.hpp"
+#include "mesh/exchange/delivery.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <limits>

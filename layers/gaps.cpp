@@ -1,7 +1,7 @@
 #include "layers/gaps.hpp"
 
-#include "aeroloom/geometry/box_tree.hpp"
-#include "aeroloom/parallel/communication/deliver.hpp"
+#include "geometry/box_tree.hpp"
+#include "parallel/communication/deliver.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "layers/lateral_faces.hpp"
 
-#include "aeroloom/layers/layer_cells.hpp"
-#include "mesh/rendezvous.hpp"
+#include "layers/layer_cells.hpp"
+#include "mesh/exchange/rendezvous.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 /// Where layers end on another CAD face: edges of the wall whose lateral faces are boundary of that face.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "layers/columns.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <tuple>

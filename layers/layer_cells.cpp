@@ -1,11 +1,11 @@
-#include "aeroloom/layers/layer_cells.hpp"
+#include "layers/layer_cells.hpp"
 
-#include "aeroloom/mesh/piece_faces.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "layers/layer_piece.hpp"
-#include "mesh/distributed_table.hpp"
-#include "mesh/shared_vertex_keys.hpp"
-#include "mesh/shared_vertices.hpp"
+#include "mesh/data/piece_faces.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
+#include "mesh/exchange/distributed_table.hpp"
+#include "mesh/exchange/shared_vertices.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <limits>

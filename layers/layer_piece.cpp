@@ -1,6 +1,6 @@
 #include "layers/layer_piece.hpp"
 
-#include "mesh/shared_vertex_keys.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <array>

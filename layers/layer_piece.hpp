@@ -1,7 +1,7 @@
 /// The cells over some triangles of a piece of the wall.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
+#include "layers/columns.hpp"
 #include "layers/lateral_faces.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "layers/wall_share.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "layers/end_planes.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <string>
 

@@ -1,8 +1,8 @@
 /// The wall mesh as the pieces of one rank have it, in flat arrays over all of them.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
-#include "mesh/shared_vertices.hpp"
+#include "layers/columns.hpp"
+#include "mesh/exchange/shared_vertices.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,18 +1,18 @@
 /// The command check: what a run would meet, before it meshes anything.
 #pragma once
 
-#include "aeroloom/cad/repair/diagnosis.hpp"
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/domain/bounded_faces.hpp"
-#include "aeroloom/domain/trailing_edges.hpp"
-#include "aeroloom/domain/unresolved_features.hpp"
-#include "aeroloom/domain/wall_findings.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/report/exit_code.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "cad/repair/diagnosis.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/domain/bounded_faces.hpp"
+#include "pipeline/domain/trailing_edges.hpp"
+#include "pipeline/domain/unresolved_features.hpp"
+#include "pipeline/domain/wall_findings.hpp"
 #include "pipeline/layer_forecast.hpp"
 #include "pipeline/level_forecast.hpp"
-#include "study/prediction_files.hpp"
+#include "pipeline/report/exit_code.hpp"
+#include "pipeline/study/prediction_files.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <cstdint>
 #include <optional>

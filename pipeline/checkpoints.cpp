@@ -1,7 +1,7 @@
 #include "pipeline/checkpoints.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <filesystem>

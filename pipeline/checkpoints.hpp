@@ -5,10 +5,10 @@
 /// whatever lies there, the mesh is that of the case.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/storage/task_store.hpp"
 #include "io/checkpoint_file.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/storage/task_store.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/run_identity.hpp"
 
 #include <array>

@@ -1,8 +1,8 @@
 #include "pipeline/convert_file.hpp"
 
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
 #include "io/read_mesh.hpp"
+#include "parallel/observation/log.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <filesystem>

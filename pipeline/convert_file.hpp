@@ -1,8 +1,8 @@
 /// A mesh from one file format to another.
 #pragma once
 
-#include "aeroloom/io/file_formats.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_formats.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <optional>
 #include <string>

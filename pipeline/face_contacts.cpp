@@ -1,7 +1,7 @@
-#include "aeroloom/sizing/model_sources.hpp"
-#include "aeroloom/sizing/ray_tree.hpp"
-#include "mesh/triangle_contact.hpp"
+#include "mesh/checks/triangle_contact.hpp"
 #include "pipeline/check.hpp"
+#include "sizing/features/model_sources.hpp"
+#include "sizing/features/ray_tree.hpp"
 
 #include <set>
 #include <utility>

@@ -1,8 +1,8 @@
 #include "pipeline/finished_surface.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "mesh/boundary_mesh.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/data/boundary_mesh.hpp"
+#include "mesh/quality/quality.hpp"
 #include "pipeline/finished_volume.hpp"
 
 #include <algorithm>

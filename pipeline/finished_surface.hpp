@@ -1,11 +1,11 @@
 /// A finished surface: its numbers, its sizes, checks and figures.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "cad/model/model.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "pipeline/run.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <string>
 

@@ -1,10 +1,10 @@
 #include "pipeline/finished_volume.hpp"
 
-#include "aeroloom/attribution/pinned.hpp"
-#include "aeroloom/case/layer_gate.hpp"
-#include "aeroloom/mesh/mixed_quality.hpp"
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
+#include "improve/attribution/pinned.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/mixed_quality.hpp"
+#include "mesh/quality/quality.hpp"
+#include "pipeline/case/layer_gate.hpp"
 #include "pipeline/stage_log.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 /// Improvement, checks and figures of a volume mesh, the same whether it was made or read.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "cad/model/model.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/run.hpp"
 
 #include <string>

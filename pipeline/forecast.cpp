@@ -1,9 +1,9 @@
 #include "pipeline/forecast.hpp"
 
-#include "aeroloom/layers/columns.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "layers/columns.hpp"
+#include "mesh/transfer/piece_size.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
-#include "partition/piece_size.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 /// The expected cost of a run, from predicted counts and constants that runs have shown (docs/usage.md).
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/domain/size_domain.hpp"
 #include "pipeline/layer_forecast.hpp"
-#include "study/prediction_files.hpp"
+#include "pipeline/study/prediction_files.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <cstdint>
 #include <optional>

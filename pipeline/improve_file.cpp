@@ -1,13 +1,13 @@
 #include "pipeline/improve_file.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "imported/imported_mesh.hpp"
-#include "mesh/boundary_mesh.hpp"
+#include "io/import/imported_mesh.hpp"
+#include "mesh/data/boundary_mesh.hpp"
+#include "mesh/quality/quality.hpp"
+#include "parallel/observation/log.hpp"
 #include "pipeline/finished_volume.hpp"
+#include "pipeline/report/pictures.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
-#include "report/pictures.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 /// Improvement of a mesh from another program.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/run.hpp"
 
 #include <string>

@@ -1,11 +1,11 @@
 #include "pipeline/info_file.hpp"
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/domain/load_domain.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/read_mesh.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/domain/load_domain.hpp"
 #include "pipeline/info_text.hpp"
-#include "report/text_file.hpp"
+#include "pipeline/report/text_file.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,7 @@
 /// Facts about a file, be it a mesh, CAD, or a case.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

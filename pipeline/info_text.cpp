@@ -1,8 +1,8 @@
 #include "pipeline/info_text.hpp"
 
-#include "domain/place_text.hpp"
 #include "io/read_mesh.hpp"
-#include "report/change_json.hpp"
+#include "pipeline/domain/place_text.hpp"
+#include "pipeline/report/change_json.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 /// Facts about files, for people and for programs.
 #pragma once
 
-#include "aeroloom/cad/read/cad_facts.hpp"
-#include "aeroloom/geometry/vec.hpp"
+#include "cad/read/cad_facts.hpp"
+#include "geometry/vec.hpp"
 #include "io/raw_mesh.hpp"
 
 #include <string>

@@ -1,11 +1,11 @@
 #include "pipeline/layer_forecast.hpp"
 
-#include "aeroloom/case/layer_rules.hpp"
-#include "aeroloom/sizing/model_sources.hpp"
-#include "aeroloom/sizing/ray_tree.hpp"
-#include "domain/place_text.hpp"
 #include "layers/column_heights.hpp"
-#include "report/change_json.hpp"
+#include "pipeline/case/layer_rules.hpp"
+#include "pipeline/domain/place_text.hpp"
+#include "pipeline/report/change_json.hpp"
+#include "sizing/features/model_sources.hpp"
+#include "sizing/features/ray_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

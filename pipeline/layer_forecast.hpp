@@ -1,11 +1,11 @@
 /// What boundary layers a run would have, from sizes and distances between faces alone.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/layers/columns.hpp"
-#include "aeroloom/mesh/patch.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "cad/model/model.hpp"
+#include "layers/columns.hpp"
+#include "mesh/data/patch.hpp"
+#include "pipeline/case/case.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <limits>
 #include <optional>

@@ -1,10 +1,10 @@
 #include "pipeline/layer_stage.hpp"
 
-#include "aeroloom/sizing/sources.hpp"
-#include "aeroloom/surface/plane_remesher.hpp"
 #include "layers/end_planes.hpp"
-#include "mesh/split_pieces.hpp"
+#include "mesh/transfer/split_pieces.hpp"
 #include "pipeline/stage_log.hpp"
+#include "sizing/field/sources.hpp"
+#include "surface/plane_remesher.hpp"
 
 #include <algorithm>
 #include <cmath>

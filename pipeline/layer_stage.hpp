@@ -1,8 +1,8 @@
 /// Boundary layers in a run: between the surface and the volume, which fills what is behind their front.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/layers/layer_cells.hpp"
+#include "cad/model/model.hpp"
+#include "layers/layer_cells.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/run.hpp"
 

@@ -1,10 +1,10 @@
 /// The cost of a case at the other levels of the prediction workshops.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/domain/level_findings.hpp"
-#include "aeroloom/sizing/levels.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/domain/level_findings.hpp"
+#include "sizing/choice/levels.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <string>
 #include <vector>

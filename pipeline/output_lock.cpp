@@ -1,6 +1,6 @@
 #include "pipeline/output_lock.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <array>
 #include <cerrno>

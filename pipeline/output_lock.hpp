@@ -1,7 +1,7 @@
 /// One run at a time in a folder.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "parallel/storage/file_descriptor.hpp"
 
 #include <string>

@@ -1,11 +1,11 @@
 #include "pipeline/quality_file.hpp"
 
-#include "aeroloom/mesh/mixed_quality.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/read_mesh.hpp"
-#include "report/mixed_quality_json.hpp"
-#include "report/mixed_quality_text.hpp"
-#include "report/text_file.hpp"
+#include "mesh/quality/mixed_quality.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "pipeline/report/mixed_quality_json.hpp"
+#include "pipeline/report/mixed_quality_text.hpp"
+#include "pipeline/report/text_file.hpp"
 
 #include <cstdio>
 

@@ -1,8 +1,8 @@
 /// The quality of a mesh from a file.
 #pragma once
 
-#include "aeroloom/case/quality_gate.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/quality_gate.hpp"
 
 #include <string>
 
@@ -14,9 +14,9 @@ struct QualityRequest {
   std::string json_file;    ///< written where not empty
 };
 
-/// Reads a mesh (io/read_mesh.hpp), measures it (mesh/mixed_quality.hpp), prints what it found, writes it
-/// where asked for. Returns the limits of the gate that the mesh misses, the same on every rank; empty: none.
-/// Collective. Throws CollectiveError.
+/// Reads a mesh (io/read_mesh.hpp), measures it (mesh/quality/mixed_quality.hpp), prints what it found,
+/// writes it where asked for. Returns the limits of the gate that the mesh misses, the same on every rank;
+/// empty: none. Collective. Throws CollectiveError.
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
                          const cases::QualityGate& gate);
 

@@ -1,22 +1,22 @@
 #include "pipeline/run.hpp"
 
-#include "aeroloom/domain/face_patches.hpp"
-#include "aeroloom/domain/load_domain.hpp"
-#include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "pipeline/checkpoints.hpp"
+#include "pipeline/domain/face_patches.hpp"
+#include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/size_domain.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/layer_stage.hpp"
+#include "pipeline/report/pictures.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
 #include "pipeline/stage_products.hpp"
 #include "pipeline/volume_stages.hpp"
 #include "pipeline/write_outputs.hpp"
-#include "report/pictures.hpp"
 
 #include <optional>
 #include <type_traits>

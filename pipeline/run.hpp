@@ -1,10 +1,10 @@
 /// One run: from a case to a mesh on disk.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/report/exit_code.hpp"
-#include "aeroloom/report/run_record.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/report/exit_code.hpp"
+#include "pipeline/report/run_record.hpp"
 
 namespace aeroloom::pipeline {
 

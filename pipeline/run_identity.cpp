@@ -1,7 +1,7 @@
 #include "pipeline/run_identity.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "report/library_versions.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "pipeline/report/library_versions.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,9 @@
 /// The program and the geometry, on which the result of a run depends besides its configuration.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/storage/digest.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/storage/digest.hpp"
+#include "pipeline/case/case.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 /// Long lists of changes for people: those that moved most, and how many more there are.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
+#include "cad/repair/change.hpp"
 
 #include <string>
 #include <vector>

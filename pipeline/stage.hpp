@@ -1,10 +1,10 @@
 /// Stages of a run: their clocks, and how what goes wrong in them ends the program.
 #pragma once
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
-#include "aeroloom/report/exit_code.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/sandbox/sandbox.hpp"
+#include "pipeline/report/exit_code.hpp"
 #include "pipeline/run.hpp"
 
 #include <new>

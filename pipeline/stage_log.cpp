@@ -1,7 +1,7 @@
 #include "pipeline/stage_log.hpp"
 
-#include "aeroloom/case/option_keys.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
+#include "parallel/observation/log.hpp"
+#include "pipeline/case/option_keys.hpp"
 #include "pipeline/shown_changes.hpp"
 
 #include <algorithm>

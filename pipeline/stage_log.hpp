@@ -2,7 +2,7 @@
 /// (retries, searches) stands in its driver.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "pipeline/run.hpp"
 
 #include <string>

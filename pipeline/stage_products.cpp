@@ -1,7 +1,7 @@
 #include "pipeline/stage_products.hpp"
 
 #include "cad/model/topology/joined_faces.hpp"
-#include "domain/domain_bytes.hpp"
+#include "pipeline/domain/domain_bytes.hpp"
 
 #include <tuple>
 #include <utility>

@@ -3,14 +3,14 @@
 /// are checked before).
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
-#include "aeroloom/domain/size_domain.hpp"
-#include "aeroloom/improve/improve_report.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
-#include "aeroloom/volume/volume_report.hpp"
+#include "cad/domain/domain.hpp"
+#include "improve/improve_report.hpp"
 #include "io/checkpoint_file.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/domain/size_domain.hpp"
+#include "surface/surface_mesher.hpp"
+#include "volume/volume_report.hpp"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 #include "pipeline/volume_stages.hpp"
 
-#include "aeroloom/io/vtk/vtk_writer.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "io/vtk/vtk_writer.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/stage.hpp"

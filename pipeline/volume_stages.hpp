@@ -1,7 +1,7 @@
 /// The stages of a run from a finished surface to an improved volume.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/run.hpp"

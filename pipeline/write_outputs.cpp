@@ -1,10 +1,10 @@
 #include "pipeline/write_outputs.hpp"
 
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
 #include "io/gmsh/gmsh_writer.hpp"
 #include "io/staged_files.hpp"
-#include "mesh/boundary_mesh.hpp"
+#include "mesh/data/boundary_mesh.hpp"
+#include "parallel/observation/log.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,9 +1,9 @@
 /// The files that a run leaves.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/case/case.hpp"
 
 #include <filesystem>
 #include <set>

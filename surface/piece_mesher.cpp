@@ -1,8 +1,8 @@
 #include "surface/piece_mesher.hpp"
 
 #include "cad/model/evaluation/face_width.hpp"
-#include "surface/pointed_tips.hpp"
-#include "surface/support_mesher.hpp"
+#include "surface/charts/support_mesher.hpp"
+#include "surface/tips/pointed_tips.hpp"
 
 #include <algorithm>
 #include <numbers>

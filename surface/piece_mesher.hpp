@@ -1,11 +1,11 @@
 /// A CAD face as a piece: its support, and what meshing a piece makes of it.
 #pragma once
 
-#include "aeroloom/mesh/piece.hpp"
-#include "aeroloom/surface/surface_error.hpp"
-#include "aeroloom/surface/surface_options.hpp"
-#include "surface/curves.hpp"
-#include "surface/subface.hpp"
+#include "mesh/data/piece.hpp"
+#include "surface/curves/curves.hpp"
+#include "surface/division/subface.hpp"
+#include "surface/surface_error.hpp"
+#include "surface/surface_options.hpp"
 
 namespace aeroloom::surface {
 

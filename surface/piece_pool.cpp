@@ -1,11 +1,11 @@
 #include "surface/piece_pool.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/surface/surface_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
+#include "surface/charts/support_mesher.hpp"
 #include "surface/piece_mesher.hpp"
-#include "surface/support_mesher.hpp"
+#include "surface/surface_error.hpp"
 
 #include <algorithm>
 #include <cmath>

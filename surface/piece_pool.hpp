@@ -2,12 +2,12 @@
 /// long as nothing around them changes.
 #pragma once
 
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/storage/task_store.hpp"
-#include "aeroloom/surface/surface_report.hpp"
-#include "surface/curves.hpp"
-#include "surface/imposed_cuts.hpp"
-#include "surface/subface_dealer.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/storage/task_store.hpp"
+#include "surface/curves/curves.hpp"
+#include "surface/division/imposed_cuts.hpp"
+#include "surface/division/subface_dealer.hpp"
+#include "surface/surface_report.hpp"
 
 #include <map>
 #include <string>

@@ -1,13 +1,13 @@
-#include "aeroloom/surface/plane_remesher.hpp"
+#include "surface/plane_remesher.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "mesh/shared_vertices.hpp"
-#include "surface/face_loops.hpp"
-#include "surface/free_curves.hpp"
+#include "mesh/exchange/shared_vertices.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "surface/charts/support_mesher.hpp"
+#include "surface/curves/face_loops.hpp"
+#include "surface/curves/free_curves.hpp"
+#include "surface/division/subface_dealer.hpp"
 #include "surface/piece_mesher.hpp"
 #include "surface/plane_support.hpp"
-#include "surface/subface_dealer.hpp"
-#include "surface/support_mesher.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,9 +1,9 @@
 #include "surface/plane_support.hpp"
 
-#include "front/boundary_triangulation.hpp"
-#include "surface/support_flips.hpp"
-#include "surface/support_mesher.hpp"
-#include "surface/support_topology.hpp"
+#include "surface/charts/support_flips.hpp"
+#include "surface/charts/support_mesher.hpp"
+#include "surface/charts/support_topology.hpp"
+#include "surface/front/boundary_triangulation.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -2,10 +2,10 @@
 /// triangulation of their vertices.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/sizing/size_field.hpp"
-#include "surface/face_loops.hpp"
-#include "surface/subface.hpp"
+#include "cad/model/model.hpp"
+#include "sizing/field/size_field.hpp"
+#include "surface/curves/face_loops.hpp"
+#include "surface/division/subface.hpp"
 
 namespace aeroloom::surface {
 

@@ -1,15 +1,15 @@
-#include "aeroloom/surface/surface_mesher.hpp"
+#include "surface/surface_mesher.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/surface/surface_error.hpp"
-#include "mesh/intersection.hpp"
-#include "sizing/closed_corners.hpp"
-#include "surface/curves.hpp"
-#include "surface/cusp_tips.hpp"
-#include "surface/imposed_cuts.hpp"
-#include "surface/needle_remedies.hpp"
+#include "mesh/checks/intersection.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
+#include "sizing/field/closed_corners.hpp"
+#include "surface/curves/curves.hpp"
+#include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
+#include "surface/surface_error.hpp"
+#include "surface/tips/cusp_tips.hpp"
+#include "surface/tips/needle_remedies.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,47 +9,60 @@ import re
 import sys
 import tempfile
 
-# What each stage may include, besides itself.
-STAGE = {"geometry", "cad", "forest", "front", "parallel", "mesh", "cavities", "sizing", "partition"}
-# What what is made of stages may include.
-STAGES = STAGE | {"attribution", "surface", "layers", "volume", "improve", "io"}
-# What each folder may include, besides itself.
+# What each folder may include, besides itself; lowest first.
+BASE = {"geometry", "parallel", "mesh", "cad", "sizing"}
 ALLOWED = {
     "parallel": set(),
     "geometry": set(),
-    "forest": {"geometry", "parallel"},
-    "cad": {"geometry"},
-    "front": {"geometry"},
     "mesh": {"geometry", "parallel"},
-    "cavities": {"geometry", "parallel", "mesh"},
-    "sizing": {"geometry", "parallel", "cad"},
-    "partition": {"geometry", "parallel", "mesh"},
-    "attribution": {"geometry", "parallel", "mesh", "sizing"},
-    "surface": STAGE,
+    "cad": {"geometry"},
+    "sizing": {"cad", "geometry", "parallel"},
+    "surface": BASE,
     "layers": {"geometry", "parallel", "mesh"},
-    "volume": STAGE,
-    "improve": STAGE,
+    "volume": BASE,
+    "improve": BASE,
     "io": {"geometry", "parallel", "mesh"},
-    "picture": {"geometry", "parallel", "mesh"},
-    "imported": {"geometry", "parallel", "mesh", "partition", "io"},
-    "page": set(),
-    "study": {"parallel", "page"},
-    "case": STAGES,
-    "domain": STAGES | {"case"},
-    "report": STAGES | {"case", "domain", "page", "picture", "study"},
-    "pipeline": STAGES | {"case", "domain", "report", "page", "picture", "study", "imported"},
+    "pipeline": BASE | {"surface", "layers", "volume", "improve", "io"},
 }
+# Sub-folders that are libraries, lowest first: each may include those before it. Files of the folder itself are "."; a
+# sub-folder may include one of them only where that file needs no sub-folder: options, reports, errors, entries.
+ORDER = {
+    "mesh": ["data", "exchange", "quality", "checks", "transfer", "."],
+    "sizing": ["field", "features", "sources", "choice", "lifting", "."],
+    "surface": ["front", "curves", "remesh", "charts", "division", "tips", "."],
+    "volume": ["lattice", "core", "zones", "filling", "."],
+    "improve": ["attribution", "limits", "operations", "borders", "."],
+    "io": [".", "import"],
+    "pipeline": ["case", "domain", "report/page", "report/picture", "study", "report", ".", "commands"],
+}
+# Sub-folders that may include less than what stands before them: other folders, sub-folders of their own.
+RESTRICTED = {
+    "surface/front": {"geometry"},
+    "surface/division": BASE | {"surface/remesh", "surface/charts", "surface/curves"},
+    "improve/attribution": {"geometry", "parallel", "mesh", "sizing"},
+    "improve/limits": {"geometry", "mesh", "sizing"},
+    "pipeline/case": ALLOWED["pipeline"],
+    "pipeline/report/page": set(),
+    "pipeline/report/picture": {"geometry", "parallel", "mesh"},
+    "pipeline/study": {"parallel", "pipeline/report/page"},
+}
+# One folder each: nobody outside of it includes what serves it alone.
+INNER = ["surface/front", "surface/curves", "surface/remesh", "surface/charts", "surface/tips", "volume/lattice", "volume/core",
+         "volume/zones", "volume/filling", "improve/limits", "improve/operations", "improve/borders"]
+# What tells the versions of libraries, for the report.
+VERSIONS = re.compile(r"_version\.hpp$")
 
 # Third-party headers: pattern, folders that may include them, how many files may.
 ROOMS = [
     (re.compile(r"mpi\.h$"), {"parallel"}, None),
-    (re.compile(r"p[468]est\w*\.h$|sc(_\w+)?\.h$"), {"forest", "tests"}, None),
-    (re.compile(r"metis\.h$"), {"partition"}, None),
+    (re.compile(r"p[468]est\w*\.h$|sc(_\w+)?\.h$"), {"volume/lattice", "tests"}, None),
+    (re.compile(r"metis\.h$"), {"surface/division"}, None),
     (re.compile(r"tetgen\.h$"), {"volume"}, 1),
     (re.compile(r"vtk[A-Z]\w*\.h$|hdf5\.h$"), {"io", "tests"}, None),
-    (re.compile(r"png\.h$"), {"picture", "tests"}, None),
-    (re.compile(r"yaml-cpp/"), {"case"}, None),
-    (re.compile(r"muParser\w*\.h$"), {"sizing"}, 1),
+    (re.compile(r"png\.h$"), {"pipeline/report/picture", "tests"}, None),
+    (re.compile(r"yaml-cpp/"), {"pipeline/case"}, None),
+    (re.compile(r"muParser\w*\.h$"), {"sizing/sources"}, 1),
+    (re.compile(r"Eigen/"), {"surface/charts"}, None),
     (re.compile(r"CGAL/"), {"geometry"}, None),
 ]
 OPENCASCADE = re.compile(
@@ -62,7 +75,7 @@ CONCEPT_FREE = {"utils", "util", "common", "core", "misc", "helpers"}
 
 MOST_PARAMETERS = 6
 # Functions whose parameters a library dictates: libsc's sc_log_handler_t.
-DICTATED = {("forest/library.cpp", "keep_error"), ("tests/forest/host.cpp", "count_words")}
+DICTATED = {("volume/lattice/p4est_library.cpp", "keep_error"), ("tests/volume/lattice/host.cpp", "count_words")}
 # Comments, and literals with the brackets and commas in them.
 COMMENT_OR_LITERAL = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])\'', re.DOTALL)
@@ -78,15 +91,87 @@ CALLING = {"return", "new", "throw", "else", "do", "co_return", "case"}
 # (`struct Model::Data`). Specialisations (`struct Wire<T>`) are of a template defined elsewhere.
 TYPE = re.compile(r"^(?:struct|class|union|enum(?: class| struct)?) (\w+)(?!\w|::|\s*<)[^;{]*\{", re.MULTILINE)
 
-PUBLIC = "include/aeroloom"
+# A library of a folder's CMakeLists, with what is given to it.
+LIBRARY = re.compile(r"aeroloom_library\((\S+)([^)]*)\)")
+KEYWORDS = {"SOURCES", "ALONE", "HEADERS", "PUBLIC", "PRIVATE", "FOLDER"}
 
 
 def sources(root):
-    """The sources of each folder, with its headers for host programs."""
+    """The sources of each folder."""
     for folder in [*ALLOWED, "tests", "benchmarks"]:
-        for path in sorted([*(root / folder).rglob("*"), *(root / PUBLIC / folder).rglob("*")]):
+        for path in sorted((root / folder).rglob("*")):
             if path.suffix in {".cpp", ".hpp"}:
                 yield folder, path
+
+
+def libraries(root):
+    """Each library of the source folders: its folder and what stands after each keyword in its CMakeLists."""
+    for folder in ALLOWED:
+        for path in sorted((root / folder).rglob("CMakeLists.txt")):
+            for match in LIBRARY.finditer(path.read_text()):
+                given, keyword = {key: [] for key in KEYWORDS}, None
+                for word in match.group(2).split():
+                    keyword = word if word in KEYWORDS else keyword
+                    if word not in KEYWORDS and keyword:
+                        given[keyword].append(word)
+                yield (given["FOLDER"] or [match.group(1)])[0], given
+
+
+def public_headers(root):
+    """Headers of host programs, as paths from the root."""
+    return {f"{folder}/{header}" for folder, given in libraries(root) for header in given["HEADERS"]}
+
+
+def place(name):
+    """Folder and sub-folder of a file or header: ("mesh", "data"), ("mesh", ".")."""
+    folder, _, rest = name.partition("/")
+    inner = [sub for sub in ORDER.get(folder, []) if rest.startswith(sub + "/")]
+    return folder, max(inner, key=len, default=".")
+
+
+def includes(root, name):
+    """Headers of the project that a file includes."""
+    found = []
+    for line in (root / name).read_text().splitlines():
+        match = INCLUDE.match(line)
+        if match and match.group(1).split("/")[0] in ALLOWED:
+            found.append(match.group(1))
+    return found
+
+
+def needs_sub_folder(root, header, seen):
+    """Whether a header of a folder itself includes, through others of the folder, one of its sub-folders."""
+    folder, sub = place(header)
+    if sub != ".":
+        return True
+    seen.add(header)
+    for other in includes(root, header) if (root / header).exists() else []:
+        if other.split("/")[0] == folder and other not in seen and needs_sub_folder(root, other, seen):
+            return True
+    return False
+
+
+def fault_of_include(root, name, header):
+    """What is wrong with an include of a source, or None."""
+    folder, sub = place(name)
+    target, target_sub = place(header)
+    if target not in ALLOWED:
+        return None
+    here, there = f"{folder}/{sub}", f"{target}/{target_sub}"
+    if folder != target and folder in ALLOWED:
+        inner = [room for room in INNER if header.startswith(room + "/")]
+        if inner and not VERSIONS.search(header):
+            return f"only {target}/ includes {inner[0]}/"
+        allowed = RESTRICTED.get(here, ALLOWED[folder])
+        return None if target in allowed and target in ALLOWED[folder] else f"{here.removesuffix('/.')}/ must not include {header}"
+    if folder != target or sub == target_sub or folder not in ORDER:
+        return None
+    if target_sub == "." and not needs_sub_folder(root, header, set()):
+        return None
+    order = ORDER[folder]
+    if order.index(target_sub) > order.index(sub) or (here in RESTRICTED and there not in RESTRICTED[here]):
+        return f"{here.removesuffix('/.')}/ must not include {header}"
+    return None
 
 
 def split_list(text, begin):
@@ -134,6 +219,7 @@ def violations(root):
     found = []
     types = {}
     uses = {pattern: set() for pattern, _, _ in ROOMS}
+    host_headers = public_headers(root)
     for folder, path in sources(root):
         name = path.relative_to(root)
         text = path.read_text()
@@ -144,6 +230,7 @@ def violations(root):
             where = f"{name}:{number}"
             if types.setdefault(type_name, where) != where:
                 found.append(f"{where}: another type {type_name} is defined in {types[type_name]}")
+        public = str(name) in host_headers
         for number, line in enumerate(text.splitlines(), 1):
             where = f"{name}:{number}"
             if folder not in {"parallel", "tests"} and MPI_NAME.search(line):
@@ -152,16 +239,15 @@ def violations(root):
             if not match:
                 continue
             header = match.group(1)
-            if str(name).startswith(PUBLIC) and line.count('"') and not header.startswith("aeroloom/"):
+            if public and header.split("/")[0] in ALLOWED and header not in host_headers:
                 found.append(f"{where}: a header for host programs must not include {header}")
-            header = header.removeprefix("aeroloom/")
-            target = header.split("/")[0]
-            if folder in ALLOWED and target in ALLOWED and target != folder and target not in ALLOWED[folder]:
-                found.append(f"{where}: {folder}/ must not include {header}")
+            fault = fault_of_include(root, str(name), header) if folder in ALLOWED else None
+            if fault:
+                found.append(f"{where}: {fault}")
             for pattern, rooms, _ in ROOMS:
                 if pattern.search(header):
                     uses[pattern].add(str(name))
-                    if folder not in rooms:
+                    if not any(room == folder or str(name).startswith(room + "/") for room in rooms):
                         found.append(f"{where}: {header} belongs to {', '.join(sorted(rooms))}/")
             if OPENCASCADE.match(header) and folder not in {"cad", "tests", "benchmarks"}:
                 found.append(f"{where}: OpenCASCADE ({header}) belongs to cad/")
@@ -177,41 +263,53 @@ def violations(root):
 def self_test():
     """Each planted violation must be found, and a clean tree must be clean."""
     planted = {
-        "mesh/up.cpp": '#include "surface/front.hpp"\n',
+        "mesh/data/up.cpp": '#include "surface/options.hpp"\n',
         "surface/sideways.cpp": '#include "volume/volume_mesher.hpp"\n',
+        "mesh/data/sub_up.cpp": '#include "mesh/checks/validity.hpp"\n',
+        "surface/curves/to_driver.cpp": '#include "surface/driver.hpp"\n',
+        "volume/inner.cpp": '#include "volume/lattice/tree.hpp"\n#include "surface/charts/chart.hpp"\n',
+        "pipeline/not_its_own.cpp": '#include "surface/charts/chart.hpp"\n',
+        "pipeline/report/page/mesh.cpp": '#include "mesh/data/piece.hpp"\n',
+        "pipeline/case/run.cpp": '#include "pipeline/commands/run.hpp"\n',
         "mesh/mpi.cpp": "#include <mpi.h>\n",
         "io/names_mpi.cpp": "int r = MPI_Comm_rank;\n",
-        "volume/one.cpp": "#include <tetgen.h>\n",
+        "volume/filling/one.cpp": "#include <tetgen.h>\n",
         "surface/tetgen.cpp": "#include <tetgen.h>\n",
         "mesh/vtk.cpp": "#include <vtkPoints.h>\n",
         "surface/occ.cpp": "#include <BRep_Tool.hxx>\n",
         "geometry/occ.cpp": "#include <gp_Pnt.hxx>\n",
-        "front/mpi.cpp": '#include "mesh/piece.hpp"\n',
-        "volume/forest.cpp": "#include <p8est_ghost.h>\n",
+        "surface/front/mpi.cpp": '#include "mesh/data/piece.hpp"\n',
+        "volume/zones/forest.cpp": "#include <p8est_ghost.h>\n",
         "mesh/sc.cpp": "#include <sc.h>\n",
         "io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
-        "include/aeroloom/mesh/inner.hpp": '#include "mesh/inner.hpp"\n',
-        "include/aeroloom/mesh/up.hpp": '#include "aeroloom/surface/front.hpp"\n',
+        "surface/charts.cpp": "#include <Eigen/Sparse>\n",
+        "mesh/data/public.hpp": '#include "mesh/data/inner.hpp"\n',
         "mesh/long.hpp": "void seven(int a, int b, int c, int d, int e,\n           const std::map<int, int>& f, int);\n",
         "mesh/long_constructor.hpp": "class A {\n  A(int a, int b, int c, B d, B& e, B* f, const char* g = \"\");\n};\n",
         "mesh/name.hpp": "template <class T>\nclass Piece final : public Base<T> {};\n",
         "mesh/kind.hpp": "// of a mesh\nenum class Kind : int { none };\n",
         "mesh/long_lambda.cpp": "const auto f = [&](int a, int b, int c, int d, int e, int f, int g) {};\n",
     }
+    lists = {"mesh/CMakeLists.txt": "aeroloom_library(mesh/data\n  SOURCES first.cpp second.cpp\n  HEADERS public.hpp)\n"
+                                    "aeroloom_library(mesh/checks\n  SOURCES other_library.cpp)\n"}
     clean = {
         "geometry/piece.hpp": "struct Piece;\nstruct Piece {\n  enum class Side { left };\n};\nstruct Piece::Kind {};\n",
         "geometry/traits.hpp": "template <>\nstruct Piece<int> {};\nenum class Kind {};\n",
         "geometry/side.hpp": "// struct Piece {\nstruct Side {};\n",
         "mesh/local.cpp": "struct Piece {};\n",
-        "mesh/down.cpp": '#include "geometry/vec.hpp"\n',
+        "mesh/down.cpp": '#include "geometry/vec.hpp"\n#include "mesh/data/piece.hpp"\n',
+        "surface/options.hpp": '#include "mesh/data/piece.hpp"\n',
+        "surface/driver.hpp": '#include "surface/curves/curves.hpp"\n',
+        "surface/curves/options.cpp": '#include "surface/options.hpp"\n',
+        "pipeline/report/report.cpp": '#include "pipeline/report/page/svg.hpp"\n#include "volume/lattice/p4est_version.hpp"\n',
         "cad/model/occ.cpp": "#include <gp_Pnt.hxx>\n",
         "mesh/six.hpp": "void six(const std::map<int, int>& a, int b, int c, int d, int e, int f);  // of (a, b, c, d, e, f, g)\n",
         "mesh/calls.cpp": 'auto s = fmt::format("{}, {}", a, b, c, d, e, f * g);\nreturn std::tuple(&A::a, a, b, c, d, e, f);\n',
-        "forest/library.cpp": "void keep_error(FILE*, const char*, int, int, int, int priority, const char* text) {}\n",
+        "volume/lattice/p4est_library.cpp": "void keep_error(FILE*, const char*, int, int, int, int priority, const char* text) {}\n",
     }
     with tempfile.TemporaryDirectory() as name:
         root = pathlib.Path(name)
-        for file, text in clean.items():
+        for file, text in (lists | clean).items():
             (root / file).parent.mkdir(parents=True, exist_ok=True)
             (root / file).write_text(text)
         assert violations(root) == [], violations(root)
@@ -220,7 +318,7 @@ def self_test():
             (root / file).write_text(text)
         (root / "utils").mkdir()
         found = violations(root)
-        for file in set(planted) - {"volume/one.cpp"}:
+        for file in set(planted) - {"volume/filling/one.cpp"}:
             assert any(v.startswith(file + ":") for v in found), f"missed {file}"
         assert any("at most 1" in v for v in found) and any(v.startswith("utils/") for v in found), found
 

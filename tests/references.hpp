@@ -2,7 +2,7 @@
 /// the others find it (REFERENCES in cmake/AeroloomLibrary.cmake). Without, each makes its own.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <functional>
 #include <string>

@@ -5,7 +5,7 @@
 ///   --only=Suite.*:...      these alone: what is worth five ranks
 ///   --no-comparison         not what by its name compares numbers of ranks: it has nothing to compare
 /// A name or pattern that chooses nothing is an error: lists in CMakeLists.txt stay true.
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "parallel/communication/environment.hpp"
 
 #include <algorithm>

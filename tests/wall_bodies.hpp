@@ -1,7 +1,7 @@
 /// Bodies whose walls are close to each other.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 
 #include <filesystem>
 #include <string>

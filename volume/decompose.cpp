@@ -1,10 +1,10 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "partition/piece_size.hpp"
-#include "volume/cut_blocks.hpp"
-#include "volume/decomposition_data.hpp"
-#include "volume/evidence.hpp"
-#include "volume/filling_limits.hpp"
-#include "volume/neighbourhood.hpp"
+#include "mesh/transfer/piece_size.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "volume/filling/decomposition_data.hpp"
+#include "volume/filling/evidence.hpp"
+#include "volume/filling/filling_limits.hpp"
+#include "volume/lattice/neighbourhood.hpp"
+#include "volume/zones/cut_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>

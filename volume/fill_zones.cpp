@@ -1,12 +1,12 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/observation/progress.hpp"
 #include "parallel/sandbox/crash_note.hpp"
-#include "volume/core_pieces.hpp"
-#include "volume/decomposition_data.hpp"
-#include "volume/filling_limits.hpp"
-#include "volume/zone_ladder.hpp"
+#include "parallel/sandbox/fault.hpp"
+#include "volume/filling/core_pieces.hpp"
+#include "volume/filling/decomposition_data.hpp"
+#include "volume/filling/filling_limits.hpp"
+#include "volume/filling/zone_ladder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/builtin/transport.hpp"
+#include "cad/builtin/transport.hpp"
 
 #include "cad/builtin/transport_parts.hpp"
 #include "cad/model/named_shape.hpp"

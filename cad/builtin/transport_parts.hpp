@@ -1,8 +1,8 @@
 /// The parts of the built-in aircraft, each a closed solid with named faces. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/builtin/transport.hpp"
-#include "aeroloom/geometry/vec.hpp"
+#include "cad/builtin/transport.hpp"
+#include "geometry/vec.hpp"
 
 #include <string>
 #include <vector>

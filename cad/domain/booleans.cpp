@@ -1,6 +1,6 @@
 #include "cad/domain/booleans.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "cad/model/step_trace.hpp"
 
 #include <TopExp_Explorer.hxx>

@@ -1,8 +1,8 @@
 /// Strips closed to edges, as many as can be.
 #pragma once
 
-#include "aeroloom/cad/model/topology/blunt_edges.hpp"
-#include "aeroloom/cad/repair/change.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
+#include "cad/repair/change.hpp"
 
 #include <string>
 #include <vector>

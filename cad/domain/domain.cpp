@@ -1,4 +1,4 @@
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"

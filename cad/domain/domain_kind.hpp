@@ -1,7 +1,7 @@
 /// Whether solids are the fluid or bodies in it, and what a face is called. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "cad/model/model_data.hpp"
 
 #include <string>

@@ -1,9 +1,9 @@
 /// Bodies made one, and the fluid around them. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
-#include "aeroloom/cad/repair/change.hpp"
+#include "cad/domain/domain.hpp"
 #include "cad/model/named_shape.hpp"
+#include "cad/repair/change.hpp"
 #include "cad/repair/volumes.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 /// Bodies of the CAD library and bodies of triangles in one fluid. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "cad/domain/far_field.hpp"
 #include "cad/faceted/faceted_part.hpp"
 #include "cad/model/model_data.hpp"

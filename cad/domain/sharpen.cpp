@@ -1,9 +1,9 @@
 #include "cad/domain/sharpen.hpp"
 
-#include "aeroloom/cad/model/topology/blunt_edges.hpp"
 #include "cad/domain/close_strips.hpp"
 #include "cad/model/patches.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 /// Blunt trailing edges of a domain closed on request. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 
 namespace aeroloom::cad {
 

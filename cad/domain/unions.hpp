@@ -1,8 +1,8 @@
 /// One union of solids, by whichever way of the CAD library gives a sound one. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/model/named_shape.hpp"
+#include "cad/repair/change.hpp"
 #include "cad/repair/volumes.hpp"
 
 #include <vector>

@@ -1,8 +1,8 @@
 #include "cad/faceted/chambers.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/faceted/facet_rays.hpp"
 #include "cad/faceted/facet_sides.hpp"
+#include "cad/model/model.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/predicates.hpp"
 

@@ -1,8 +1,8 @@
 /// The spaces between triangles: which are material, and what lies on either side of each triangle.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/repair/change.hpp"
 
 #include <array>
 #include <cstdint>

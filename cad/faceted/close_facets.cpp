@@ -1,10 +1,10 @@
 #include "cad/faceted/close_facets.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/geometry/box_tree.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/weld_facets.hpp"
+#include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/box_tree.hpp"
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>

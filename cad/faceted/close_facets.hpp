@@ -1,8 +1,8 @@
 /// Open sides of a soup, closed where there is one way to do so.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/repair/change.hpp"
 
 #include <vector>
 

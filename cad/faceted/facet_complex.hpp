@@ -1,7 +1,7 @@
 /// Flat triangles that enclose regions, cut into faces along curves: a faceted model once it is repaired.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "cad/faceted/facet_contacts.hpp"
 
-#include "aeroloom/geometry/box_tree.hpp"
 #include "cad/faceted/facet_sides.hpp"
+#include "geometry/box_tree.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/triangle_contact.hpp"
 

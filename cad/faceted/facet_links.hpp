@@ -1,8 +1,8 @@
 /// Who is beside whom in a complex of facets. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/geometry/half_edges.hpp"
 #include "cad/faceted/facet_complex.hpp"
+#include "geometry/half_edges.hpp"
 
 #include <vector>
 

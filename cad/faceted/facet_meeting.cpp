@@ -1,8 +1,8 @@
 #include "cad/faceted/facet_meeting.hpp"
 
-#include "aeroloom/geometry/box_tree.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_rays.hpp"
+#include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>

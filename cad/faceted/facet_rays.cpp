@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_rays.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>

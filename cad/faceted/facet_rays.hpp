@@ -2,8 +2,8 @@
 /// folder only.
 #pragma once
 
-#include "aeroloom/geometry/box_tree.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "geometry/box_tree.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,8 +1,8 @@
 /// Normals and curvatures at the points of a face of facets. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/geometry/half_edges.hpp"
+#include "cad/model/model.hpp"
+#include "geometry/half_edges.hpp"
 
 #include <vector>
 

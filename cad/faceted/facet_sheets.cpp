@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_sheets.hpp"
 
-#include "aeroloom/geometry/box_tree.hpp"
+#include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>

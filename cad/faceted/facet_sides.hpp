@@ -1,7 +1,7 @@
 /// The sides of triangles by their end points: who meets at each. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/geometry/half_edges.hpp"
+#include "geometry/half_edges.hpp"
 #include "geometry/runs.hpp"
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 /// segments.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <array>
 #include <cstdint>

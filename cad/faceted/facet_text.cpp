@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_text.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 /// Lines and words of a text file of facets; numbers without regard to the locale.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <cstdint>
 #include <string>

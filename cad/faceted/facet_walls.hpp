@@ -1,8 +1,8 @@
 /// The walls of bodies of facets that a fluid around them meets. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/faceted/facet_complex.hpp"
+#include "cad/repair/change.hpp"
 
 namespace aeroloom::cad {
 

@@ -1,12 +1,12 @@
 /// Domains of faceted files. Seen by cad/ only.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
-#include "aeroloom/cad/read/cad_facts.hpp"
-#include "aeroloom/cad/repair/diagnosis.hpp"
+#include "cad/domain/domain.hpp"
 #include "cad/faceted/facet_complex.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/model/model_data.hpp"
+#include "cad/read/cad_facts.hpp"
+#include "cad/repair/diagnosis.hpp"
 
 #include <string>
 #include <vector>

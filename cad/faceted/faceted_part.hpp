@@ -4,10 +4,10 @@
 /// library's shape.
 #pragma once
 
-#include "aeroloom/geometry/box_tree.hpp"
 #include "cad/faceted/facet_links.hpp"
 #include "cad/faceted/facet_shape.hpp"
 #include "cad/faceted/facet_sheets.hpp"
+#include "geometry/box_tree.hpp"
 
 #include <memory>
 #include <span>

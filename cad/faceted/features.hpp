@@ -1,9 +1,9 @@
 /// The sides along which a faceted surface is cut into faces, and the points where curves of them end.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/facet_turns.hpp"
+#include "cad/model/model.hpp"
 
 #include <cstdint>
 #include <vector>

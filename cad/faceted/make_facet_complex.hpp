@@ -1,9 +1,9 @@
 /// From the triangles of a file to regions, faces, curves and vertices.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/faceted/facet_complex.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/repair/change.hpp"
 
 #include <cstdint>
 

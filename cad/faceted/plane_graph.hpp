@@ -5,8 +5,8 @@
 /// that hang together nowhere are first joined by bridges. All signs are exact.
 #pragma once
 
-#include "aeroloom/geometry/half_edges.hpp"
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/half_edges.hpp"
+#include "geometry/vec.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_text.hpp"
+#include "cad/model/model.hpp"
 
 #include <algorithm>
 #include <array>

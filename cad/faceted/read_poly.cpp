@@ -1,7 +1,7 @@
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_text.hpp"
 #include "cad/faceted/plane_graph.hpp"
+#include "cad/model/model.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,8 +1,8 @@
 #include "cad/faceted/unite_components.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
+#include "cad/model/model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/unite_surfaces.hpp"

@@ -1,8 +1,8 @@
 /// Closed components of a soup that cross or touch others, united. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/repair/change.hpp"
 
 namespace aeroloom::cad {
 

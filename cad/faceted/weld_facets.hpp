@@ -1,8 +1,8 @@
 /// Points and triangles that a soup has twice, and triangles that are none.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/repair/change.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 /// Numbers and texts as bytes, for ranks that run the same program. Seen by cad/ only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <cstddef>
 #include <cstdint>

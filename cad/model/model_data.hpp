@@ -1,8 +1,8 @@
 /// What is behind a Model: shapes of the CAD library and evaluators. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/model/evaluation/surface_evaluator.hpp"
+#include "cad/model/model.hpp"
 #include "cad/model/named_shape.hpp"
 
 #include <array>

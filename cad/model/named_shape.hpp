@@ -2,7 +2,7 @@
 /// only.
 #pragma once
 
-#include "aeroloom/cad/builtin/transport.hpp"
+#include "cad/builtin/transport.hpp"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 /// only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <string>
 #include <utility>

@@ -1,7 +1,7 @@
 /// Patches of a model by name.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <optional>
 #include <regex>

@@ -1,7 +1,7 @@
 /// Points and vectors of OpenCASCADE as ours.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/read/cad_facts.hpp"
+#include "cad/read/cad_facts.hpp"
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"

@@ -1,6 +1,6 @@
 #include "cad/read/export.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "cad/read/length_unit.hpp"
 #include "cad/repair/heal.hpp"
 

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/length_unit.hpp"
 #include "cad/read/xde_document.hpp"

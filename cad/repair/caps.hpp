@@ -1,7 +1,7 @@
 /// Planar faces over planar openings. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
+#include "cad/repair/change.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/repair/change.hpp"
+#include "cad/repair/change.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/repair/diagnosis.hpp"
+#include "cad/repair/diagnosis.hpp"
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"

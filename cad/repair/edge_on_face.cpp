@@ -1,6 +1,6 @@
 #include "cad/repair/edge_on_face.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>

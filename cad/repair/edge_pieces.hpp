@@ -1,7 +1,7 @@
 /// Edges cut into pieces, some of which take the place of others. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <BRep_Tool.hxx>
 #include <TopoDS_Edge.hxx>

@@ -1,6 +1,6 @@
 #include "cad/repair/edge_substitution.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 /// From what a file holds to closed solids. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/model/named_shape.hpp"
+#include "cad/repair/change.hpp"
 #include "cad/repair/volumes.hpp"
 
 #include <string>

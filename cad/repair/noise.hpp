@@ -2,8 +2,8 @@
 /// by this folder and by domain/.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/model/named_shape.hpp"
+#include "cad/repair/change.hpp"
 
 namespace aeroloom::cad {
 

@@ -1,6 +1,6 @@
 #include "cad/repair/noise_closing.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "cad/repair/edge_on_face.hpp"
 #include "cad/repair/edge_pieces.hpp"
 #include "cad/repair/sampled_edge.hpp"

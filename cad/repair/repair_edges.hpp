@@ -1,7 +1,7 @@
 /// Curves that edges lack, or that contradict each other. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
+#include "cad/repair/change.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 /// Edges of the CAD library with points along them, to measure how near they are. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <vector>
 

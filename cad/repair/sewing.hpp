@@ -1,8 +1,8 @@
 /// From faces with gaps to closed shells. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/repair/change.hpp"
 #include "cad/model/named_shape.hpp"
+#include "cad/repair/change.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 /// Vertices that become one where they are near. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <utility>
 #include <vector>

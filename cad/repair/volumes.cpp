@@ -1,7 +1,7 @@
 #include "cad/repair/volumes.hpp"
 
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/model/evaluation/face_integrals.hpp"
+#include "cad/model/model.hpp"
 
 #include <BRep_Tool.hxx>
 #include <TopExp_Explorer.hxx>

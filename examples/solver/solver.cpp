@@ -7,12 +7,12 @@
 #include <exception>
 #include <string>
 
-#include <aeroloom/domain/load_domain.hpp>
 #include <aeroloom/improve/improver.hpp>
-#include <aeroloom/mesh/distributed_mesh.hpp>
+#include <aeroloom/mesh/data/distributed_mesh.hpp>
 #include <aeroloom/parallel/communication/host.hpp>
 #include <aeroloom/parallel/sandbox/sandbox.hpp>
-#include <aeroloom/sizing/size_field.hpp>
+#include <aeroloom/pipeline/domain/load_domain.hpp>
+#include <aeroloom/sizing/field/size_field.hpp>
 #include <aeroloom/surface/surface_mesher.hpp>
 #include <aeroloom/volume/volume_mesher.hpp>
 

@@ -1,7 +1,7 @@
 /// What a CGNS file holds and where. Functions of counts and names alone.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "io/hdf5/file_layout.hpp"
 
 #include <array>

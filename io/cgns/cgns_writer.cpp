@@ -1,7 +1,7 @@
 #include "io/cgns/cgns_writer.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/cgns/cgns_layout.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 namespace aeroloom::io {
 

@@ -3,7 +3,7 @@
 /// Follows the SIDS 3.4 and its file mapping (cgns.github.io): nodes as its library stores them in HDF5.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 #include "io/gmsh/gmsh_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/distinct_names.hpp"
 #include "io/gmsh/msh_layout.hpp"
 #include "io/gmsh/msh_tables.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <filesystem>

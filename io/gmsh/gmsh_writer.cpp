@@ -1,9 +1,9 @@
 #include "io/gmsh/gmsh_writer.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/gmsh/msh_head.hpp"
 #include "io/gmsh/msh_layout.hpp"
 #include "io/local_file.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>

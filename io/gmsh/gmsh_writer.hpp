@@ -9,7 +9,7 @@
 /// on the first volume: relocating them by Gmsh would move the boundary too.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 #include "io/gmsh/msh_head.hpp"
 
 #include "io/distinct_names.hpp"
-#include "mesh/rendezvous.hpp"
+#include "mesh/exchange/rendezvous.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 /// The sections of an MSH file before the nodes, and what names become there.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <array>
 #include <string>

@@ -1,7 +1,7 @@
 /// Where everything stands in a binary MSH 4.1 file: a function of counts alone.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 /// Tables of an MSH file: groups, entities, and where its blocks of nodes and elements stand.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "io/gmsh/msh_scanner.hpp"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "io/hdf5/input_file.hpp"
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "io/hdf5/sandboxed_reading.hpp"
 #include "parallel/sandbox/crash_note.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <algorithm>
 #include <cerrno>

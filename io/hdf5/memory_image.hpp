@@ -1,7 +1,7 @@
 /// The bytes that HDF5 writes of a file that is laid out in memory.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstddef>

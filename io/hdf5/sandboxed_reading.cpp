@@ -1,8 +1,8 @@
 #include "io/hdf5/sandboxed_reading.hpp"
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "io/hdf5/handle.hpp"
 #include "io/hdf5/input_file.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 /// The side of InputFile that runs in a child and sees HDF5. Internal to io/hdf5/.
 #pragma once
 
-#include "aeroloom/parallel/communication/packer.hpp"
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/communication/packer.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <cstdint>
 #include <string>

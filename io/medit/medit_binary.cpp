@@ -1,6 +1,6 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/medit/medit_share.hpp"
 #include "io/streams/range_reader.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <cstddef>

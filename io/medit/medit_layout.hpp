@@ -1,7 +1,7 @@
 /// Medit's mesh format (GMF): keywords, and where the sections of a file lie.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 /// Names of regions and patches, which the Medit format has no place for, in a text file beside the mesh.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <cstdint>
 #include <map>

@@ -1,11 +1,11 @@
 #include "io/medit/medit_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
 #include "io/distinct_numbers.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/medit/medit_share.hpp"
 #include "io/streams/range_reader.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,8 @@
 /// Meshes from Medit files (GMF) of any origin.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/raw_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 /// The share of a Medit file that the readers of both encodings fill. Internal to io/medit/.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_mesh.hpp"
 #include "io/medit/medit_layout.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "io/medit/medit_writer.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/medit/medit_layout.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/streams/range_writer.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 /// Meshes as Medit files (GMF), which refine, Mmg, ParMmg and INRIA's tools read.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

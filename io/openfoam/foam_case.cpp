@@ -1,9 +1,9 @@
 #include "io/openfoam/foam_case.hpp"
 
-#include "aeroloom/parallel/observation/log.hpp"
 #include "io/distinct_names.hpp"
 #include "io/local_file.hpp"
 #include "io/openfoam/foam_settings.hpp"
+#include "parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <array>

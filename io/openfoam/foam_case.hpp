@@ -1,7 +1,7 @@
 /// The folders of a case, and the dictionaries that a solver must find there.
 #pragma once
 
-#include "aeroloom/mesh/patch.hpp"
+#include "mesh/data/patch.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "io/openfoam/foam_faces.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <tuple>

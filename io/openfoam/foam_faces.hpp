@@ -1,8 +1,8 @@
 /// The faces of a part in OpenFOAM's order.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/mesh/face_links.hpp"
+#include "io/file_mesh.hpp"
+#include "mesh/quality/face_links.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "io/openfoam/openfoam_writer.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/openfoam/foam_case.hpp"
 #include "io/openfoam/foam_faces.hpp"
 #include "io/openfoam/foam_file.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <filesystem>

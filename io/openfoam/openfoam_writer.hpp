@@ -12,7 +12,7 @@
 /// them.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <string>
 

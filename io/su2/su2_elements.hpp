@@ -1,7 +1,7 @@
 /// Elements of SU2 meshes by VTK's type.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "io/vtk_order.hpp"
 
 #include <cstdint>

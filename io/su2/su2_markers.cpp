@@ -1,8 +1,8 @@
 #include "io/su2/su2_markers.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
 #include "io/streams/text_lines.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 /// Names and conditions of patches as SU2 has them.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/boundary_patches.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstddef>
 #include <string>

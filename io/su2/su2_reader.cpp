@@ -1,9 +1,9 @@
 #include "io/su2/su2_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/streams/text_lines.hpp"
 #include "io/su2/su2_elements.hpp"
 #include "io/su2/su2_markers.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 /// left out. One region, `fluid`. Meshes of two dimensions and files of several zones are errors.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/raw_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 /// Places in binary SU2 files.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/streams/range_reader.hpp"
 #include "io/su2/su2_elements.hpp"
 #include "io/su2/su2_markers.hpp"
 #include "io/su2/su2_reader.hpp"
 #include "io/su2/su2b_layout.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <array>

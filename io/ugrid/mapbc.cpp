@@ -1,8 +1,8 @@
 #include "io/ugrid/mapbc.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/streams/text_lines.hpp"
 #include "io/ugrid/ugrid_format.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <filesystem>
 

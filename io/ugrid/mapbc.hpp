@@ -1,8 +1,8 @@
 /// Names and conditions of patches beside a UGRID file.
 #pragma once
 
-#include "aeroloom/mesh/patch.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "mesh/data/patch.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <map>

@@ -6,7 +6,7 @@
 /// prisms, hexahedra; no record marks; numbers from 1.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "io/streams/byte_order.hpp"
 
 #include <array>

@@ -1,11 +1,11 @@
 #include "io/ugrid/ugrid_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
 #include "io/distinct_numbers.hpp"
 #include "io/streams/range_reader.hpp"
 #include "io/ugrid/mapbc.hpp"
 #include "io/ugrid/ugrid_format.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 /// is left out. One region, `fluid`.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/raw_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

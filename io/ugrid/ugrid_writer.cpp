@@ -1,9 +1,9 @@
 #include "io/ugrid/ugrid_writer.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/boundary_patches.hpp"
 #include "io/streams/range_writer.hpp"
 #include "io/ugrid/ugrid_format.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>

@@ -10,8 +10,8 @@
 /// place.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "io/vtk/cell_quality.hpp"
 
-#include "aeroloom/mesh/cell_measures.hpp"
-#include "aeroloom/mesh/quality.hpp"
+#include "mesh/quality/cell_measures.hpp"
+#include "mesh/quality/quality.hpp"
 
 #include <algorithm>
 #include <cmath>

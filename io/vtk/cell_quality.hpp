@@ -1,8 +1,8 @@
 /// Shape measures of cells of all shapes, as the cell arrays of files show them.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
-#include "aeroloom/io/file_mesh.hpp"
+#include "geometry/vec.hpp"
+#include "io/file_mesh.hpp"
 
 #include <span>
 
@@ -16,7 +16,7 @@ namespace aeroloom::io {
 double mean_ratio(CellShape shape, std::span<const geometry::Vec3> corners);
 
 /// Smallest angle between neighbouring faces, degrees. Tetrahedra: mesh::dihedral_range; others as in
-/// mesh/cell_measures.hpp.
+/// mesh/quality/cell_measures.hpp.
 double smallest_dihedral(CellShape shape, std::span<const geometry::Vec3> corners);
 
 }  // namespace aeroloom::io

@@ -1,8 +1,8 @@
 /// Which parts of a mesh share a file, who writes each file, and when parts travel to the writer.
 #pragma once
 
-#include "aeroloom/mesh/piece.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "mesh/data/piece.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <limits>

@@ -1,8 +1,8 @@
 /// Points of several files that are one because they are in one place.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/raw_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 namespace aeroloom::io {
 

@@ -1,8 +1,8 @@
 /// Parts of VTK files that all their writers have in common. Included by io/vtk/*.cpp alone: it names VTK.
 #pragma once
 
-#include "aeroloom/io/vtk/vtk_writer.hpp"
-#include "aeroloom/mesh/patch.hpp"
+#include "io/vtk/vtk_writer.hpp"
+#include "mesh/data/patch.hpp"
 
 #include <cstdint>
 #include <cstring>

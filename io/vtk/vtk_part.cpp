@@ -1,7 +1,7 @@
 #include "io/vtk/vtk_part.hpp"
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "parallel/sandbox/crash_note.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <cerrno>
 #include <filesystem>

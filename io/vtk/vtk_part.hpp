@@ -2,8 +2,8 @@
 /// it crashes on, or takes too much time or memory for, is an error like any other.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

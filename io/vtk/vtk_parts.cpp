@@ -1,8 +1,8 @@
 #include "io/vtk/vtk_parts.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/local_file.hpp"
 #include "io/vtk/file_plan.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/progress.hpp"
 
 #include <algorithm>

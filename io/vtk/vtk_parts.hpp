@@ -1,8 +1,8 @@
 /// How a mesh becomes part files: fixed groups of consecutive parts, written by all ranks (file_plan.hpp).
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,8 +1,8 @@
 #include "io/vtk/vtk_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/vtk/joined_points.hpp"
 #include "io/vtk/vtk_part.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <filesystem>

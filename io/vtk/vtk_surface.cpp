@@ -1,7 +1,7 @@
-#include "aeroloom/io/vtk/vtk_writer.hpp"
-#include "aeroloom/mesh/quality.hpp"
 #include "io/vtk/vtk_files.hpp"
 #include "io/vtk/vtk_parts.hpp"
+#include "io/vtk/vtk_writer.hpp"
+#include "mesh/quality/quality.hpp"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
-#include "aeroloom/io/vtk/vtk_writer.hpp"
 #include "io/vtk/cell_quality.hpp"
 #include "io/vtk/vtk_files.hpp"
 #include "io/vtk/vtk_parts.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "io/vtk_order.hpp"
 
 #include <array>

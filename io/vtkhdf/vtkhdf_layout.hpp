@@ -1,7 +1,7 @@
 /// Where the arrays of a VTKHDF file go. Functions of counts and names alone.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "io/hdf5/file_layout.hpp"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/distinct_numbers.hpp"
 #include "io/streams/range_reader.hpp"
 #include "io/vtkhdf/vtkhdf_share.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <array>

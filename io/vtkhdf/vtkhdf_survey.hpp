@@ -1,8 +1,8 @@
 /// A survey of a VTKHDF file, without its large arrays.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,8 +1,8 @@
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/vtk_order.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <functional>

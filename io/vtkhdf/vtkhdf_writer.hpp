@@ -3,7 +3,7 @@
 /// Follows "VTKHDF file format" of VTK's documentation, UnstructuredGrid, version 1.0 (read since VTK 9.1).
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
 #include <string>
 

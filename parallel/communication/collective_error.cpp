@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <filesystem>
 #include <ios>

@@ -1,7 +1,7 @@
 #include "parallel/communication/environment.hpp"
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "parallel/communication/session.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 #include "parallel/sandbox/sandbox_server.hpp"
 
 #include <cstdio>

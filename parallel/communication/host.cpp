@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/host.hpp"
 
 #include "parallel/communication/session.hpp"
 

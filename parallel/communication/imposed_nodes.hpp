@@ -2,7 +2,7 @@
 /// parallel/.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 namespace aeroloom::parallel {
 

@@ -1,7 +1,7 @@
 /// Counts what is sent; what is counted how: message_counts.hpp. Internal to parallel/.
 #pragma once
 
-#include "aeroloom/parallel/communication/message_counts.hpp"
+#include "parallel/communication/message_counts.hpp"
 #include "parallel/communication/session.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "parallel/communication/neighbour_exchange.hpp"
 
-#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/host.hpp"
 #include "parallel/communication/message_counting.hpp"
 #include "parallel/communication/session.hpp"
 #include "parallel/communication/transfers.hpp"

@@ -1,7 +1,7 @@
 /// Exchange between ranks that know each other: who sends how much to whom is found out once.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstddef>
 #include <span>

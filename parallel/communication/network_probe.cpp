@@ -1,8 +1,8 @@
 #include "parallel/communication/network_probe.hpp"
 
-#include "aeroloom/parallel/communication/host.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/communication/host.hpp"
 #include "parallel/communication/session.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <array>

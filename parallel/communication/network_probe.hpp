@@ -1,7 +1,7 @@
 /// How long messages take here: measured between the ranks of the program.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
-#include "aeroloom/parallel/communication/node_array.hpp"
+#include "parallel/communication/node_array.hpp"
 
-#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/host.hpp"
 #include "parallel/communication/imposed_nodes.hpp"
 #include "parallel/communication/message_counting.hpp"
 #include "parallel/communication/session.hpp"

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/communication/packer.hpp"
+#include "parallel/communication/packer.hpp"
 
 namespace aeroloom::parallel {
 

@@ -1,7 +1,7 @@
 /// Assignment of tasks to ranks by predicted load.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "parallel/communication/session.hpp"
 
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <cstdlib>
 #include <cstring>

@@ -1,7 +1,7 @@
 /// Messages of any size between two ranks. Internal to parallel/.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "parallel/communication/message_counting.hpp"
 #include "parallel/communication/session.hpp"
 

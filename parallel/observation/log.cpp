@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/observation/log.hpp"
+#include "parallel/observation/log.hpp"
 
-#include "aeroloom/parallel/observation/warnings.hpp"
 #include "parallel/observation/log_line.hpp"
+#include "parallel/observation/warnings.hpp"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 #include "parallel/observation/memory_limit.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/communication/host.hpp"
 #include "parallel/communication/session.hpp"
 #include "parallel/observation/process_memory.hpp"
 

@@ -6,7 +6,7 @@
 /// node's limit; a sandboxed run gets what is left of the share of its rank, which waits for it.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,9 +1,9 @@
 #include "parallel/observation/progress.hpp"
 
-#include "aeroloom/parallel/communication/host.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/communication/host.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/observation/log_line.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 /// but for watch_node_memory(), and nothing changes a result.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include "parallel/communication/session.hpp"
 #include "parallel/observation/process_memory.hpp"

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/observation/warnings.hpp"
+#include "parallel/observation/warnings.hpp"
 
 #include <algorithm>
 #include <unordered_map>

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "parallel/sandbox/fault.hpp"
 
 #include <atomic>
 #include <cstdlib>

@@ -1,10 +1,10 @@
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
 #include "parallel/communication/session.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/sandbox_server.hpp"
 #include "parallel/storage/file_descriptor.hpp"

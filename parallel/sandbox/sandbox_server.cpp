@@ -1,6 +1,6 @@
 #include "parallel/sandbox/sandbox_server.hpp"
 
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/sandbox_child.hpp"
 #include "parallel/storage/file_descriptor.hpp"
 

@@ -1,7 +1,7 @@
 /// The worker server of sandboxed runs. Internal to parallel/; see sandbox.hpp for what it is good for.
 #pragma once
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <cstdint>
 #include <memory>

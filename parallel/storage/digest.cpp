@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/storage/digest.hpp"
+#include "parallel/storage/digest.hpp"
 
 #include <new>
 

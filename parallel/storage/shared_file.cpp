@@ -1,7 +1,7 @@
 #include "parallel/storage/shared_file.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/host.hpp"
 #include "parallel/communication/session.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 /// One file that all ranks write, each at offsets of its own.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstddef>
 #include <cstdint>

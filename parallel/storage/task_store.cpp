@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/storage/task_store.hpp"
+#include "parallel/storage/task_store.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/storage/file_descriptor.hpp"
 
 #include <algorithm>

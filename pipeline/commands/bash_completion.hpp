@@ -1,7 +1,7 @@
 /// Completion of the command line in bash.
 #pragma once
 
-#include "case/key_info.hpp"
+#include "pipeline/case/key_info.hpp"
 
 #include <string>
 #include <vector>

@@ -1,14 +1,14 @@
 #include "pipeline/commands/command.hpp"
 
-#include "aeroloom/case/option_keys.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/sandbox/sandbox.hpp"
+#include "pipeline/case/option_keys.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/plain_words.hpp"
+#include "pipeline/report/text_file.hpp"
 #include "pipeline/stage.hpp"
-#include "report/text_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

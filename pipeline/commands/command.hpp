@@ -1,11 +1,11 @@
 /// How a command is added to the command line, and how it ends: the same for all commands.
 #pragma once
 
-#include "aeroloom/case/case.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/report/exit_code.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/observation/log.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/report/exit_code.hpp"
 
 #include <functional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "case/nearest_name.hpp"
+#include "pipeline/case/nearest_name.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/memory_option.hpp"

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/observation/log.hpp"
+#include "parallel/observation/log.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 

@@ -1,7 +1,7 @@
 /// Examples and exit codes, which `--help` tells beside the options.
 #pragma once
 
-#include "aeroloom/report/exit_code.hpp"
+#include "pipeline/report/exit_code.hpp"
 
 #include <initializer_list>
 #include <string>

@@ -1,7 +1,7 @@
 /// `--max-memory`.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <functional>

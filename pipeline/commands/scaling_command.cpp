@@ -3,14 +3,14 @@
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/scaling_prediction.hpp"
 #include "pipeline/output_lock.hpp"
-#include "report/library_versions.hpp"
-#include "report/text_file.hpp"
-#include "study/jobs.hpp"
-#include "study/page.hpp"
-#include "study/prediction_files.hpp"
-#include "study/results.hpp"
-#include "study/series.hpp"
-#include "study/table.hpp"
+#include "pipeline/report/library_versions.hpp"
+#include "pipeline/report/text_file.hpp"
+#include "pipeline/study/jobs.hpp"
+#include "pipeline/study/page.hpp"
+#include "pipeline/study/prediction_files.hpp"
+#include "pipeline/study/results.hpp"
+#include "pipeline/study/series.hpp"
+#include "pipeline/study/table.hpp"
 
 #include <algorithm>
 #include <filesystem>

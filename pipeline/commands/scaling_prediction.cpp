@@ -1,11 +1,11 @@
 #include "pipeline/commands/scaling_prediction.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/network_probe.hpp"
 #include "pipeline/commands/command.hpp"
 #include "pipeline/commands/help.hpp"
-#include "report/text_file.hpp"
-#include "study/prediction_files.hpp"
+#include "pipeline/report/text_file.hpp"
+#include "pipeline/study/prediction_files.hpp"
 
 #include <algorithm>
 #include <stdexcept>

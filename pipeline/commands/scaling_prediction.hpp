@@ -1,9 +1,9 @@
 /// `aeroloom scaling --predict` and `--measure-network`.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/report/exit_code.hpp"
-#include "study/replay.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "pipeline/report/exit_code.hpp"
+#include "pipeline/study/replay.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,8 +1,8 @@
-#include "case/case_reference.hpp"
-#include "case/case_schema.hpp"
+#include "pipeline/case/case_reference.hpp"
+#include "pipeline/case/case_schema.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
-#include "report/text_file.hpp"
+#include "pipeline/report/text_file.hpp"
 
 #include <filesystem>
 #include <memory>

@@ -1,11 +1,11 @@
 #include "pipeline/commands/staged_run.hpp"
 
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/report/report.hpp"
 #include "parallel/communication/termination.hpp"
+#include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "pipeline/commands/plain_words.hpp"
 #include "pipeline/output_lock.hpp"
+#include "pipeline/report/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
 

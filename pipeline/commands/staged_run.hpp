@@ -1,8 +1,8 @@
 /// The record of a run, its report and its end, the same for all commands with stages.
 #pragma once
 
-#include "aeroloom/report/report.hpp"
 #include "pipeline/commands/command.hpp"
+#include "pipeline/report/report.hpp"
 #include "pipeline/run.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
 #include "pipeline/commands/usage_error.hpp"
 
-#include "case/nearest_name.hpp"
-#include "case/yaml_value.hpp"
+#include "pipeline/case/nearest_name.hpp"
+#include "pipeline/case/yaml_value.hpp"
 
 #include <vector>
 

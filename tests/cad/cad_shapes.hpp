@@ -1,7 +1,7 @@
 /// Shapes of the CAD library as files and domains, for tests that make their own geometry.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "cad/model/model_data.hpp"
 #include "tests/cad/real_files.hpp"
 

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 
 #include "tests/cad/model_checks.hpp"
 #include "tests/cad/real_files.hpp"

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "cad/model/evaluation/face_corners.hpp"
 
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/cad/prisms.hpp"

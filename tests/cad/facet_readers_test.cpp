@@ -1,7 +1,7 @@
 // Faceted files of all formats, and damaged ones.
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/faceted/facet_facts.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/model/model.hpp"
 #include "tests/cad/faceted_shapes.hpp"
 #include "tests/cad/real_files.hpp"
 

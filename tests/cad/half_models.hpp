@@ -1,7 +1,7 @@
 /// Half far fields, and what holds for every half model.
 #pragma once
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 
 #include <algorithm>
 #include <bit>

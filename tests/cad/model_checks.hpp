@@ -1,7 +1,7 @@
 /// Properties that every model has, whatever its shape.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include "tests/cad/model_checks.hpp"
 #include "tests/cad/primitives.hpp"

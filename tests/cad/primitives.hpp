@@ -1,7 +1,7 @@
 /// Analytic shapes: small models with known areas, volumes and curvatures.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

@@ -1,5 +1,5 @@
 // Repair of shapes that do not close, one repair after the other, each listed as a change.
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "tests/cad/model_checks.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "model_checks.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "aeroloom/geometry/box_tree.hpp"
+#include "geometry/box_tree.hpp"
 
 #include <algorithm>
 #include <random>

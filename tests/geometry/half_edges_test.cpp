@@ -1,4 +1,4 @@
-#include "aeroloom/geometry/half_edges.hpp"
+#include "geometry/half_edges.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "improve/attainable_quality.hpp"
+#include "improve/limits/attainable_quality.hpp"
 
-#include "improve/change_limits.hpp"
+#include "improve/limits/change_limits.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "improve/bad_cells.hpp"
-#include "improve/border_smoothing.hpp"
-#include "improve/cavity_improver.hpp"
-#include "improve/scatter.hpp"
+#include "improve/borders/bad_cells.hpp"
+#include "improve/borders/border_smoothing.hpp"
+#include "improve/borders/cavity_improver.hpp"
+#include "improve/borders/scatter.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "improve/change_limits.hpp"
+#include "improve/limits/change_limits.hpp"
 
 #include "tests/improve/pieces.hpp"
 

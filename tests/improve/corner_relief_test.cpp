@@ -1,4 +1,4 @@
-#include "improve/corner_relief.hpp"
+#include "improve/operations/corner_relief.hpp"
 
 #include "improve/corner_trials.hpp"
 #include "tests/improve/pieces.hpp"

@@ -1,6 +1,6 @@
-#include "aeroloom/improve/improver.hpp"
+#include "improve/improver.hpp"
 
-#include "mesh/shared_vertices.hpp"
+#include "mesh/exchange/shared_vertices.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "aeroloom/cad/model/evaluation/point_locator.hpp"
-#include "aeroloom/improve/improver.hpp"
+#include "cad/model/evaluation/point_locator.hpp"
+#include "improve/improver.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/improve/shaken.hpp"
 

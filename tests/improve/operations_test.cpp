@@ -1,9 +1,9 @@
-#include "aeroloom/mesh/quality.hpp"
-#include "improve/cavity_insertion.hpp"
-#include "improve/edge_removal.hpp"
-#include "improve/face_removal.hpp"
-#include "improve/smoothing.hpp"
+#include "improve/operations/cavity_insertion.hpp"
+#include "improve/operations/edge_removal.hpp"
+#include "improve/operations/face_removal.hpp"
+#include "improve/operations/smoothing.hpp"
 #include "improve/tet_mesh.hpp"
+#include "mesh/quality/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>

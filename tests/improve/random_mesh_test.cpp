@@ -1,4 +1,4 @@
-#include "aeroloom/improve/improver.hpp"
+#include "improve/improver.hpp"
 #include "tests/improve/shaken.hpp"
 
 #include <map>

@@ -2,10 +2,10 @@
 /// at random.
 #pragma once
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
 #include "geometry/predicates.hpp"
-#include "mesh/tet_quality.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "mesh/quality/tet_quality.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <limits>

@@ -1,6 +1,6 @@
-#include "improve/sliding.hpp"
+#include "improve/operations/sliding.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
+#include "mesh/quality/quality.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/improve/pieces.hpp"
 

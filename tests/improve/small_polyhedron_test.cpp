@@ -1,6 +1,6 @@
-#include "improve/small_polyhedron.hpp"
+#include "improve/operations/small_polyhedron.hpp"
 
-#include "improve/edge_removal.hpp"
+#include "improve/operations/edge_removal.hpp"
 #include "tests/improve/pieces.hpp"
 #include "tests/improve/shaken.hpp"
 

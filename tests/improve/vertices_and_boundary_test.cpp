@@ -1,8 +1,8 @@
-#include "aeroloom/mesh/quality.hpp"
-#include "improve/boundary_flip.hpp"
-#include "improve/edge_contraction.hpp"
-#include "improve/mean_ratio_smoothing.hpp"
+#include "improve/operations/boundary_flip.hpp"
+#include "improve/operations/edge_contraction.hpp"
+#include "improve/operations/mean_ratio_smoothing.hpp"
 #include "improve/tet_mesh.hpp"
+#include "mesh/quality/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>

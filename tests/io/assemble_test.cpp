@@ -1,6 +1,6 @@
-#include "aeroloom/mesh/face_links.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/raw_mesh.hpp"
+#include "mesh/quality/face_links.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
 
 #include <algorithm>

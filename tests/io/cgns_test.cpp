@@ -1,6 +1,6 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/cgns/cgns_writer.hpp"
 #include "io/hdf5/input_file.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"

@@ -1,6 +1,6 @@
 #include "io/checkpoint_file.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
 
 #include <random>

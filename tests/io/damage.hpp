@@ -5,8 +5,8 @@
 /// same case comes again for the same seed.
 #pragma once
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "aeroloom/io/file_formats.hpp"
+#include "io/file_formats.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/read_mesh.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
 

@@ -1,6 +1,6 @@
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 
-#include "aeroloom/mesh/face_links.hpp"
+#include "mesh/quality/face_links.hpp"
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/mesh/meshes.hpp"

@@ -1,9 +1,9 @@
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "io/cgns/cgns_layout.hpp"
 #include "io/cgns/cgns_names.hpp"
 #include "io/hdf5/file_layout.hpp"
 #include "io/hdf5/input_file.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/checkpoint_file.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
 #include "tests/mesh/mixed_mesh.hpp"
 

@@ -1,8 +1,8 @@
 /// Volumes of cells as tests expect them: by the divergence integral over their faces.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "io/file_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 /// The hand-made mesh of tests/mesh/mixed_mesh.hpp as writers take it.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "tests/mesh/mixed_mesh.hpp"
 
 #include <utility>

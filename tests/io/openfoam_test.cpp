@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/openfoam/foam_case.hpp"
 #include "io/openfoam/foam_faces.hpp"
 #include "io/openfoam/openfoam_writer.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
 

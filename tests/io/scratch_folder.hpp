@@ -1,7 +1,7 @@
 /// A folder for the files of a test, and the bytes of files.
 #pragma once
 
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <filesystem>

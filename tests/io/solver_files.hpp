@@ -1,7 +1,7 @@
 /// What tests of solver files share: what a mesh has in a file.
 #pragma once
 
-#include "aeroloom/io/file_mesh.hpp"
+#include "io/file_mesh.hpp"
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/scratch_folder.hpp"
 

@@ -1,8 +1,8 @@
 /// For programs that nobody here wrote: `vtk_fixture write FOLDER SQUARES` writes the hand-made mesh,
 /// `vtk_fixture read FILE` tells what it makes of theirs.
-#include "aeroloom/io/vtk/vtk_writer.hpp"
 #include "io/raw_mesh.hpp"
 #include "io/vtk/vtk_reader.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "parallel/communication/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 

@@ -1,6 +1,6 @@
-#include "aeroloom/io/vtk/vtk_writer.hpp"
 #include "io/raw_mesh.hpp"
 #include "io/vtk/vtk_reader.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/scratch_folder.hpp"
 #include "tests/io/vtk_grids.hpp"

@@ -1,7 +1,7 @@
 #include "io/vtk/vtk_reader.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/raw_mesh.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
 #include "tests/io/vtk_grids.hpp"
 

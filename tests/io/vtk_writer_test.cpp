@@ -1,7 +1,7 @@
-#include "aeroloom/io/vtk/vtk_writer.hpp"
+#include "io/vtk/vtk_writer.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "mesh/quality/quality.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
 #include "tests/mesh/meshes.hpp"
 

@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/raw_mesh.hpp"
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/io/damage.hpp"
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"

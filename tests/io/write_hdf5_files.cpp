@@ -1,10 +1,10 @@
 /// For programs that check files. write_hdf5_files vtkhdf|cgns|names FOLDER [SQUARES PARTS] writes the mixed
 /// mesh, `names` both files of it with names that are hard to hold;
 /// write_hdf5_files read FILE... tells what the reader makes of each VTKHDF file, or why it refuses.
-#include "aeroloom/parallel/communication/collective_error.hpp"
 #include "io/cgns/cgns_writer.hpp"
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/environment.hpp"
 #include "tests/io/mixed_mesh.hpp"
 

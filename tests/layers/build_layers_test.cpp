@@ -1,4 +1,4 @@
-#include "aeroloom/mesh/delivery.hpp"
+#include "mesh/exchange/delivery.hpp"
 #include "tests/layers/checked_layers.hpp"
 
 #include <algorithm>

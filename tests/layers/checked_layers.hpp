@@ -1,10 +1,10 @@
 /// Layers built on small walls, and what has to hold of any.
 #pragma once
 
-#include "aeroloom/layers/columns.hpp"
-#include "aeroloom/mesh/cell_measures.hpp"
 #include "geometry/predicates.hpp"
-#include "mesh/intersection.hpp"
+#include "layers/columns.hpp"
+#include "mesh/checks/intersection.hpp"
+#include "mesh/quality/cell_measures.hpp"
 #include "tests/layers/wall_meshes.hpp"
 
 #include <algorithm>

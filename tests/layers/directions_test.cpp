@@ -1,7 +1,7 @@
 #include "layers/directions.hpp"
 
-#include "aeroloom/mesh/delivery.hpp"
 #include "layers/cone.hpp"
+#include "mesh/exchange/delivery.hpp"
 #include "tests/layers/wall_meshes.hpp"
 
 #include <cmath>

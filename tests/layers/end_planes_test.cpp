@@ -1,7 +1,7 @@
 #include "layers/end_planes.hpp"
 
-#include "aeroloom/mesh/delivery.hpp"
-#include "mesh/intersection.hpp"
+#include "mesh/checks/intersection.hpp"
+#include "mesh/exchange/delivery.hpp"
 #include "tests/layers/wall_meshes.hpp"
 
 #include <bit>

@@ -1,7 +1,7 @@
 #include "layers/front.hpp"
 
 #include "layers/good_columns.hpp"
-#include "mesh/intersection.hpp"
+#include "mesh/checks/intersection.hpp"
 #include "tests/layers/wall_meshes.hpp"
 
 #include <gtest/gtest.h>

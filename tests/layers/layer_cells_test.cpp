@@ -1,5 +1,5 @@
 /// Cells of layers before the tetrahedra: they conform for any counts of columns.
-#include "mesh/mixing.hpp"
+#include "mesh/data/mixing.hpp"
 #include "tests/layers/layered.hpp"
 #include "tests/references.hpp"
 

@@ -1,13 +1,13 @@
 /// Walls with columns as a test wants them, and the volume that is filled behind their front.
 #pragma once
 
-#include "aeroloom/improve/improver.hpp"
-#include "aeroloom/layers/layer_cells.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
+#include "improve/improver.hpp"
+#include "layers/layer_cells.hpp"
+#include "mesh/checks/validity.hpp"
+#include "parallel/observation/log.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/surfaces.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <cstdint>
 #include <functional>

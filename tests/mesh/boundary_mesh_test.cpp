@@ -1,6 +1,6 @@
-#include "mesh/boundary_mesh.hpp"
+#include "mesh/data/boundary_mesh.hpp"
 
-#include "aeroloom/mesh/validity.hpp"
+#include "mesh/checks/validity.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <map>

@@ -1,6 +1,6 @@
-#include "mesh/cell_stars.hpp"
+#include "mesh/data/cell_stars.hpp"
 
-#include "mesh/pair_table.hpp"
+#include "mesh/data/pair_table.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <set>

@@ -1,4 +1,4 @@
-#include "mesh/distributed_table.hpp"
+#include "mesh/exchange/distributed_table.hpp"
 
 #include <algorithm>
 #include <array>

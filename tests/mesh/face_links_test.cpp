@@ -1,4 +1,4 @@
-#include "aeroloom/mesh/face_links.hpp"
+#include "mesh/quality/face_links.hpp"
 
 #include "tests/mesh/mixed_mesh.hpp"
 

@@ -1,4 +1,4 @@
-#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "mesh/data/distributed_mesh.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <cstring>

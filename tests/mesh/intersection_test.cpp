@@ -1,7 +1,7 @@
-#include "mesh/intersection.hpp"
+#include "mesh/checks/intersection.hpp"
 
 #include "geometry/predicates.hpp"
-#include "mesh/triangle_contact.hpp"
+#include "mesh/checks/triangle_contact.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// same whatever the communicator. On Communicator::self() one rank holds all of it.
 #pragma once
 
-#include "aeroloom/mesh/distributed_mesh.hpp"
+#include "mesh/data/distributed_mesh.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "aeroloom/mesh/delivery.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "mesh/exchange/delivery.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <tuple>

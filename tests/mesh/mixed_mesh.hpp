@@ -6,8 +6,8 @@
 /// its middle and, on the far side, two tetrahedra. An affine map makes all of it oblique.
 #pragma once
 
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "mesh/shared_vertex_keys.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // All that the distributed mesh does, on a mesh of tetrahedra, pyramids and prisms.
 #include "tests/mesh/mixed_mesh.hpp"
 
-#include "aeroloom/mesh/cell_measures.hpp"
-#include "aeroloom/mesh/piece_faces.hpp"
-#include "aeroloom/mesh/repartition.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "mesh/build_pieces.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/data/piece_faces.hpp"
+#include "mesh/quality/cell_measures.hpp"
+#include "mesh/transfer/build_pieces.hpp"
+#include "mesh/transfer/repartition.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <functional>
 #include <limits>

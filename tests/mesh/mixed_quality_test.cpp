@@ -1,4 +1,4 @@
-#include "aeroloom/mesh/mixed_quality.hpp"
+#include "mesh/quality/mixed_quality.hpp"
 
 #include "tests/mesh/mixed_mesh.hpp"
 

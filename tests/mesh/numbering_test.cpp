@@ -1,5 +1,5 @@
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <map>

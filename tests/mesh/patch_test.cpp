@@ -1,4 +1,4 @@
-#include "aeroloom/mesh/patch.hpp"
+#include "mesh/data/patch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "aeroloom/mesh/quality.hpp"
+#include "mesh/quality/quality.hpp"
 
-#include "mesh/tet_measures.hpp"
+#include "mesh/quality/tet_measures.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "mesh/rendezvous.hpp"
+#include "mesh/exchange/rendezvous.hpp"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "mesh/shared_vertex_keys.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
 
 #include <limits>
 #include <stdexcept>

@@ -1,7 +1,7 @@
-#include "mesh/shared_vertices.hpp"
+#include "mesh/exchange/shared_vertices.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "mesh/mixing.hpp"
+#include "mesh/data/mixing.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <functional>

@@ -1,7 +1,7 @@
-#include "mesh/split_pieces.hpp"
+#include "mesh/transfer/split_pieces.hpp"
 
-#include "aeroloom/mesh/delivery.hpp"
-#include "aeroloom/mesh/validity.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/exchange/delivery.hpp"
 #include "tests/layers/wall_meshes.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
-#include "aeroloom/mesh/validity.hpp"
+#include "mesh/checks/validity.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "mesh/boundary_mesh.hpp"
+#include "mesh/data/boundary_mesh.hpp"
+#include "parallel/communication/collective_error.hpp"
 #include "tests/mesh/meshes.hpp"
 
 #include <functional>

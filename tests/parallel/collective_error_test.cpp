@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <filesystem>
 #include <fstream>

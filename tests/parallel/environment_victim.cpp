@@ -2,9 +2,9 @@
 /// none, before (the communicator is used without an environment), throws (nobody catches), leaves (the
 /// exception passes the environment), aborts (abort_all_ranks) or dies (killed while its sandboxed run
 /// works).
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <csignal>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 /// The stages inside a program that runs MPI itself. Has its own main: no Environment is alive here.
-#include "aeroloom/parallel/communication/host.hpp"
+#include "parallel/communication/host.hpp"
 
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/communication/message_counts.hpp"
+#include "parallel/communication/message_counts.hpp"
 
-#include "aeroloom/parallel/observation/timers.hpp"
 #include "parallel/communication/neighbour_exchange.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <functional>
 #include <map>

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/communication/node_array.hpp"
+#include "parallel/communication/node_array.hpp"
 
 #include "parallel/communication/imposed_nodes.hpp"
 

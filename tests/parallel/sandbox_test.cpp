@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
+#include "parallel/sandbox/sandbox.hpp"
 
-#include "aeroloom/parallel/observation/timers.hpp"
-#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "parallel/observation/timers.hpp"
+#include "parallel/sandbox/fault.hpp"
 #include "tests/scoped_fault.hpp"
 
 #include <csignal>

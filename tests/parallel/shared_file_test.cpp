@@ -1,6 +1,6 @@
 #include "parallel/storage/shared_file.hpp"
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
+#include "parallel/communication/collective_error.hpp"
 
 #include <csignal>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/storage/task_store.hpp"
+#include "parallel/storage/task_store.hpp"
 
 #include <filesystem>
 #include <fstream>

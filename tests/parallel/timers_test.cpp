@@ -1,4 +1,4 @@
-#include "aeroloom/parallel/observation/timers.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <chrono>
 #include <cstring>

@@ -1,11 +1,11 @@
 // The built-in aircraft stage by stage, as a library: faces divided, volume in zones, improved, and its
 // boundary compared with the CAD itself.
-#include "aeroloom/cad/domain/domain.hpp"
-#include "aeroloom/improve/improver.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
+#include "cad/domain/domain.hpp"
+#include "improve/improver.hpp"
+#include "mesh/checks/validity.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/references.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <algorithm>
 #include <cmath>

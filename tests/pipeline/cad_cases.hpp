@@ -1,8 +1,8 @@
 // Cases on shapes of the CAD library, for tests of the whole program in one process.
 #pragma once
 
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "pipeline/run.hpp"
 #include "tests/references.hpp"
 

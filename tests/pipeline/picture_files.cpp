@@ -1,11 +1,11 @@
 // picture_files CASE.yaml|MESH FOLDER [section.key=value ...]: the pictures of a run, or of a mesh as it is,
 // as files in a folder, for who wants to look at them.
-#include "aeroloom/parallel/sandbox/sandbox.hpp"
-#include "imported/imported_mesh.hpp"
-#include "mesh/boundary_mesh.hpp"
+#include "io/import/imported_mesh.hpp"
+#include "mesh/data/boundary_mesh.hpp"
 #include "parallel/communication/environment.hpp"
+#include "parallel/sandbox/sandbox.hpp"
+#include "pipeline/report/pictures.hpp"
 #include "pipeline/run.hpp"
-#include "report/pictures.hpp"
 
 #include <cstdio>
 #include <ctime>

@@ -2,8 +2,8 @@
 /// values inside and outside of what it accepts. Prints lines "yes CASE" and "no CASE", each case YAML in one
 /// line. Values in quotes that look like numbers, and words for true and false, are left out: there the
 /// schema is stricter on purpose.
-#include "aeroloom/case/case.hpp"
-#include "case/key_info.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/case/key_info.hpp"
 
 #include <cmath>
 #include <iostream>

@@ -1,5 +1,5 @@
 // Faces that lie on one another are found before any sizes, and named with the area.
-#include "aeroloom/sizing/model_sampler.hpp"
+#include "sizing/choice/model_sampler.hpp"
 #include "tests/wall_bodies.hpp"
 
 #include <cmath>

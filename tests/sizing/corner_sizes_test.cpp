@@ -1,7 +1,7 @@
-#include "aeroloom/sizing/corner_sizes.hpp"
+#include "sizing/field/corner_sizes.hpp"
 
-#include "aeroloom/sizing/octree.hpp"
 #include "parallel/communication/imposed_nodes.hpp"
+#include "sizing/field/octree.hpp"
 
 #include <random>
 #include <stdexcept>

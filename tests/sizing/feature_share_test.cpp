@@ -1,4 +1,4 @@
-#include "aeroloom/sizing/choose_sizes.hpp"
+#include "sizing/choice/choose_sizes.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/cad/strip_shapes.hpp"
 

@@ -1,6 +1,6 @@
-#include "aeroloom/sizing/level_demands.hpp"
+#include "sizing/lifting/level_demands.hpp"
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 
 #include <algorithm>
 #include <cmath>

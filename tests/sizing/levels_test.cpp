@@ -1,4 +1,4 @@
-#include "aeroloom/sizing/levels.hpp"
+#include "sizing/choice/levels.hpp"
 
 #include <array>
 #include <cmath>

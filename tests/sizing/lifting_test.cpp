@@ -1,7 +1,7 @@
-#include "aeroloom/sizing/lifting.hpp"
+#include "sizing/lifting/lifting.hpp"
 
-#include "aeroloom/cad/domain/domain.hpp"
-#include "sizing/sized_surface.hpp"
+#include "cad/domain/domain.hpp"
+#include "sizing/sources/sized_surface.hpp"
 #include "tests/cad/real_files.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "sizing/local_chord.hpp"
+#include "sizing/features/local_chord.hpp"
 
-#include "aeroloom/sizing/trailing_edges.hpp"
+#include "sizing/lifting/trailing_edges.hpp"
 #include "tests/cad/blunt_shapes.hpp"
 
 #include <vector>

@@ -1,6 +1,6 @@
-#include "aeroloom/sizing/face_samples.hpp"
-#include "aeroloom/sizing/model_sources.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "sizing/features/face_samples.hpp"
+#include "sizing/features/model_sources.hpp"
+#include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/wall_bodies.hpp"
 

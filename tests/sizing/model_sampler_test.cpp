@@ -1,8 +1,8 @@
-#include "aeroloom/sizing/model_sampler.hpp"
+#include "sizing/choice/model_sampler.hpp"
 
-#include "aeroloom/sizing/curvature_size.hpp"
 #include "cad/model/topology/joined_faces.hpp"
-#include "sizing/narrow_faces.hpp"
+#include "sizing/features/narrow_faces.hpp"
+#include "sizing/field/curvature_size.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "sizing/narrow_faces.hpp"
+#include "sizing/features/narrow_faces.hpp"
 
 #include "tests/cad/strip_shapes.hpp"
 

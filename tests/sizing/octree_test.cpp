@@ -1,4 +1,4 @@
-#include "aeroloom/sizing/octree.hpp"
+#include "sizing/field/octree.hpp"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,8 +1,8 @@
-#include "aeroloom/sizing/pages.hpp"
+#include "sizing/field/pages.hpp"
 
-#include "aeroloom/sizing/octree.hpp"
 #include "parallel/communication/imposed_nodes.hpp"
-#include "sizing/seed_tree.hpp"
+#include "sizing/field/octree.hpp"
+#include "sizing/field/seed_tree.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,7 +1,7 @@
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/sizing/choose_sizes.hpp"
-#include "aeroloom/sizing/size_field.hpp"
-#include "sizing/facet_integral.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "sizing/choice/choose_sizes.hpp"
+#include "sizing/field/facet_integral.hpp"
+#include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
 
 #include <cmath>

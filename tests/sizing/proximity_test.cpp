@@ -1,9 +1,9 @@
 // Sizes fall to the thickness of thin parts and to the width of gaps, but not along wedges.
-#include "aeroloom/sizing/proximity.hpp"
+#include "sizing/features/proximity.hpp"
 
-#include "aeroloom/cad/domain/domain.hpp"
-#include "aeroloom/sizing/model_sources.hpp"
-#include "aeroloom/sizing/size_field.hpp"
+#include "cad/domain/domain.hpp"
+#include "sizing/features/model_sources.hpp"
+#include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/wall_bodies.hpp"
 

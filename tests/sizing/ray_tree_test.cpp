@@ -1,4 +1,4 @@
-#include "aeroloom/sizing/ray_tree.hpp"
+#include "sizing/features/ray_tree.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "sizing/seed_tree.hpp"
+#include "sizing/field/seed_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "aeroloom/sizing/size_demands.hpp"
+#include "sizing/sources/size_demands.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "aeroloom/sizing/size_expression.hpp"
+#include "sizing/sources/size_expression.hpp"
 
-#include "aeroloom/sizing/size_demands.hpp"
+#include "sizing/sources/size_demands.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "aeroloom/sizing/size_field.hpp"
+#include "sizing/field/size_field.hpp"
 
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
-#include "sizing/field_builder.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/observation/timers.hpp"
+#include "sizing/field/field_builder.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "sizing/sized_surface.hpp"
+#include "sizing/sources/sized_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "aeroloom/sizing/triangle_tree.hpp"
+#include "sizing/features/triangle_tree.hpp"
 
 #include <algorithm>
 #include <array>

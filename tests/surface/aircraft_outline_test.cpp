@@ -1,5 +1,5 @@
 /// The plane of symmetry of an aircraft, its outline moved outwards as layers move it.
-#include "surface/face_loops.hpp"
+#include "surface/curves/face_loops.hpp"
 #include "tests/surface/plane_fixture.hpp"
 
 namespace aeroloom::surface {

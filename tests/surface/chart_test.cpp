@@ -1,9 +1,9 @@
-#include "surface/chart.hpp"
+#include "surface/charts/chart.hpp"
 
-#include "aeroloom/cad/domain/domain.hpp"
+#include "cad/domain/domain.hpp"
 #include "geometry/predicates.hpp"
-#include "surface/conformal_map.hpp"
-#include "surface/support_topology.hpp"
+#include "surface/charts/conformal_map.hpp"
+#include "surface/charts/support_topology.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 

@@ -1,6 +1,6 @@
-#include "surface/curves.hpp"
+#include "surface/curves/curves.hpp"
 
-#include "surface/curve_metric.hpp"
+#include "surface/curves/curve_metric.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 

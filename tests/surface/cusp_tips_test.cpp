@@ -1,10 +1,10 @@
 /// The tip of a face between two curves tangent to each other is closed, and nothing sharp stays there.
-#include "surface/cusp_tips.hpp"
+#include "surface/tips/cusp_tips.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
-#include "sizing/closed_corners.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "sizing/field/closed_corners.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/cad_shapes.hpp"
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 /// Faces of small shapes and of real files, ready to be turned into supports and charts.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/parallel/observation/timers.hpp"
-#include "aeroloom/sizing/size_field.hpp"
-#include "surface/chart.hpp"
-#include "surface/curves.hpp"
-#include "surface/support.hpp"
+#include "cad/model/model.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/observation/timers.hpp"
+#include "sizing/field/size_field.hpp"
+#include "surface/charts/chart.hpp"
+#include "surface/charts/support.hpp"
+#include "surface/curves/curves.hpp"
 #include "tests/source_tree.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 /// The loops of faces, from the pieces of a surface mesh.
-#include "surface/face_loops.hpp"
+#include "surface/curves/face_loops.hpp"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 /// CAD and the facets of it: meshes on both enclose the same, but for what the facets leave the CAD by.
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/faceted/make_facet_complex.hpp"
 #include "geometry/angle.hpp"
+#include "mesh/checks/validity.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/faceted_shapes.hpp"
 #include "tests/cad/primitives.hpp"
 

@@ -1,9 +1,9 @@
 /// The borders of narrow faces vanish from the mesh, whole or in pieces, and the surface stays what it was.
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
 #include "cad/model/topology/joined_faces.hpp"
-#include "sizing/narrow_faces.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "sizing/features/narrow_faces.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
 #include <cmath>

@@ -1,9 +1,9 @@
 /// Triangles below ten degrees stay where the CAD forces them, and nowhere else.
-#include "surface/needles.hpp"
+#include "surface/tips/needles.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/cad/prisms.hpp"
 #include "tests/surface/face_fixture.hpp"

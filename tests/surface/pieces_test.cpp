@@ -1,8 +1,8 @@
 /// Faces in pieces: the mesh has no seam, does not depend on ranks, and follows cuts whoever asks for them.
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "surface/coarse_loops.hpp"
-#include "surface/imposed_cuts.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/division/coarse_loops.hpp"
+#include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_mesher.hpp"
 #include "surface/piece_pool.hpp"
 #include "tests/cad/primitives.hpp"

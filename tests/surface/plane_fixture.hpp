@@ -1,11 +1,11 @@
 /// Half models whose plane of symmetry is meshed again, and what holds for it.
 #pragma once
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/surface/plane_remesher.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
-#include "mesh/intersection.hpp"
+#include "mesh/checks/intersection.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/plane_remesher.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/cad_shapes.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 /// Faces that run to a point: cones in one face, in halves, in thirds.
-#include "surface/pointed_tips.hpp"
+#include "surface/tips/pointed_tips.hpp"
 
-#include "aeroloom/surface/surface_mesher.hpp"
 #include "surface/piece_mesher.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/surface/face_fixture.hpp"
 

@@ -1,7 +1,7 @@
-#include "surface/remesh.hpp"
+#include "surface/remesh/remesh.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "surface/face_remesher.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/remesh/face_remesher.hpp"
 #include "tests/cad/primitives.hpp"
 
 #include <algorithm>

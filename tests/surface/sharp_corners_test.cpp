@@ -1,8 +1,8 @@
 /// One triangle fills a sharp corner of a face, and the elements behind it are as good as elsewhere.
-#include "surface/sharp_corners.hpp"
+#include "surface/curves/sharp_corners.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/surface/surface_mesher.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/surface_mesher.hpp"
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/cad/prisms.hpp"
 #include "tests/surface/face_fixture.hpp"

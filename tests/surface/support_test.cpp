@@ -1,6 +1,6 @@
-#include "surface/support.hpp"
+#include "surface/charts/support.hpp"
 
-#include "surface/support_topology.hpp"
+#include "surface/charts/support_topology.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 

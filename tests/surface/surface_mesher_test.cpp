@@ -1,10 +1,10 @@
 /// The whole surface stage on analytic shapes, on any number of ranks.
-#include "aeroloom/surface/surface_mesher.hpp"
+#include "surface/surface_mesher.hpp"
 
-#include "aeroloom/cad/domain/domain.hpp"
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
-#include "surface/curves.hpp"
+#include "cad/domain/domain.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
+#include "surface/curves/curves.hpp"
 #include "surface/piece_mesher.hpp"
 #include "tests/cad/primitives.hpp"
 

@@ -1,5 +1,5 @@
 /// Whether zones fit together, and where they do not.
-#include "volume/agreement.hpp"
+#include "volume/filling/agreement.hpp"
 
 #include <algorithm>
 #include <random>

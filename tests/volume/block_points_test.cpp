@@ -1,10 +1,10 @@
 /// The graded body-centred lattice, block by block.
-#include "volume/block_points.hpp"
+#include "volume/lattice/block_points.hpp"
 
-#include "aeroloom/mesh/quality.hpp"
+#include "mesh/quality/quality.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/tetgen_run.hpp"
+#include "volume/filling/tetgen_run.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 /// Which region the blocks lie in that the surface does not meet.
-#include "volume/block_regions.hpp"
+#include "volume/lattice/block_regions.hpp"
 
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"

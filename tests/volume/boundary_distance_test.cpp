@@ -1,4 +1,4 @@
-#include "volume/boundary_distance.hpp"
+#include "volume/lattice/boundary_distance.hpp"
 
 #include "tests/volume/surfaces.hpp"
 

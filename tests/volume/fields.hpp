@@ -1,7 +1,7 @@
 /// Size fields to fill with.
 #pragma once
 
-#include "aeroloom/sizing/size_field.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <vector>
 

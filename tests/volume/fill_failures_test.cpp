@@ -1,6 +1,6 @@
 /// What the stage does about zones that cannot be filled: the ladder of retries, and the message at its end.
-#include "aeroloom/parallel/communication/collective_error.hpp"
-#include "aeroloom/parallel/sandbox/fault.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/sandbox/fault.hpp"
 #include "tests/references.hpp"
 #include "tests/scoped_fault.hpp"
 #include "tests/volume/fields.hpp"

@@ -1,10 +1,10 @@
 /// The whole stage: from a surface mesh and sizes to tetrahedra that fit together.
-#include "aeroloom/mesh/quality.hpp"
-#include "aeroloom/mesh/validity.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/quality.hpp"
 #include "tests/references.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/filled.hpp"
-#include "volume/zones.hpp"
+#include "volume/zones/zones.hpp"
 
 #include <set>
 #include <string>

@@ -1,11 +1,11 @@
 /// A volume that was filled, and what any must be like.
 #pragma once
 
-#include "aeroloom/mesh/validity.hpp"
-#include "aeroloom/parallel/observation/log.hpp"
-#include "mesh/mixing.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/data/mixing.hpp"
+#include "parallel/observation/log.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/decomposition_data.hpp"
+#include "volume/filling/decomposition_data.hpp"
 
 #include <algorithm>
 #include <bit>

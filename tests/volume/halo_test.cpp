@@ -1,9 +1,9 @@
 /// What zones know of the space around them, against the rule taken literally.
-#include "volume/halo.hpp"
+#include "volume/zones/halo.hpp"
 
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/near_boxes.hpp"
+#include "volume/lattice/near_boxes.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,9 +1,9 @@
 /// The lattice alone: its Delaunay mesh and its density.
-#include "aeroloom/mesh/quality.hpp"
+#include "mesh/quality/quality.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/block_points.hpp"
-#include "volume/tetgen_run.hpp"
+#include "volume/filling/tetgen_run.hpp"
+#include "volume/lattice/block_points.hpp"
 
 #include <algorithm>
 

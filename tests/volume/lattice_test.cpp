@@ -1,5 +1,5 @@
 /// The octree of the interior points.
-#include "mesh/mixing.hpp"
+#include "mesh/data/mixing.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 

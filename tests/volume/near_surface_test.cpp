@@ -1,5 +1,5 @@
 /// Which region a point near a part of the surface lies in.
-#include "volume/near_surface.hpp"
+#include "volume/lattice/near_surface.hpp"
 
 #include "tests/volume/surfaces.hpp"
 

@@ -1,4 +1,4 @@
-#include "volume/near_triangles.hpp"
+#include "volume/lattice/near_triangles.hpp"
 
 #include "tests/volume/surfaces.hpp"
 

@@ -1,5 +1,5 @@
 /// Which of what TetGen made is a zone's own.
-#include "volume/owned_cells.hpp"
+#include "volume/filling/owned_cells.hpp"
 
 #include "geometry/predicates.hpp"
 #include "tests/volume/zone_problems.hpp"

@@ -1,4 +1,4 @@
-#include "volume/range_maximum.hpp"
+#include "volume/lattice/range_maximum.hpp"
 
 #include <algorithm>
 #include <random>

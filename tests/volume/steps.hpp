@@ -1,13 +1,13 @@
 /// The steps of the decomposition, taken one by one so that tests can look at each.
 #pragma once
 
-#include "aeroloom/volume/volume_mesher.hpp"
 #include "tests/volume/surfaces.hpp"
-#include "volume/block_points.hpp"
-#include "volume/block_regions.hpp"
-#include "volume/near_surface.hpp"
-#include "volume/neighbourhood.hpp"
-#include "volume/zones.hpp"
+#include "volume/lattice/block_points.hpp"
+#include "volume/lattice/block_regions.hpp"
+#include "volume/lattice/near_surface.hpp"
+#include "volume/lattice/neighbourhood.hpp"
+#include "volume/volume_mesher.hpp"
+#include "volume/zones/zones.hpp"
 
 #include <numeric>
 #include <random>

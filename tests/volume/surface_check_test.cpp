@@ -1,4 +1,4 @@
-#include "volume/surface_check.hpp"
+#include "volume/filling/surface_check.hpp"
 
 #include "tests/volume/surfaces.hpp"
 

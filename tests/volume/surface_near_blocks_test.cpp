@@ -1,5 +1,5 @@
 /// Which triangles meet which block, and who gets them.
-#include "mesh/mixing.hpp"
+#include "mesh/data/mixing.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 

@@ -1,13 +1,13 @@
 /// Small surfaces to fill, and their way into a distributed mesh.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
-#include "aeroloom/mesh/distributed_mesh.hpp"
-#include "aeroloom/parallel/communication/communicator.hpp"
 #include "geometry/predicates.hpp"
-#include "mesh/mixing.hpp"
-#include "volume/owned_cells.hpp"
-#include "volume/surface_near_blocks.hpp"
+#include "geometry/vec.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "mesh/data/mixing.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "volume/filling/owned_cells.hpp"
+#include "volume/lattice/surface_near_blocks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 /// What TetGen makes of points and triangles.
-#include "volume/tetgen_run.hpp"
+#include "volume/filling/tetgen_run.hpp"
 
 #include "geometry/predicates.hpp"
 #include "tests/volume/zone_problems.hpp"

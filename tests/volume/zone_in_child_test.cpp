@@ -1,11 +1,11 @@
 /// One try at filling a zone in a sandboxed child: what comes back, and what a failing child leaves behind.
-#include "volume/zone_in_child.hpp"
+#include "volume/filling/zone_in_child.hpp"
 
-#include "aeroloom/parallel/communication/communicator.hpp"
-#include "aeroloom/volume/volume_mesher.hpp"
+#include "parallel/communication/communicator.hpp"
 #include "tests/volume/surfaces.hpp"
-#include "volume/boundary_distance.hpp"
-#include "volume/cell_order.hpp"
+#include "volume/filling/cell_order.hpp"
+#include "volume/lattice/boundary_distance.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,10 +1,10 @@
 /// From a filled zone to pieces of the mesh and the faces by which zones fit together.
-#include "volume/zone_piece.hpp"
+#include "volume/filling/zone_piece.hpp"
 
 #include "geometry/predicates.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/decomposition_data.hpp"
+#include "volume/filling/decomposition_data.hpp"
 
 #include <algorithm>
 #include <map>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "tests/volume/surfaces.hpp"
-#include "volume/boundary_distance.hpp"
-#include "volume/owned_cells.hpp"
+#include "volume/filling/owned_cells.hpp"
+#include "volume/lattice/boundary_distance.hpp"
 
 #include <algorithm>
 #include <random>

@@ -1,7 +1,7 @@
 /// Who fills which zone, and what each gets to know.
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/decomposition_data.hpp"
+#include "volume/filling/decomposition_data.hpp"
 
 #include <algorithm>
 #include <functional>

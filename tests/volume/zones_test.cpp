@@ -1,5 +1,5 @@
 /// Zones of equal load, and what becomes of their leaves.
-#include "volume/zones.hpp"
+#include "volume/zones/zones.hpp"
 
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"

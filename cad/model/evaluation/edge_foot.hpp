@@ -1,7 +1,7 @@
 /// The foot of a point on an edge's curve.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

@@ -1,8 +1,8 @@
 /// What has been computed of the faces of a model. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
 #include "cad/model/evaluation/face_integrals.hpp"
+#include "cad/model/model.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "cad/model/evaluation/face_corners.hpp"
 
 #include "cad/tolerances.hpp"
 

@@ -1,4 +1,4 @@
-#include "aeroloom/cad/model/evaluation/face_place.hpp"
+#include "cad/model/evaluation/face_place.hpp"
 
 #include "cad/faceted/faceted_part.hpp"
 #include "cad/model/model_data.hpp"

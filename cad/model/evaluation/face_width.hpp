@@ -1,7 +1,7 @@
 /// How wide faces are.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

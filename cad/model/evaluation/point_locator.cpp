@@ -1,4 +1,4 @@
-#include "aeroloom/cad/model/evaluation/point_locator.hpp"
+#include "cad/model/evaluation/point_locator.hpp"
 
 #include "cad/tolerances.hpp"
 

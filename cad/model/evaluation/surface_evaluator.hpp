@@ -1,7 +1,7 @@
 /// Points and derivatives of a CAD surface. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/geometry/vec.hpp"
+#include "geometry/vec.hpp"
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
 /// Second pass over the CAD library's triangulation of a face. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

@@ -2,7 +2,7 @@
 /// facet_refinement.cpp and facet_refiner_topology.cpp only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 #include "geometry/predicates.hpp"
 
 #include <array>

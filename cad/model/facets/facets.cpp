@@ -1,6 +1,6 @@
-#include "aeroloom/cad/model/facets/corner_parameters.hpp"
 #include "cad/faceted/faceted_part.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
+#include "cad/model/facets/corner_parameters.hpp"
 #include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/facets/pole_facets.hpp"
 #include "cad/model/model_data.hpp"

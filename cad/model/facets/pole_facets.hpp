@@ -1,7 +1,7 @@
 /// Facets around the poles of a surface. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

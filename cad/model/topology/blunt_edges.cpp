@@ -1,6 +1,6 @@
-#include "aeroloom/cad/model/topology/blunt_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 
-#include "aeroloom/cad/model/evaluation/face_corners.hpp"
+#include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/topology/border_path.hpp"
 #include "cad/tolerances.hpp"

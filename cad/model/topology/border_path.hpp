@@ -1,7 +1,7 @@
 /// A chain of edges measured by its length. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/topology/blunt_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 
 #include <cstdint>
 #include <vector>

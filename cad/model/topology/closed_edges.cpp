@@ -1,7 +1,7 @@
 #include "cad/model/topology/closed_edges.hpp"
 
-#include "aeroloom/cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
+#include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/evaluation/plane_snap.hpp"
 #include "cad/model/model_data.hpp"

@@ -6,7 +6,7 @@
 /// edges.
 #pragma once
 
-#include "aeroloom/cad/model/topology/blunt_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 /// How the edges of a model with closed strips lead to those of the model before. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <array>
 #include <vector>

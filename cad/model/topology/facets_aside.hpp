@@ -1,7 +1,7 @@
 /// A model of both kinds of faces taken apart and put together. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 namespace aeroloom::cad {
 

@@ -6,7 +6,7 @@
 /// topology, ASME AMD 220, 1997.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <vector>
 

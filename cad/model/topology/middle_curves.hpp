@@ -1,7 +1,7 @@
 /// Curves half-way between the borders of a strip, and curves whose ends moved. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/topology/blunt_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/border_path.hpp"
 
 #include <vector>

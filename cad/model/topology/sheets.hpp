@@ -1,7 +1,7 @@
 /// How a joined face leads to its members. Seen by this folder only.
 #pragma once
 
-#include "aeroloom/cad/model/model.hpp"
+#include "cad/model/model.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,0 +1,114 @@
+#include "improve/attribution/curve_wedges.hpp"
+
+#include "geometry/angle.hpp"
+#include "mesh/data/cad_dimension.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::attribution {
+namespace {
+
+using geometry::Vec3;
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using mesh::Piece;
+
+/// The share of one piece in what is known of an edge.
+struct EdgeShare {
+  std::int64_t edge, piece;
+  double angle;                       ///< degrees that its tetrahedra enclose
+  std::array<std::int32_t, 2> faces;  ///< CAD faces of its boundary triangles there, -1 for none
+
+  static constexpr auto fields() {
+    return std::tuple(&EdgeShare::edge, &EdgeShare::piece, &EdgeShare::angle, &EdgeShare::faces);
+  }
+};
+
+double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  const Vec3 axis = b - a;
+  const Vec3 left = cross(axis, c - a), right = cross(axis, d - a);
+  return geometry::degrees_per_radian * std::atan2(norm(cross(left, right)), dot(left, right));
+}
+
+void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
+  if (face < 0 || faces[0] == face || faces[1] == face) return;
+  (faces[0] < 0 ? faces[0] : faces[1]) = face;
+  if (faces[1] >= 0 && faces[0] > faces[1]) std::swap(faces[0], faces[1]);
+}
+
+void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const std::vector<EdgeName>& edges,
+                std::vector<EdgeShare>& shares) {
+  std::vector<EdgeShare> mine;
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* c = piece.cell(t);
+    int curved = 0;
+    for (int k = 0; k < 4; ++k) curved += is_on_curve(piece.vertex_dimension[c[k]]);
+    if (curved < 2) continue;
+    for (int e = 0; e < 6; ++e) {
+      const auto& [a, b] = mesh::tetrahedron_edges[e];
+      if (!is_on_curve(piece.vertex_dimension[c[a]]) || !is_on_curve(piece.vertex_dimension[c[b]])) continue;
+      const std::int64_t edge = find_edge(edges, name_edge(piece, names, c[a], c[b]));
+      if (edge < 0) continue;
+      const auto& [u, v] = mesh::tetrahedron_edges[5 - e];
+      const double angle =
+          dihedral_at(piece.point(c[a]), piece.point(c[b]), piece.point(c[u]), piece.point(c[v]));
+      mine.push_back({edge, piece.id, angle, {-1, -1}});
+    }
+  }
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    for (int k = 0; k < 3; ++k) {
+      const LocalIndex a = v[k], b = v[(k + 1) % 3];
+      if (!is_on_curve(piece.vertex_dimension[a]) || !is_on_curve(piece.vertex_dimension[b])) continue;
+      const std::int64_t edge = find_edge(edges, name_edge(piece, names, a, b));
+      if (edge >= 0) mine.push_back({edge, piece.id, 0, {piece.triangle_face[t], -1}});
+    }
+  }
+  // One record per edge.
+  std::stable_sort(mine.begin(), mine.end(),
+                   [](const EdgeShare& a, const EdgeShare& b) { return a.edge < b.edge; });
+  for (const EdgeShare& share : mine) {
+    if (shares.empty() || shares.back().edge != share.edge || shares.back().piece != share.piece) {
+      shares.push_back(share);
+      continue;
+    }
+    shares.back().angle += share.angle;
+    add_face(shares.back().faces, share.faces[0]);
+  }
+}
+
+}  // namespace
+
+EdgeName name_edge(const Piece& piece, const std::vector<GlobalIndex>& names, LocalIndex a, LocalIndex b) {
+  return {std::min(names[a], names[b]), std::max(names[a], names[b]), piece.region};
+}
+
+std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge) {
+  const auto found = std::lower_bound(edges.begin(), edges.end(), edge);
+  return found != edges.end() && *found == edge ? found - edges.begin() : -1;
+}
+
+std::vector<EdgeWedge> measure_wedges(const parallel::Communicator& communicator,
+                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                      const std::vector<EdgeName>& edges) {
+  std::vector<EdgeShare> mine;
+  if (!edges.empty()) {
+    for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
+      add_shares(mesh.pieces[i], numbering.vertices[i], edges, mine);
+  }
+  std::vector<EdgeShare> all = communicator.all_gather_items<EdgeShare>(mine);
+  std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
+    return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
+  });
+  std::vector<EdgeWedge> wedges(edges.size());
+  for (const EdgeShare& share : all) {
+    wedges[share.edge].angle += share.angle;
+    for (const std::int32_t face : share.faces) add_face(wedges[share.edge].faces, face);
+  }
+  return wedges;
+}
+
+}  // namespace aeroloom::attribution

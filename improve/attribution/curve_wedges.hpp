@@ -1,0 +1,31 @@
+/// The angles that the boundary encloses at edges between vertices on curves.
+#pragma once
+
+#include "improve/attribution/strip_edges.hpp"
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::attribution {
+
+/// The angle of a region's tetrahedra around an edge, and the CAD faces on either side.
+struct EdgeWedge {
+  double angle = 0;                           ///< degrees, of all tetrahedra of the region there
+  std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces of the region's boundary triangles; -1: unknown
+};
+
+EdgeName name_edge(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& names, mesh::LocalIndex a,
+                   mesh::LocalIndex b);
+
+/// The number of an edge in an ascending list, -1 where it is not in it.
+std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge);
+
+/// Of each edge of the list (ascending, the same on every rank). Collective; the same on every rank.
+std::vector<EdgeWedge> measure_wedges(const parallel::Communicator& communicator,
+                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                                      const std::vector<EdgeName>& edges);
+
+}  // namespace aeroloom::attribution

@@ -1,0 +1,17 @@
+/// Which vertices of tetrahedra lie on boundary layers.
+#pragma once
+
+#include "mesh/data/distributed_mesh.hpp"
+#include "parallel/communication/communicator.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace aeroloom::attribution {
+
+/// For each piece of this rank and each of its vertices: whether it is a corner of a cell of layers, of any
+/// piece. Collective.
+std::vector<std::vector<std::uint8_t>> find_front_vertices(const parallel::Communicator& communicator,
+                                                           const mesh::DistributedMesh& mesh);
+
+}  // namespace aeroloom::attribution

@@ -1,0 +1,35 @@
+#include "improve/attribution/sharp_curves.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::attribution {
+
+SharpCurves::SharpCurves(const parallel::Communicator& communicator, const std::vector<SharpSegment>& mine)
+    : _segments(communicator.all_gather_items<SharpSegment>(mine)) {
+  const auto key = [](const SharpSegment& s) { return std::tie(s.region, s.low, s.high, s.edge); };
+  std::sort(_segments.begin(), _segments.end(),
+            [&](const SharpSegment& s, const SharpSegment& t) { return key(s) < key(t); });
+  const auto same = [&](const SharpSegment& s, const SharpSegment& t) { return key(s) == key(t); };
+  _segments.erase(std::unique(_segments.begin(), _segments.end(), same), _segments.end());
+  std::map<Wedge, std::vector<sizing::SegmentTree::Segment>> segments;
+  for (std::size_t i = 0; i < _segments.size(); ++i) {
+    const SharpSegment& s = _segments[i];
+    segments[{s.region, s.low, s.high}].push_back({s.a, s.b, static_cast<std::int32_t>(i)});
+  }
+  for (auto& [wedge, of_wedge] : segments) _trees.emplace(wedge, std::move(of_wedge));
+}
+
+std::optional<SharpCurves::Nearest> SharpCurves::nearest(mesh::RegionId region, std::int32_t low,
+                                                         std::int32_t high, geometry::Vec3 point) const {
+  const auto tree = _trees.find({region, low, high});
+  if (tree == _trees.end()) return std::nullopt;
+  std::int32_t last = 0;  // of those that were the nearest so far
+  const double away = tree->second.nearest(point, std::numeric_limits<double>::infinity(),
+                                           [&](std::int32_t segment) { return last = segment, true; });
+  return Nearest{away, _segments[last].angle, 0.5 * (_segments[last].a + _segments[last].b)};
+}
+
+}  // namespace aeroloom::attribution

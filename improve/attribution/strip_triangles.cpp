@@ -1,0 +1,186 @@
+#include "improve/attribution/strip_triangles.hpp"
+
+#include "mesh/data/cad_dimension.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::attribution {
+namespace {
+
+using geometry::Vec3;
+using mesh::GlobalIndex;
+using mesh::LocalIndex;
+using mesh::Piece;
+
+/// Two curves run along each other where their segments enclose less than 30 degrees, as in
+/// surface/tips/needles.cpp.
+const double along_cosine = std::cos(30 * std::numbers::pi / 180);
+
+/// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.
+using CurveName = std::int64_t;
+
+CurveName name_of_segment(std::int32_t a, std::int32_t b) {
+  return -1 - ((static_cast<std::int64_t>(std::min(a, b)) << 31) + std::max(a, b));
+}
+
+/// An edge of a boundary triangle at a CAD vertex.
+struct EdgeAtVertex {
+  std::int32_t vertex, face;
+  CurveName curve;    ///< that the other end lies on
+  GlobalIndex other;  ///< other end
+  Vec3 step;          ///< from the vertex to it
+
+  static constexpr auto fields() {
+    return std::tuple(&EdgeAtVertex::vertex, &EdgeAtVertex::face, &EdgeAtVertex::curve, &EdgeAtVertex::other,
+                      &EdgeAtVertex::step);
+  }
+};
+
+auto edge_key(const EdgeAtVertex& e) {
+  return std::tie(e.vertex, e.curve, e.other, e.face);
+}
+
+/// The curves of a CAD face that end in a CAD vertex.
+struct CurveAtVertex {
+  std::int32_t vertex, face;
+  CurveName curve;
+  Vec3 step;  ///< along its first segment
+};
+
+void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::vector<EdgeAtVertex>& edges) {
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    for (int i = 0; i < 3; ++i) {
+      for (const int k : {(i + 1) % 3, (i + 2) % 3}) {
+        if (piece.vertex_dimension[v[i]] != mesh::CadDimension::vertex ||
+            !is_on_curve(piece.vertex_dimension[v[k]]))
+          continue;
+        const std::int32_t vertex = piece.vertex_entity[v[i]], entity = piece.vertex_entity[v[k]];
+        const bool between_vertices = piece.vertex_dimension[v[k]] == mesh::CadDimension::vertex;
+        edges.push_back({vertex, piece.triangle_face[t],
+                         between_vertices ? name_of_segment(vertex, entity) : entity, names[v[k]],
+                         piece.point(v[k]) - piece.point(v[i])});
+      }
+    }
+  }
+}
+
+/// Curves are known by their edges: those at which triangles of two CAD faces meet.
+std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& communicator,
+                                              const mesh::DistributedMesh& mesh,
+                                              const mesh::Numbering& numbering) {
+  const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
+    std::sort(edges.begin(), edges.end(),
+              [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) < edge_key(b); });
+    const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
+    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+  };
+  std::vector<EdgeAtVertex> edges;
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
+    add_edges(mesh.pieces[i], numbering.vertices[i], edges);
+  sort_out(edges);
+  edges = communicator.all_gather_items<EdgeAtVertex>(edges);
+  sort_out(edges);
+  std::vector<CurveAtVertex> curves;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const EdgeAtVertex &a = edges[i - 1], &b = edges[i];
+    if (std::tie(a.vertex, a.curve, a.other) != std::tie(b.vertex, b.curve, b.other)) continue;
+    curves.push_back({a.vertex, a.face, a.curve, a.step});
+    curves.push_back({b.vertex, b.face, b.curve, b.step});
+  }
+  // Curves of one vertex and face together, in the order they had.
+  std::stable_sort(curves.begin(), curves.end(), [](const CurveAtVertex& a, const CurveAtVertex& b) {
+    return std::tie(a.vertex, a.face) < std::tie(b.vertex, b.face);
+  });
+  return curves;
+}
+
+class StripJudge {
+public:
+  StripJudge(const Piece& piece, const std::vector<CurveAtVertex>& curves) : _piece(piece), _curves(curves) {}
+
+  /// Whether the triangle is one of a strip with its corners so.
+  bool is_strip(LocalIndex a, LocalIndex b, LocalIndex c, std::int32_t face) {
+    list(a, face, _at_a);
+    list(b, face, _at_b);
+    list(c, face, _at_c);
+    const auto has = [](const std::vector<CurveName>& names, CurveName name) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    const bool share = std::any_of(_at_a.begin(), _at_a.end(), [&](CurveName n) { return has(_at_b, n); });
+    if (!share) return false;
+    const Vec3 p = _piece.point(a), q = _piece.point(b), r = _piece.point(c);
+    const Vec3 direction = distance(p, r) < distance(q, r) ? q - p : p - q;
+    const auto is_apart = [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); };
+    if (_piece.vertex_dimension[c] != mesh::CadDimension::vertex)
+      return std::any_of(_at_c.begin(), _at_c.end(), is_apart);
+    // A short segment across the end of a curve makes no strip of the curves that it joins.
+    const auto curves = curves_at(_piece.vertex_entity[c], face);
+    return std::any_of(curves.begin(), curves.end(), [&](const CurveAtVertex& curve) {
+      return is_apart(curve.curve) &&
+             dot(curve.step, direction) >= along_cosine * norm(curve.step) * norm(direction);
+    });
+  }
+
+private:
+  void list(LocalIndex v, std::int32_t face, std::vector<CurveName>& names) const {
+    names.clear();
+    const std::int32_t entity = _piece.vertex_entity[v];
+    if (_piece.vertex_dimension[v] != mesh::CadDimension::vertex) {
+      names.push_back(entity);
+      return;
+    }
+    for (const CurveAtVertex& curve : curves_at(entity, face)) names.push_back(curve.curve);
+  }
+  std::span<const CurveAtVertex> curves_at(std::int32_t vertex, std::int32_t face) const {
+    const auto is_before = [](const CurveAtVertex& c, const std::pair<std::int32_t, std::int32_t>& wanted) {
+      return std::tie(c.vertex, c.face) < std::tie(wanted.first, wanted.second);
+    };
+    const auto first = std::lower_bound(_curves.begin(), _curves.end(), std::pair(vertex, face), is_before);
+    const auto last = std::find_if(
+        first, _curves.end(), [&](const CurveAtVertex& c) { return c.vertex != vertex || c.face != face; });
+    return {first, last};
+  }
+
+  const Piece& _piece;
+  const std::vector<CurveAtVertex>& _curves;
+  std::vector<CurveName> _at_a, _at_b, _at_c;
+};
+
+std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<CurveAtVertex>& curves) {
+  std::vector<StripTriangle> strips;
+  StripJudge judge(piece, curves);
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    if (std::any_of(v, v + 3, [&](LocalIndex w) { return !is_on_curve(piece.vertex_dimension[w]); }))
+      continue;
+    for (int i = 0; i < 3; ++i) {
+      const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];
+      const Vec3 side = piece.point(b) - piece.point(a);
+      const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
+      if (area2 > strip_fraction * dot(side, side) || !judge.is_strip(a, b, c, piece.triangle_face[t]))
+        continue;
+      strips.push_back({t, {a, b, c}, area2 / norm(side)});
+      break;
+    }
+  }
+  return strips;
+}
+
+}  // namespace
+
+std::vector<std::vector<StripTriangle>> find_strip_triangles(const parallel::Communicator& communicator,
+                                                             const mesh::DistributedMesh& mesh,
+                                                             const mesh::Numbering& numbering) {
+  const std::vector<CurveAtVertex> curves = curves_at_vertices(communicator, mesh, numbering);
+  std::vector<std::vector<StripTriangle>> strips;
+  for (const Piece& piece : mesh.pieces) strips.push_back(strips_of(piece, curves));
+  return strips;
+}
+
+}  // namespace aeroloom::attribution

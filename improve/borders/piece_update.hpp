@@ -1,0 +1,87 @@
+/// Tetrahedra that leave a piece and others that come. Used by rounds.cpp.
+#pragma once
+
+#include "improve/borders/rounds.hpp"
+
+#include <span>
+#include <tuple>
+
+namespace aeroloom::cavities {
+
+// A tetrahedron as it travels between pieces and cavities, its vertices by shared-vertex key.
+struct WireTet {
+  CavityId cavity;
+  mesh::PieceId piece;
+  mesh::RegionId region;
+  std::array<mesh::SharedVertexKey, 4> vertices;
+
+  static constexpr auto fields() {
+    return std::tuple(&WireTet::cavity, &WireTet::piece, &WireTet::region, &WireTet::vertices);
+  }
+};
+struct WireVertex {
+  CavityId cavity;
+  mesh::PieceId piece;
+  std::int32_t dimension;  ///< a mesh::CadDimension; as wide as its neighbours, so that there is no padding
+  mesh::SharedVertexKey vertex_key;
+  geometry::Vec3 point;
+  std::int32_t entity;
+
+  static constexpr auto fields() {
+    return std::tuple(&WireVertex::cavity, &WireVertex::piece, &WireVertex::dimension,
+                      &WireVertex::vertex_key, &WireVertex::point, &WireVertex::entity);
+  }
+};
+struct WireTriangle {
+  CavityId cavity;
+  mesh::PieceId piece;
+  std::int32_t face;
+  std::array<mesh::SharedVertexKey, 3> vertices;
+  std::int32_t patch;
+
+  static constexpr auto fields() {
+    return std::tuple(&WireTriangle::cavity, &WireTriangle::piece, &WireTriangle::face,
+                      &WireTriangle::vertices, &WireTriangle::patch);
+  }
+};
+
+/// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.
+class PieceUpdate {
+public:
+  /// `shared-vertex keys` names every vertex of the piece in this round.
+  PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedVertexKey>& vertex_keys);
+
+  /// A cell that leaves: those of its vertices that stay behind are shared from now on.
+  void leave(mesh::LocalIndex cell);
+  void keep(mesh::LocalIndex cell);
+  void keep_triangle(mesh::LocalIndex triangle) { _kept_triangles.push_back(triangle); }
+
+  /// The piece with what comes; `vertices` has at least those of `tets` that the piece does not know.
+  mesh::Piece finish(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices,
+                     const std::vector<WireTriangle>& triangles);
+
+private:
+  struct Named {
+    mesh::SharedVertexKey vertex_key;
+    mesh::LocalIndex vertex;
+  };
+
+  void number_old();
+  mesh::LocalIndex add(geometry::Vec3 p, mesh::CadDimension dimension, std::int32_t entity);
+  void add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices);
+  void append_cells(std::span<const WireTet> tets);
+  void append_triangles(const std::vector<WireTriangle>& triangles);
+  void sort_names();
+  mesh::LocalIndex find(mesh::SharedVertexKey vertex_key) const;
+  void list_shared();
+
+  const mesh::Piece& _old;
+  const std::vector<mesh::SharedVertexKey>& _vertex_keys;
+  mesh::Piece _piece;
+  std::vector<mesh::LocalIndex> _number;  // new number of an old vertex, -1: gone
+  std::vector<char> _named;               // per old vertex: shared from now on
+  std::vector<mesh::LocalIndex> _kept, _kept_triangles;
+  std::vector<Named> _names;  // by shared-vertex key
+};
+
+}  // namespace aeroloom::cavities

@@ -1,0 +1,54 @@
+/// Limits to a change beside the quality that it is made for: sizes and decent shapes.
+#pragma once
+
+#include "improve/improve_options.hpp"
+#include "improve/limits/attainable_quality.hpp"
+#include "improve/tet_mesh.hpp"
+#include "sizing/field/size_field.hpp"
+
+#include <limits>
+#include <span>
+
+namespace aeroloom::improve {
+
+/// A change may make an edge longer than all that were there before it only up to 3 times the size in its
+/// middle, and shorter than all only down to 0.3 times that size or, where edges are shorter because the CAD
+/// is, 0.3 times their mean. Where no size field is known, every length will do.
+/// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was; down to 0.3 times the
+/// poorest where severe cases beside strips (Reach) get better: large angles over a triangle that is longer
+/// than wide need a flat tetrahedron. Where nothing is spared, beside strips by as much as the worst angle
+/// gains.
+class ChangeLimits {
+public:
+  explicit ChangeLimits(const sizing::SizeField* field = nullptr,
+                        const AttainableQuality* attainable = nullptr, Effort effort = Effort::sparing)
+      : _field(field), _attainable(attainable), _effort(effort) {}
+
+  /// Whether the new tetrahedra of a cavity keep to that.
+  bool allow(const TetMesh& mesh, const Replacement& cavity) const;
+  /// Whether the tetrahedra around a vertex do once it has moved from `origin`.
+  bool allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                  Vec3 origin) const;
+
+  /// The part of allow() that is about lengths of edges.
+  bool allow_sizes(const TetMesh& mesh, const Replacement& cavity) const;
+
+private:
+  bool allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
+                         Vec3 origin) const;
+  struct Lengths {
+    double shortest = std::numeric_limits<double>::max(), longest = 0;
+    double sum = 0, count = 0;
+
+    void add(Vec3 a, Vec3 b);
+  };
+  bool allow_edge(const Lengths& before, Vec3 a, Vec3 b) const;
+
+  bool is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
+
+  const sizing::SizeField* _field;
+  const AttainableQuality* _attainable;
+  Effort _effort;
+};
+
+}  // namespace aeroloom::improve

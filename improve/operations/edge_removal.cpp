@@ -1,0 +1,23 @@
+#include "improve/operations/edge_removal.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace aeroloom::improve {
+
+bool EdgeRemoval::propose(const TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity) {
+  if (!mesh.collect_edge_ring(t, edge, largest_ring, _edge_ring) || _edge_ring.ring.size() < 3) return false;
+  double before = std::numeric_limits<double>::max();
+  for (const LocalIndex tet : _edge_ring.tets) before = std::min(before, mesh.quality(tet));
+  floor = std::max(floor, before);
+  const double after = _filling.solve(mesh, _edge_ring.start, _edge_ring.end, _edge_ring.ring, floor);
+  if (after <= floor) return false;
+  cavity.clear();
+  cavity.before = before;
+  cavity.after = after;
+  cavity.old_tets = _edge_ring.tets;
+  _filling.emit(cavity.new_tets);
+  return true;
+}
+
+}  // namespace aeroloom::improve

@@ -1,0 +1,51 @@
+/// The names of vertices that several pieces may know: made here.
+///
+/// A shared-vertex key is known by construction, before any numbering. On a surface, CAD vertices are named
+/// by their number, vertices of curves and cuts by CAD entity and index, so names ascend by vertex, curve,
+/// cut. In a volume, vertices of the surface and points of the lattice are named by running numbers; nodes
+/// of boundary layers lie above them, then points that TetGen added, and what rounds over several pieces name
+/// lies above everything else.
+#pragma once
+
+#include "mesh/data/piece.hpp"
+
+#include <cstdint>
+
+namespace aeroloom::mesh {
+
+// ---- of surfaces ----
+
+/// A CAD vertex.
+SharedVertexKey cad_vertex_key(std::int32_t vertex);
+/// Vertex `index` inside a CAD edge.
+SharedVertexKey curve_vertex_key(std::int32_t edge, std::int32_t index);
+/// Vertex `index` on the cuts that one division (`group`, below 2^16) of a CAD face made; index below 2^24,
+/// face below 2^22. Throws std::runtime_error beyond that.
+SharedVertexKey cut_vertex_key(std::int32_t face, std::int32_t group, std::int32_t index);
+/// A vertex of a piece that is shared since the piece was split (split_pieces.hpp); it counts as one on cuts.
+SharedVertexKey split_vertex_key(PieceId piece, LocalIndex vertex);
+
+bool is_cut_vertex_key(SharedVertexKey vertex_key);
+/// The CAD edge in the name of a vertex of a curve, -1 for CAD vertices and vertices on cuts.
+std::int32_t edge_of_vertex_key(SharedVertexKey vertex_key);
+/// The index in the name of a vertex of a curve; the number of a CAD vertex.
+std::int32_t index_of_vertex_key(SharedVertexKey vertex_key);
+
+// ---- of volumes ----
+
+/// A vertex known by its running number.
+SharedVertexKey running_key(std::int64_t number);
+/// A point that TetGen added to a zone: it fits no other zone.
+SharedVertexKey added_key(std::int32_t zone, std::int64_t index);
+/// Node `node`, below 2^20, of the column of boundary layers over vertex `number`, below 2^40, of the
+/// surface.
+SharedVertexKey layer_key(std::int64_t number, std::int32_t node);
+
+/// Rounds of cavities that shared-vertex keys tell apart on one mesh.
+inline constexpr int most_key_rounds = 255;
+/// A vertex of a piece that is shared from a round on.
+SharedVertexKey late_key(int round, PieceId piece, LocalIndex vertex);
+/// A vertex that a round placed, by a running number.
+SharedVertexKey placed_key(int round, std::int64_t index);
+
+}  // namespace aeroloom::mesh

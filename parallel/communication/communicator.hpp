@@ -1,0 +1,99 @@
+/// The communicator: ranks, typed collectives and sparse exchange. No other header names the message
+/// passing library, and counts and displacements stay inside.
+#pragma once
+
+#include "parallel/communication/packer.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace aeroloom::parallel {
+
+using Rank = int;
+
+/// A parcel of a sparse exchange: the bytes for (or from) one rank.
+struct Parcel {
+  Rank rank;
+  Bytes content;
+};
+
+struct CommunicatorHandle;
+
+/// A group of ranks. Cheap to copy; copies refer to the same group. Every member function except rank(),
+/// size() and is_root() is collective over the group. Messages above 2^31 bytes are handled. Failures of the
+/// library throw std::runtime_error.
+class Communicator {
+public:
+  /// All ranks of the program. Throws std::logic_error without a living Environment.
+  static Communicator world();
+  /// This rank alone. Throws std::logic_error unless MPI runs. For the host's own groups see host.hpp.
+  static Communicator self();
+  /// Internal to parallel/.
+  explicit Communicator(std::shared_ptr<CommunicatorHandle> handle) : _handle(std::move(handle)) {}
+
+  Rank rank() const;
+  int size() const;
+  bool is_root() const { return rank() == 0; }
+
+  void barrier() const;
+  /// Replaces `bytes` on every rank by those of `root`.
+  void broadcast(Bytes& bytes, Rank root = 0) const;
+  /// One entry per rank, in rank order, on every rank.
+  std::vector<Bytes> all_gather(const Bytes& mine) const;
+  /// One entry per rank, in rank order, on `root`; empty elsewhere.
+  std::vector<Bytes> gather(const Bytes& mine, Rank root = 0) const;
+  /// Sends each parcel to its rank, returns what others sent here, in ascending rank of the sender.
+  /// Only ranks that have something for each other exchange messages. At most one parcel per destination;
+  /// a second one, or a rank that does not exist, throws std::logic_error. Who sends to whom is found by the
+  /// non-blocking consensus of Hoefler, Siebert, Lumsdaine (PPoPP 2010, doi:10.1145/1693453.1693476).
+  std::vector<Parcel> exchange(std::vector<Parcel> outgoing) const;
+
+  std::int64_t sum(std::int64_t value) const;
+  std::int64_t minimum(std::int64_t value) const;
+  std::int64_t maximum(std::int64_t value) const;
+  /// Sum of the values of lower ranks; 0 on rank 0.
+  std::int64_t exclusive_scan(std::int64_t value) const;
+  double minimum(double value) const;
+  double maximum(double value) const;
+  /// Each of the values becomes the sum, or the smallest, of those at its place on all ranks, which give as
+  /// many.
+  void sum_each(std::span<std::int64_t> values) const;
+  void minimum_each(std::span<double> values) const;
+  /// Sum in rank order, the same bits on every rank for the same number of ranks. The bits depend on how
+  /// values are spread over ranks: never feed it into a mesh.
+  double sum(double value) const;
+
+  /// Concatenation of every rank's items in rank order, on every rank.
+  template <Flat T>
+  std::vector<T> all_gather_items(std::span<const T> mine) const;
+  template <Flat T>
+  void broadcast_items(std::vector<T>& items, Rank root = 0) const;
+
+  /// As broadcast, gather and all_gather, of anything that can be packed.
+  template <class T>
+  void broadcast_value(T& value, Rank root = 0) const;
+  template <class T>
+  std::vector<T> gather_values(const T& mine, Rank root = 0) const;
+  template <class T>
+  std::vector<T> all_gather_values(const T& mine) const;
+
+private:
+  friend class NodeMemory;
+  friend struct HostAccess;
+  const CommunicatorHandle& usable_handle() const;
+  /// The number of bytes of every rank.
+  std::vector<std::uint64_t> all_sizes(std::uint64_t mine) const;
+  /// The bytes of all ranks one after another at `to`, which has room for these sizes.
+  void all_gather_into(std::span<const std::byte> mine, const std::vector<std::uint64_t>& sizes,
+                       std::byte* to) const;
+  std::shared_ptr<CommunicatorHandle> _handle;
+};
+
+}  // namespace aeroloom::parallel
+
+#include "parallel/communication/communicator_items.hpp"

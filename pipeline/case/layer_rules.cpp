@@ -1,0 +1,91 @@
+#include "pipeline/case/layer_rules.hpp"
+
+#include "pipeline/case/case.hpp"
+#include "pipeline/case/nearest_name.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cases {
+
+namespace {
+
+/// What all walls get.
+layers::WallLayers layers_of_walls(const LayerRequest& request, const SizingRequest& sizing) {
+  std::optional<sizing::LevelLayers> level;
+  if (sizing.level) level = sizing::layers_of(*sizing.level, sizing.family);
+  layers::WallLayers wanted;
+  if (request.first) wanted.first = *request.first;
+  if (request.reynolds && request.length)
+    wanted.first = first_height(request.y_plus.value_or(level ? level->y_plus : 1), *request.reynolds,
+                                *request.length, sizing.solver);
+  if (level && level->constant_layers > 0) wanted.constant = level->constant_layers;
+  if (request.constant) wanted.constant = static_cast<std::int32_t>(*request.constant);
+  wanted.growth = request.growth.value_or(level ? level->growth : wanted.growth);
+  wanted.count = static_cast<std::int32_t>(request.count.value_or(0));
+  wanted.total = request.total.value_or(0);
+  return wanted;
+}
+
+layers::WallLayers layers_of_patch(const LayerRule& rule, layers::WallLayers wanted) {
+  if (rule.count == 0) return {};
+  if (rule.first) wanted.first = *rule.first;
+  if (rule.growth) wanted.growth = *rule.growth;
+  if (rule.constant) wanted.constant = static_cast<std::int32_t>(*rule.constant);
+  if (rule.count) wanted.count = static_cast<std::int32_t>(*rule.count);
+  if (rule.total) wanted.total = *rule.total;
+  return wanted;
+}
+
+std::size_t patch_of_rule(const LayerRule& rule, const std::vector<std::string>& patches,
+                          const std::vector<mesh::PatchType>& types) {
+  const auto found = std::find(patches.begin(), patches.end(), rule.name);
+  const auto patch = static_cast<std::size_t>(found - patches.begin());
+  if (found == patches.end()) {
+    const std::optional<std::string> nearest = nearest_name(rule.name, patches);
+    throw std::invalid_argument(
+        fmt::format("layers.patches.{}: there is no such patch{}. Remedy: `aeroloom check` lists the patches",
+                    rule.name, nearest ? fmt::format("; the nearest name is '{}'", *nearest) : ""));
+  }
+  if (types.at(patch) != mesh::PatchType::wall && rule.count != 0)
+    throw std::invalid_argument(
+        fmt::format("layers.patches.{}: layers stand on walls, and this patch is of type {}. Remedy: "
+                    "`patches: {{{}: {{type: wall}}}}`, or no layers on it",
+                    rule.name, mesh::name_of(types[patch]), rule.name));
+  return patch;
+}
+
+}  // namespace
+
+double first_height(double y_plus, double reynolds, double length, sizing::SolverPoints points) {
+  constexpr double of_flat_plate = 0.80;  // meets the workshops' tables
+  const double friction = 0.026 / std::pow(reynolds, 1.0 / 7);
+  const double height = of_flat_plate * y_plus * length / (reynolds * std::sqrt(friction / 2));
+  return points == sizing::SolverPoints::cell ? 2 * height : height;
+}
+
+double y_plus_of(double first, double reynolds, double length) {
+  return first / first_height(1, reynolds, length, sizing::SolverPoints::vertex);
+}
+
+layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,
+                                   const std::vector<std::string>& patches,
+                                   const std::vector<mesh::PatchType>& types) {
+  layers::LayerOptions options;
+  options.patches.resize(patches.size());
+  options.ends_on_planes = true;
+  options.elements = request.elements;
+  if (!request.given) return options;
+  const layers::WallLayers wanted = layers_of_walls(request, sizing);
+  for (std::size_t p = 0; p < patches.size() && request.walls == LayeredWalls::all; ++p) {
+    if (types.at(p) == mesh::PatchType::wall) options.patches[p] = wanted;
+  }
+  for (const LayerRule& rule : request.patches)
+    options.patches[patch_of_rule(rule, patches, types)] = layers_of_patch(rule, wanted);
+  return options;
+}
+
+}  // namespace aeroloom::cases

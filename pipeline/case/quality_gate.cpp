@@ -1,0 +1,116 @@
+#include "pipeline/case/quality_gate.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cases {
+
+namespace {
+
+using mesh::Measure;
+
+std::string line(const char* key, double value, double limit, const char* side) {
+  return fmt::format("\n  improve.gate.{} is {:.4g}, not {:g} {}", key, value, limit, side);
+}
+
+/// The worst cell by a measure against its limit.
+std::string missed_limit(const mesh::MixedQuality& cells, Measure measure, const std::optional<double>& limit,
+                         const char* key) {
+  const auto& worst = cells.worst[static_cast<std::size_t>(measure)];
+  if (!limit || worst.empty()) return {};
+  const mesh::WorstCellOfShape& cell = worst.front();
+  const bool at_most = mesh::larger_is_worse(measure);
+  if (at_most ? cell.value <= *limit : cell.value >= *limit) return {};
+  return line(key, cell.value, *limit, at_most ? "at most" : "at least") +
+         fmt::format(" (cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", cell.cell, mesh::name_of(cell.shape),
+                     cell.center.x, cell.center.y, cell.center.z);
+}
+
+std::string missed_ratios(const QualityGate& gate, const mesh::MixedQuality& cells) {
+  return missed_limit(cells, Measure::volume_ratio, gate.largest_volume_ratio, "largest_volume_ratio") +
+         missed_limit(cells, Measure::edge_ratio, gate.largest_edge_ratio, "largest_edge_ratio") +
+         missed_limit(cells, Measure::scaled_jacobian, gate.min_scaled_jacobian, "min_scaled_jacobian");
+}
+
+}  // namespace
+
+std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate) {
+  std::vector<improve::PercentileTarget> targets;
+  if (gate.percentile_01) targets.push_back({0.001, *gate.percentile_01});
+  if (gate.percentile_1) targets.push_back({0.01, *gate.percentile_1});
+  if (gate.percentile_5) targets.push_back({0.05, *gate.percentile_5});
+  return targets;
+}
+
+std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
+                                         const attribution::PinnedReport& pinned,
+                                         const mesh::MixedQuality* cells) {
+  std::vector<GateLimit> limits;
+  const auto compare = [&](const char* key, const std::optional<double>& limit, double value,
+                           bool at_most = false) {
+    if (limit) limits.push_back({fmt::format("improve.gate.{}", key), *limit, value, at_most});
+  };
+  const auto compare_cells = [&](const char* key, const std::optional<double>& limit, Measure measure) {
+    if (cells == nullptr || cells->worst[static_cast<std::size_t>(measure)].empty()) return;
+    compare(key, limit, cells->worst[static_cast<std::size_t>(measure)].front().value,
+            mesh::larger_is_worse(measure));
+  };
+  const bool some_pinned = pinned.tetrahedra > 0;
+  compare("smallest_angle", gate.smallest_angle,
+          some_pinned ? std::max(pinned.smallest_angle, quality.min_dihedral.minimum)
+                      : quality.min_dihedral.minimum);
+  compare("largest_angle", gate.largest_angle,
+          some_pinned ? std::min(pinned.largest_angle, quality.max_dihedral.maximum)
+                      : quality.max_dihedral.maximum,
+          true);
+  compare("percentile_01", gate.percentile_01, quality.min_dihedral.percentile_01);
+  compare("percentile_1", gate.percentile_1, quality.min_dihedral.percentile_1);
+  compare("percentile_5", gate.percentile_5, quality.min_dihedral.percentile_5);
+  compare("min_mean_ratio", gate.min_mean_ratio, quality.mean_ratio.minimum);
+  compare("mean_mean_ratio", gate.mean_mean_ratio, quality.mean_ratio.mean);
+  compare_cells("largest_volume_ratio", gate.largest_volume_ratio, Measure::volume_ratio);
+  compare_cells("largest_edge_ratio", gate.largest_edge_ratio, Measure::edge_ratio);
+  compare_cells("min_scaled_jacobian", gate.min_scaled_jacobian, Measure::scaled_jacobian);
+  return limits;
+}
+
+std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
+                          const attribution::PinnedReport& pinned, const mesh::MixedQuality* cells) {
+  std::string text = cells != nullptr ? missed_ratios(gate, *cells) : "";
+  for (const GateLimit& limit : compare_with_gate(gate, quality, pinned, nullptr)) {
+    if (!limit.met())
+      text += fmt::format("\n  {} is {:.4g}, not {:g} {}", limit.key, limit.value, limit.limit,
+                          limit.at_most ? "at most" : "at least");
+  }
+  if (text.empty()) return text;
+  std::string place;
+  if (!quality.worst.empty()) {
+    const mesh::WorstCell& worst = quality.worst.front();
+    place = fmt::format("\n  the worst tetrahedron has {:.4g} degrees at ({:.6g}, {:.6g}, {:.6g})",
+                        worst.value, worst.center.x, worst.center.y, worst.center.z);
+  }
+  return "the mesh misses what was asked for; it was written nevertheless:" + text + place +
+         "\n  remedy: a larger improve.target_angle, smaller sizes there, or lower limits";
+}
+
+std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells) {
+  std::string text = missed_limit(cells, Measure::smallest_dihedral, gate.smallest_angle, "smallest_angle") +
+                     missed_limit(cells, Measure::largest_dihedral, gate.largest_angle, "largest_angle");
+  const mesh::MeasureDistribution& angles =
+      cells.distribution(mesh::CellShape::tetrahedron, Measure::smallest_dihedral);
+  const mesh::MeasureDistribution& ratios =
+      cells.distribution(mesh::CellShape::tetrahedron, Measure::mean_ratio);
+  const auto at_least = [&](const std::optional<double>& limit, double value, const char* key) {
+    if (limit && angles.cells > 0 && value < *limit) text += line(key, value, *limit, "at least");
+  };
+  at_least(gate.percentile_01, angles.percentiles[0], "percentile_01");
+  at_least(gate.percentile_1, angles.percentiles[1], "percentile_1");
+  at_least(gate.percentile_5, angles.percentiles[2], "percentile_5");
+  text += missed_limit(cells, Measure::mean_ratio, gate.min_mean_ratio, "min_mean_ratio");
+  at_least(gate.mean_mean_ratio, ratios.mean, "mean_mean_ratio");
+  text += missed_ratios(gate, cells);
+  return text.empty() ? text : "the mesh misses what was asked for:" + text;
+}
+
+}  // namespace aeroloom::cases

@@ -1,0 +1,111 @@
+#include "pipeline/case/wall_keys.hpp"
+
+#include "pipeline/case/case_keys.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace aeroloom::cases {
+
+namespace {
+
+/// The rule of that name, a new one where there is none.
+template <class Rule>
+Rule& rule_of(std::deque<Rule>& rules, const std::string& name) {
+  const auto known =
+      std::find_if(rules.begin(), rules.end(), [&](const Rule& rule) { return rule.name == name; });
+  Rule& rule = known != rules.end() ? *known : rules.emplace_back();
+  rule.name = name;
+  return rule;
+}
+
+void declare_wall(WallRule& rule, KeyTable& keys) {
+  keys.texts("faces", rule.faces,
+             {"List of patterns of faces' or patches' names (`*` any characters, `?` one).", "all walls",
+              "['wing_*']"});
+  keys.number("size", rule.size, Range::above(0, length_unit),
+              {"Largest size of elements at these walls and up to `distance` off them. No other bound holds "
+               "there but smaller sizes.",
+               "needed", "0.05"});
+  keys.number(
+      "distance", rule.distance, Range::between(0, std::numeric_limits<double>::infinity(), length_unit),
+      {"How far off the walls the size is held; beyond it sizes grow by `sizing.growth`.", "needed", "0.5"});
+}
+
+void declare_edge(EdgeRule& rule, KeyTable& keys) {
+  keys.texts(
+      "between", rule.between,
+      {"Patterns of faces' or patches' names: one, whose edges are taken, or two, whose common edges are "
+       "taken.",
+       "all edges in the box", "['wing_*', 'fuselage*']"});
+  keys.point("low", rule.low,
+             {"A corner of a box: only parts of edges inside it are taken; a small box around a vertex sizes "
+              "the vertex.",
+              "no box; needs `between` then", "[0, 0, 0]"});
+  keys.point("high", rule.high, {"The opposite corner.", "no box", "[1, 1, 1]"});
+  keys.number("size", rule.size, Range::above(0, length_unit),
+              {"Largest size of elements along these edges. No other bound holds there but smaller sizes.",
+               "needed", "0.02"});
+}
+
+void require(const KeyTable& keys, const std::string& path, bool holds, const char* what) {
+  if (!holds) throw CaseError(fmt::format("{}: '{}' {}", keys.where(path), path, what));
+}
+
+}  // namespace
+
+void declare_walls(KeyTable& sizing, std::deque<WallRule>& rules) {
+  sizing.named_sections(
+      "walls",
+      "Bands of small elements off walls ([Walls, wakes and "
+      "edges](configuration.md#walls-wakes-and-edges)).",
+      {"A band, of a name that you choose.", "", "near_wing"},
+      [&rules](const std::string& name, KeyTable& keys) { declare_wall(rule_of(rules, name), keys); });
+}
+
+void declare_edges(KeyTable& sizing, std::deque<EdgeRule>& rules) {
+  sizing.named_sections(
+      "edges",
+      "Sizes along CAD edges ([Walls, wakes and "
+      "edges](configuration.md#walls-wakes-and-edges)).",
+      {"Some edges, of a name that you choose.", "", "wing_root"},
+      [&rules](const std::string& name, KeyTable& keys) { declare_edge(rule_of(rules, name), keys); });
+}
+
+void check_walls(const KeyTable& keys, const std::deque<WallRule>& rules) {
+  for (const WallRule& rule : rules) {
+    const std::string path = "sizing.walls." + rule.name;
+    require(keys, path, rule.size.has_value(), "needs 'size'");
+    require(keys, path, rule.distance.has_value(), "needs 'distance'");
+  }
+}
+
+void check_edges(const KeyTable& keys, const std::deque<EdgeRule>& rules) {
+  for (const EdgeRule& rule : rules) {
+    const std::string path = "sizing.edges." + rule.name;
+    require(keys, path, rule.size.has_value(), "needs 'size'");
+    require(keys, path, rule.low.has_value() == rule.high.has_value(),
+            "needs both 'low' and 'high' of a box");
+    require(keys, path, rule.low || !rule.between.empty(), "needs 'between', or 'low' and 'high'");
+    require(keys, path, rule.between.size() <= 2, "has more than two patterns in 'between'");
+  }
+}
+
+sizing::WallSize wall_of(const WallRule& rule) {
+  return {rule.name, rule.faces, rule.size.value_or(0), rule.distance.value_or(0)};
+}
+
+sizing::EdgeSize edge_of(const EdgeRule& rule) {
+  sizing::EdgeSize asked{rule.name, rule.between, {}, rule.size.value_or(0)};
+  if (rule.low && rule.high) {
+    asked.within.emplace();
+    asked.within->add(*rule.low);
+    asked.within->add(*rule.high);
+  }
+  return asked;
+}
+
+}  // namespace aeroloom::cases

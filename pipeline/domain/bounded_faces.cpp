@@ -1,0 +1,89 @@
+#include "pipeline/domain/bounded_faces.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace aeroloom::domain {
+namespace {
+
+constexpr std::size_t shown_faces = 4;   // in a line of the log; the report has all
+constexpr double least_fraction = 0.01;  // of a face's area, to be told in a line
+constexpr double half_turn = 180;        // degrees: an element that turns by it follows no curvature at all
+constexpr double few_degrees = 10;       // told with a digit more
+
+std::string degrees_text(double degrees) {
+  if (degrees >= half_turn) return "180 degrees and more";
+  return degrees < few_degrees ? fmt::format("up to {:.2g} degrees", degrees)
+                               : fmt::format("up to {:.0f} degrees", degrees);
+}
+
+double share_of_body(const std::vector<NamedBound>& faces) {
+  double share = 0;
+  for (const NamedBound& each : faces) share += each.share_of_body;
+  return share;
+}
+
+}  // namespace
+
+std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
+                                             const sizing::SizingOptions& sizes) {
+  const cad::Model& model = sampler.model();
+  std::map<std::string, NamedBound> by_name;
+  for (const sizing::BoundedFace& each : sampler.faces_bounded_by_minimum(sizes)) {
+    NamedBound& bound = by_name[model.face(each.face).name];
+    bound.share_of_body += each.fraction * sampler.area(each.face);
+    bound.degrees = std::max(bound.degrees, std::min(each.degrees, half_turn));
+  }
+  std::map<std::string, double> areas;
+  double body = 0;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    if (model.is_far_field(f)) continue;
+    areas[model.face(f).name] += sampler.area(f);
+    body += sampler.area(f);
+  }
+  std::vector<NamedBound> faces;
+  for (auto& [name, bound] : by_name) {
+    bound.face = name;
+    bound.fraction = std::min(1.0, bound.share_of_body / areas[name]);
+    bound.share_of_body /= body;
+    faces.push_back(bound);
+  }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const NamedBound& a, const NamedBound& b) { return a.fraction > b.fraction; });
+  return faces;
+}
+
+std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes) {
+  std::string text;
+  std::size_t told = 0, left_out = 0;
+  for (const NamedBound& each : faces) {
+    if (each.fraction < least_fraction) break;
+    if (told == shown_faces) {
+      ++left_out;
+      continue;
+    }
+    text += fmt::format("{} on {:.0f} % of '{}' elements turn by {}", told++ > 0 ? "," : "",
+                        100 * each.fraction, each.face, degrees_text(each.degrees));
+  }
+  if (text.empty()) return text;
+  if (left_out > 0) text += fmt::format(", and on {} more", left_out);
+  text = fmt::format("the smallest size ({:.3g}) wins over {:.3g} degrees per element{}:{}", sizes.minimum,
+                     sizes.curvature_angle, sizes.chordal_deviation > 0 ? " and the deviation asked for" : "",
+                     text);
+  if (is_much_of_body(faces))
+    text += fmt::format(
+        ". That is {:.0f} % of the body. Remedy: sizes in the unit of the model; a smaller "
+        "sizing.minimum, or a larger sizing.target_tetrahedra where it was chosen; or a larger "
+        "sizing.curvature_angle, which takes fewer elements elsewhere",
+        100 * share_of_body(faces));
+  return text;
+}
+
+bool is_much_of_body(const std::vector<NamedBound>& faces) {
+  constexpr double much = 0.1;  // of its area; chosen, not measured
+  return share_of_body(faces) > much;
+}
+
+}  // namespace aeroloom::domain

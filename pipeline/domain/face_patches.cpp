@@ -1,0 +1,36 @@
+#include "pipeline/domain/face_patches.hpp"
+
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/packer.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+namespace aeroloom::domain {
+
+cases::TypedPatches find_patches(const parallel::Communicator& communicator, const cad::Model& model,
+                                 const cases::Case& input, parallel::StageClock& clock) {
+  if (input.groups.rules.empty() && !input.groups.strict && input.patches.empty())
+    return cases::apply_patch_rules(model, {});
+  std::string refused;
+  cases::FacePatches chosen;
+  parallel::Bytes bytes;
+  parallel::agree(communicator, [&] {
+    if (!communicator.is_root()) return;
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    try {
+      chosen = cases::choose_patches(model, input.groups, input.patches);
+    } catch (const std::invalid_argument& error) {
+      refused = error.what();  // a fault of the case, and not of the program
+    }
+    bytes = parallel::to_wire(std::tie(refused, chosen.patch_of_face, chosen.taken));
+  });
+  communicator.broadcast(bytes);
+  auto all = std::tie(refused, chosen.patch_of_face, chosen.taken);
+  parallel::from_wire_into(bytes, all);
+  if (!refused.empty()) throw std::invalid_argument(refused);
+  return cases::apply_patches(model, chosen, input.groups, input.patches);
+}
+
+}  // namespace aeroloom::domain

@@ -1,0 +1,255 @@
+#include "pipeline/domain/size_domain.hpp"
+
+#include "cad/model/topology/joined_faces.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
+#include "pipeline/domain/level_sizes.hpp"
+#include "sizing/choice/choose_sizes.hpp"
+#include "sizing/features/narrow_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace aeroloom::domain {
+namespace {
+
+/// Of the smallest size: how far the mesh may leave the surface where a narrow face vanishes. A twentieth of
+/// an element is less than what the element itself leaves of a curved surface. Chosen, not measured.
+constexpr double join_tolerance = 0.05;
+/// Tetrahedra predicted over those aimed at, or the other way round, from which on a warning says so: more
+/// than searches end with (sizing/choice/choose_sizes.cpp) and forecasts err by.
+constexpr double missed_target = 1.25;
+/// Logarithm of what a key does to the count, from which on it is named: about the logarithm of
+/// missed_target.
+constexpr double telling_cost = 0.2;
+/// Share of features over one, below which there are none to speak of.
+constexpr double some_features = 1.01;
+
+/// The model without faces narrower than `width`, where neighbours can take them in.
+std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
+                                            const cad::Model& model, double width,
+                                            parallel::StageClock& clock, JoinedFaces& what) {
+  const double tolerance = join_tolerance * width;
+  std::vector<sizing::NarrowFace> narrow =
+      sizing::find_narrow_faces(communicator, model, width, tolerance, clock);
+  if (narrow.empty()) return std::nullopt;
+  std::optional<cad::Model> joined;
+  parallel::agree(communicator, [&] {
+    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
+    what.groups = sizing::group_narrow_faces(model, narrow, tolerance);
+    joined = cad::join_faces(model, what.groups);
+  });
+  for (const sizing::NarrowFace& each : narrow) {
+    what.changes.push_back(
+        {fmt::format("face '{}' is {:.3g} wide, less than the smallest size, and was joined with "
+                     "'{}', from which it turns by {:.2g} degrees",
+                     model.face(each.face).name, each.width, model.face(each.into).name, each.degrees),
+         each.place, each.deviation});
+  }
+  return joined;
+}
+
+/// The number of tetrahedra that sizes are chosen for; none where all sizes are given.
+std::optional<double> target_of(const cases::SizingRequest& request) {
+  if (request.target_tetrahedra) return request.target_tetrahedra;
+  return request.minimum && request.maximum ? std::nullopt : std::optional(cases::default_target);
+}
+
+std::string describe(const sizing::BoundCost& cost) {
+  const std::string what = cost.bound == sizing::of_features
+                               ? "features finer than sizing.minimum (bounded by sizing.feature_minimum)"
+                               : "sizing." + cost.bound;
+  const char* verb = cost.bound == sizing::of_features ? "make" : "makes";
+  return std::isinf(cost.ratio) ? fmt::format("{} {} it far too many", what, verb)
+                                : fmt::format("{} {} it {:.2g} times as many", what, verb, cost.ratio);
+}
+
+/// Which given keys leave no room, where none does so alone.
+std::string describe_all(const std::vector<sizing::BoundCost>& costs) {
+  std::string names;
+  for (const sizing::BoundCost& cost : costs) {
+    if (cost.bound == sizing::of_features) continue;
+    names += (names.empty() ? "sizing." : ", sizing.") + cost.bound;
+  }
+  return names.empty() ? "" : "what is given leaves no other choice (" + names + ")";
+}
+
+/// The effect of each given key on the count, the largest first.
+std::string describe_costs(std::vector<sizing::BoundCost> costs) {
+  const auto weight = [](const sizing::BoundCost& cost) { return std::abs(std::log(cost.ratio)); };
+  std::stable_sort(costs.begin(), costs.end(),
+                   [&](const auto& a, const auto& b) { return weight(a) > weight(b); });
+  std::string text;
+  for (const sizing::BoundCost& cost : costs) {
+    if (weight(cost) < telling_cost) break;
+    text += (text.empty() ? "" : ", ") + describe(cost);
+  }
+  return text.empty() ? describe_all(costs) : text;
+}
+
+/// Warns where no sizes come near what was aimed at, with the keys that forbid it.
+void tell_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
+                        const cases::SizingRequest& request, double target) {
+  const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
+  if (ratio < missed_target && ratio > 1 / missed_target) return;
+  const std::string costs = describe_costs(sizing::costs_of_given(sampler, chosen, request));
+  if (!sampler.communicator().is_root()) return;
+  const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
+                                   "larger sizes make it fewer"
+                                 : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
+  const bool has_features = chosen.features.share > some_features;
+  parallel::log_warning(fmt::format(
+      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}{}: {}",
+      target, chosen.counts.tetrahedra / chosen.features.share,
+      has_features ? " without features finer than the smallest size" : "", costs.empty() ? "" : "; ", costs,
+      remedy));
+}
+
+/// Sizes before any are chosen: those given, or what coarse fields promise of them.
+struct Trial {
+  sizing::SizingOptions sizes;               ///< where nothing is left to choose
+  std::optional<sizing::Prospect> prospect;  ///< else
+
+  sizing::SizingOptions options() const { return prospect ? prospect->with_features() : sizes; }
+};
+
+/// The sizes that trailing edges are judged by. Its functions refer to the sampler.
+TrialSizes tell(sizing::ModelSampler& sampler, const Trial& trial) {
+  const sizing::SizingOptions options = trial.options();
+  return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
+          [&sampler, options](const std::vector<geometry::Vec3>& places) {
+            return sampler.sizes_without_features(places, options);
+          }};
+}
+
+Trial try_sizes(sizing::ModelSampler& sampler, const cases::SizingRequest& request,
+                const std::optional<sizing::SizingOptions>& near) {
+  const std::optional<double> target = target_of(request);
+  if (!target) return {sizing::with_given({}, request), {}};
+  return {{}, sizing::prospect_sizes(sampler, *target, request.feature_budget, near, request)};
+}
+
+/// The sized domain of the sampler's model, which stays as it is.
+SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& request, const Trial& trial,
+                   JoinedFaces joined, sizing::FieldFor purpose) {
+  if (!trial.prospect) {
+    sizing::ChosenSizes applied = sizing::apply_sizes(sampler, trial.sizes, purpose);
+    return {sampler.model(),
+            trial.sizes,
+            std::move(applied.field),
+            std::move(joined),
+            applied.counts,
+            {},
+            report_bounded_faces(sampler, trial.sizes),
+            {},
+            {}};
+  }
+  const double target = *target_of(request);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request, purpose);
+  tell_missed_target(sampler, chosen, request, target);
+  std::optional<FeatureReport> features;
+  if (!request.holds_features())
+    features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
+  std::vector<NamedBound> bounded = report_bounded_faces(sampler, chosen.options);
+  return {sampler.model(),
+          chosen.options,
+          std::move(chosen.field),
+          std::move(joined),
+          chosen.counts,
+          std::move(features),
+          std::move(bounded),
+          {},
+          {}};
+}
+
+sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
+  sizing::SizeDemands demands{{}, request.patch_sizes};
+  for (const cases::SourceRule& rule : request.sources) {
+    if (rule.shape == cases::SourceShape::wake) {
+      demands.wakes.push_back(cases::wake_of(rule));
+    } else {
+      demands.regions.push_back(cases::region_of(rule));
+    }
+  }
+  for (const cases::WallRule& rule : request.walls) demands.walls.push_back(cases::wall_of(rule));
+  for (const cases::EdgeRule& rule : request.edges) demands.edges.push_back(cases::edge_of(rule));
+  if (!request.expression.empty())
+    demands.formula = {sizing::SizeExpression(request.expression), request.minimum.value_or(0),
+                       request.reference_length.value_or(1)};
+  return demands;
+}
+
+/// The purpose of a choice of sizes, and the sizes that it starts from.
+struct Aim {
+  sizing::FieldFor purpose;
+  /// Sizes for a model that is almost the same, where they are known and the target is to be met.
+  std::optional<sizing::SizingOptions> near;
+};
+
+SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
+                             const cases::SizingRequest& asked, const Simplification& simplification,
+                             parallel::StageClock& clock, Aim aim) {
+  std::optional<sizing::SizingOptions>& near = aim.near;
+  const double thin = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
+  const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
+  const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
+  const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
+  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields,
+                                              demands_of(asked));
+  std::optional<LevelRequest> of_level;
+  if (asked.level) of_level = apply_level(*sampler, asked);
+  const cases::SizingRequest& request = of_level ? of_level->request : asked;
+  const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
+  const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
+  // A level resolves trailing edges, however thin.
+  const bool automatic = !asked.level && simplification.trailing_edges == cad::TrailingEdges::automatic;
+  // An estimate tells which faces are narrow; sizes are chosen for the model without them.
+  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*sampler, *target, request);
+  const double width = near ? near->minimum : request.minimum.value_or(0);
+  std::vector<sizing::TrailingEdge> edges;
+  if (automatic) edges = sizing::find_trailing_edges(*sampler, width);
+  JoinedFaces what;
+  if (join) {
+    if (const auto joined = join_narrow_faces(communicator, model, width, clock, what)) {
+      sizing::ModelSampler of_joined(std::move(*sampler), *joined);
+      sampler.emplace(std::move(of_joined));
+    }
+  }
+  const Trial trial = try_sizes(*sampler, request, near);
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*sampler, trial));
+  std::optional<cad::Model> closed;
+  parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
+  if (closed && trial.prospect) near = trial.prospect->options;
+  SizedDomain sized =
+      closed ? size_domain_near(communicator, *closed, request,
+                                {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, aim)
+             : finish(*sampler, request, trial, std::move(what), aim.purpose);
+  if (!closed) sized.walls = report_walls(model, coincident, *sampler, sized.field);
+  judge_again(report, sized.sizes);
+  sized.edges = std::move(report);
+  if (of_level) sized.level = of_level->level, sized.found = std::move(of_level->found);
+  return sized;
+}
+
+}  // namespace
+
+void require_walls_apart(const SizedDomain& sized) {
+  const std::string text = describe(sized.walls.coincident);
+  if (!text.empty()) throw parallel::CollectiveError(parallel::FailureKind::input, text);
+}
+
+SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
+                        const cases::SizingRequest& given, const Simplification& simplification,
+                        parallel::StageClock& clock, sizing::FieldFor purpose) {
+  const cases::SizingRequest request = cases::in_model_units(given);
+  sizing::require_faces(model, demands_of(request));
+  return size_domain_near(communicator, model, request, simplification, clock, {purpose, {}});
+}
+
+}  // namespace aeroloom::domain

@@ -1,0 +1,69 @@
+#include "pipeline/domain/wall_findings.hpp"
+
+#include "cad/tolerances.hpp"
+#include "pipeline/domain/place_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace aeroloom::domain {
+namespace {
+
+constexpr std::size_t shown_walls = 5;
+/// Elements over the distance between two faces, from which on these are one to them: the same five times
+/// that let faces be near (docs/bounds.md).
+constexpr double size_over_distance = 5;
+/// Distance over the length of the place where two faces are on one another, below which it is rounding.
+constexpr double exact = cad::tolerances::rounding;
+
+std::string and_more(std::size_t all) {
+  return all > shown_walls ? fmt::format("; and {} more", all - shown_walls) : "";
+}
+
+}  // namespace
+
+WallFindings report_walls(const cad::Model& model, const std::vector<sizing::CoincidentFaces>& coincident,
+                          const sizing::ModelSampler& sampler, const sizing::SizeField& field) {
+  WallFindings walls;
+  for (const sizing::UnseenGaps& each : sampler.unseen_gaps())
+    walls.unseen.push_back({sampler.model().face(each.face).name, each.place, each.size});
+  for (const sizing::CoincidentFaces& each : coincident) {
+    if (field(each.place) < size_over_distance * each.apart) continue;
+    walls.coincident.push_back(
+        {model.face(each.first).name, model.face(each.second).name, each.area, each.place, each.apart});
+  }
+  return walls;
+}
+
+std::string describe(const std::vector<UnseenWalls>& unseen) {
+  if (unseen.empty()) return {};
+  std::string text = fmt::format(
+      "the search for gaps ended early, for the work it would have been, on {} face(s): narrow ones may have "
+      "been missed",
+      unseen.size());
+  for (std::size_t i = 0; i < std::min(shown_walls, unseen.size()); ++i) {
+    text += fmt::format("{} on '{}' near {}, for {:.3g} around", i == 0 ? ":" : ";", unseen[i].face,
+                        place(unseen[i].place), unseen[i].size);
+  }
+  return text + and_more(unseen.size()) + ". Remedy: smaller sizes there (sizing.surface_maximum)";
+}
+
+std::string describe(const std::vector<FacesOnOneAnother>& coincident) {
+  if (coincident.empty()) return {};
+  std::string text;
+  for (std::size_t i = 0; i < std::min(shown_walls, coincident.size()); ++i) {
+    const FacesOnOneAnother& each = coincident[i];
+    text += fmt::format("{}faces '{}' and '{}' lie on one another over an area of about {:.3g} near {}, {}",
+                        i == 0 ? "" : "; ", each.first, each.second, each.area, place(each.place),
+                        each.apart > exact * std::sqrt(each.area)
+                            ? fmt::format("{:.2g} apart at most", each.apart)
+                            : "exactly");
+  }
+  return text + and_more(coincident.size()) +
+         ". There is no volume between them to mesh. Remedy: remove one of them in the CAD program, or unite "
+         "the parts they belong to";
+}
+
+}  // namespace aeroloom::domain

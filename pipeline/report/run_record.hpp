@@ -1,0 +1,108 @@
+/// The record of a run, from which its report is written.
+#pragma once
+
+#include "cad/domain/domain.hpp"
+#include "improve/attribution/pinned.hpp"
+#include "improve/attribution/size_conformity.hpp"
+#include "improve/improver.hpp"
+#include "layers/columns.hpp"
+#include "mesh/checks/validity.hpp"
+#include "mesh/quality/mixed_quality.hpp"
+#include "mesh/quality/quality.hpp"
+#include "parallel/communication/communicator.hpp"
+#include "parallel/observation/timers.hpp"
+#include "pipeline/domain/bounded_faces.hpp"
+#include "pipeline/domain/trailing_edges.hpp"
+#include "pipeline/domain/unresolved_features.hpp"
+#include "pipeline/domain/wall_findings.hpp"
+#include "pipeline/report/picture.hpp"
+#include "sizing/field/size_field.hpp"
+#include "surface/surface_mesher.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aeroloom::report {
+
+/// A boundary patch of the finished mesh.
+struct PatchRow {
+  std::string name;
+  mesh::PatchType type = mesh::PatchType::wall;
+  double area = 0;      ///< of the triangles, in the square of the model's unit
+  double cad_area = 0;  ///< of the CAD faces
+  std::int64_t triangles = 0;
+  bool inner = false;  ///< has faces between two regions
+};
+
+/// A CAD face of the finished mesh.
+struct FaceRow {
+  std::string name;
+  std::int32_t number = -1;  ///< in its file; -1 of what the program made
+  std::string patch;
+  double area = 0;      ///< of the triangles, in the square of the model's unit
+  double cad_area = 0;  ///< of the CAD face
+  std::int64_t triangles = 0;
+};
+
+/// A region of the finished mesh.
+struct RegionRow {
+  std::string name;
+  double volume = 0;
+  std::int64_t tetrahedra = 0;
+  double cad_volume = 0;      ///< of the CAD's region; 0 where there is no CAD
+  bool in_far_field = false;  ///< bounded by a far field, which is as coarse as it likes
+};
+
+/// The layers that were asked for, and what became of them; both by patch of the mesh.
+struct LayerRecord {
+  layers::LayerOptions asked;
+  layers::LayerReport report;
+  bool end_on_planes = false;  ///< whose triangles are other ones than those of the surface mesh, then
+};
+
+/// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
+/// rank except `domain` and `pictures`, which rank 0 alone holds.
+struct RunRecord {
+  std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
+  std::int64_t input_bytes = 0;      ///< of that file
+  std::vector<std::string> resumed;  ///< stages whose results came from an earlier run
+  cad::DomainReport domain;
+  std::string unit;
+  double unit_in_metres = 0;
+  geometry::Box bounds;
+  std::int32_t regions = 0, faces = 0, edges = 0;
+  std::vector<std::string> face_names;                   ///< by face id
+  std::map<std::string, mesh::PatchType> type_of_patch;  ///< by its name
+  std::vector<mesh::PatchType> patch_types;              ///< by patch of the model
+  domain::TrailingEdgeReport trailing_edges;             ///< what became of blunt ones
+  cad::Changes joined_faces;                             ///< narrow faces that vanished in their neighbours
+  sizing::SizingOptions sizes;
+  std::optional<domain::FeatureReport> features;
+  std::vector<domain::NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
+  sizing::PredictedCounts forecast;               ///< what the size field predicts
+  domain::WallFindings walls;                     ///< what was found of walls close to each other
+  std::int64_t size_field_leaves = 0;
+  surface::SurfaceReport surface;
+  std::optional<LayerRecord> layers;  ///< where the case asks for some
+  volume::DecompositionReport decomposition;
+  volume::VolumeReport volume;
+  attribution::SizeConformity conformity;
+  improve::ImproveReport improve;
+  attribution::PinnedReport pinned;
+  mesh::MeshCounts counts;
+  double mesh_volume = 0;
+  std::string hash;
+  std::optional<mesh::QualitySummary> surface_quality, quality;
+  std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for what only this has
+  std::vector<PatchRow> patches;
+  std::vector<FaceRow> face_table;  ///< by face id; empty of a mesh from a file
+  std::vector<RegionRow> regions_filled;
+  std::vector<Picture> pictures;
+  parallel::StageClock clock;
+  double wall_seconds = 0;  ///< of the program, from its start to the end of the last stage
+};
+
+}  // namespace aeroloom::report

@@ -1,0 +1,43 @@
+#include "pipeline/report/text_table.hpp"
+
+#include <fmt/format.h>
+
+namespace aeroloom::report {
+
+std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
+                         int ranks) {
+  std::string text = fmt::format("{:<10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>11} {:>8}\n",
+                                 "stage", "wall s", "cpu min", "cpu mean", "cpu max", "checks", "other",
+                                 "waiting", "pieces", "memory MiB", "own MiB");
+  for (const parallel::StageSummary& s : stages) {
+    text += fmt::format(
+        "{:<10} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>8} {:>11.0f} {:>8.0f}\n",
+        s.name, s.wall_seconds, s.cpu_seconds_min, s.cpu_seconds_mean, s.cpu_seconds_max, s.check_seconds,
+        s.other_seconds, s.waiting_seconds_mean, s.pieces, double(s.peak_resident_bytes_max) / (1 << 20),
+        double(s.peak_own_bytes_max) / (1 << 20));
+  }
+  text += fmt::format("{:<10} {:>9.2f}  on {} rank(s)\n", "total", record.wall_seconds, ranks);
+  if (!record.quality) return text;
+  const mesh::GlobalIndex layered = record.counts.prisms + record.counts.pyramids;
+  text += fmt::format(
+      "mesh: {} tetrahedra, {}{} points, {} boundary triangles, volume {:.10g}\n"
+      "quality: dihedral angles {:.2f} to {:.2f} degrees, mean ratio {:.3f} at least, {:.3f} on average\n"
+      "hash: {}\n",
+      record.counts.cells - layered,
+      layered > 0 ? fmt::format("{} prisms, {} pyramids, ", record.counts.prisms, record.counts.pyramids)
+                  : "",
+      record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
+      record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
+      record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
+  text +=
+      fmt::format("{:<28} {:<9} {:>10} {:>14} {:>14}\n", "patch", "type", "triangles", "area", "CAD area");
+  for (const PatchRow& p : record.patches) {
+    // A mesh from a file has none.
+    const std::string cad = p.cad_area > 0 ? fmt::format("{:.8g}", p.cad_area) : "-";
+    text += fmt::format("{:<28} {:<9} {:>10} {:>14.8g} {:>14}\n", p.name, mesh::name_of(p.type), p.triangles,
+                        p.area, cad);
+  }
+  return text;
+}
+
+}  // namespace aeroloom::report

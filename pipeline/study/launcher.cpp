@@ -1,0 +1,212 @@
+#include "pipeline/study/launcher.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace aeroloom::study {
+
+namespace {
+
+std::atomic<pid_t> running_group = 0;
+
+void replace_all(std::string& text, const std::string& what, const std::string& by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+}
+
+/// Whether a variable tells this process of its own place under a launcher, or how to start without one:
+/// others must not inherit it.
+bool is_of_this_process(const std::string& variable) {
+  constexpr std::array<std::string_view, 9> beginnings{"OMPI_COMM_WORLD_",
+                                                       "OMPI_UNIVERSE_",
+                                                       "OMPI_MCA_ess_",
+                                                       "OMPI_MCA_orte_ess_",
+                                                       "OMPI_MCA_orte_hnp_uri=",
+                                                       "OMPI_MCA_orte_local_daemon_uri=",
+                                                       "PMI_",
+                                                       "PMIX_",
+                                                       "OMPI_MCA_orte_create_session_dirs="};
+  if (variable.starts_with("PMIX_MCA_")) return false;
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](std::string_view beginning) { return variable.starts_with(beginning); });
+}
+
+/// As the system gave it to this process; libraries that run since have added to what getenv tells.
+std::vector<std::string> first_environment() {
+  std::ifstream file("/proc/self/environ", std::ios::binary);
+  const std::string all{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::string> variables;
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = std::min(all.find('\0', begin), all.size());
+    std::string variable = all.substr(begin, end - begin);
+    if (end > begin && !is_of_this_process(variable)) variables.push_back(std::move(variable));
+    begin = end + 1;
+  }
+  return variables;
+}
+
+/// Closed and opened anew for the line.
+class SpawnFiles {
+public:
+  explicit SpawnFiles(const std::filesystem::path& log) {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0644);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+  }
+  ~SpawnFiles() { posix_spawn_file_actions_destroy(&actions); }
+  SpawnFiles(const SpawnFiles&) = delete;
+  SpawnFiles& operator=(const SpawnFiles&) = delete;
+
+  posix_spawn_file_actions_t actions{};
+};
+
+/// A group of its own, and no signal held back.
+class SpawnAttributes {
+public:
+  SpawnAttributes() {
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    sigset_t all;
+    sigfillset(&all);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  ~SpawnAttributes() { posix_spawnattr_destroy(&attributes); }
+  SpawnAttributes(const SpawnAttributes&) = delete;
+  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+
+  posix_spawnattr_t attributes{};
+};
+
+void ask_then_kill(pid_t group) {
+  constexpr int rounds = 50;  // five seconds between being asked and being killed
+  constexpr std::chrono::milliseconds step(100);
+  ::kill(-group, SIGTERM);
+  for (int round = 0; round < rounds && ::kill(-group, 0) == 0; ++round) std::this_thread::sleep_for(step);
+  ::kill(-group, SIGKILL);
+}
+
+}  // namespace
+
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-./=:,+@%") == std::string::npos;
+  if (plain) return word;
+  std::string text = word;
+  replace_all(text, "'", "'\\''");
+  return fmt::format("'{}'", text);
+}
+
+std::string quoted(const std::vector<std::string>& words) {
+  std::vector<std::string> texts;
+  texts.reserve(words.size());
+  for (const std::string& word : words) texts.push_back(quoted(word));
+  return fmt::format("{}", fmt::join(texts, " "));
+}
+
+std::string Launcher::line(int ranks, int nodes, const std::vector<std::string>& command) const {
+  const std::string words = quoted(command);
+  if (ranks == 1 && !starts_single) return fmt::format("exec {}", words);
+  std::string text = pattern;
+  replace_all(text, "{ranks}", std::to_string(ranks));
+  replace_all(text, "{nodes}", std::to_string(nodes));
+  replace_all(text, "{command}", words);
+  return text;
+}
+
+Launcher make_launcher(const std::string& pattern) {
+  if (!pattern.empty()) {
+    for (const char* part : {"{ranks}", "{command}"}) {
+      if (pattern.find(part) == std::string::npos)
+        throw std::invalid_argument(fmt::format(
+            "the launcher '{}' lacks {}. Remedy: as in 'mpirun -n {{ranks}} {{command}}'", pattern, part));
+    }
+    return {pattern, true};
+  }
+  if (std::getenv("SLURM_JOB_ID") != nullptr)
+    return {"srun --mpi=pmix --kill-on-bad-exit --nodes={nodes} --ntasks={ranks} {command}", true};
+  // Ranks that share a core give it to each other while they wait.
+  const char* root = ::getuid() == 0 ? " --allow-run-as-root" : "";
+  return {
+      fmt::format(
+          "OMPI_MCA_mpi_yield_when_idle=1 mpirun{} --oversubscribe --bind-to none -n {{ranks}} {{command}}",
+          root),
+      false};
+}
+
+namespace detail {
+
+double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+pid_t start_line(const std::string& line, const std::filesystem::path& log) {
+  std::vector<std::string> variables = first_environment();
+  std::vector<char*> environment;
+  environment.reserve(variables.size() + 1);
+  for (std::string& variable : variables) environment.push_back(variable.data());
+  environment.push_back(nullptr);
+  std::string shell = "sh", flag = "-c", text = line;
+  std::array<char*, 4> words{shell.data(), flag.data(), text.data(), nullptr};
+  const SpawnFiles files(log);
+  const SpawnAttributes attributes;
+  pid_t group = 0;
+  const int failed = ::posix_spawn(&group, "/bin/sh", &files.actions, &attributes.attributes, words.data(),
+                                   environment.data());
+  if (failed != 0) throw std::system_error(failed, std::generic_category(), "cannot start '" + line + "'");
+  running_group = group;
+  return group;
+}
+
+int await_line(pid_t group) {
+  int status = 0;
+  while (::waitpid(group, &status, 0) < 0 && errno == EINTR) {
+  }
+  running_group = 0;
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+}  // namespace detail
+
+Ended run_line(const std::string& line, const std::filesystem::path& log) {
+  return run_line(line, log, [](pid_t) {});
+}
+
+void end_line() {
+  if (const pid_t group = running_group; group > 0) ask_then_kill(group);
+}
+
+void end_group(pid_t group, const std::string& program) {
+  std::ifstream file(fmt::format("/proc/{}/cmdline", group), std::ios::binary);
+  const std::string words{std::istreambuf_iterator<char>(file), {}};
+  if (group <= 1 || words.find(program) == std::string::npos) return;
+  ask_then_kill(group);
+}
+
+}  // namespace aeroloom::study

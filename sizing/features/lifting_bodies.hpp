@@ -1,0 +1,45 @@
+/// Lifting bodies of a model: wings, tails, flaps, slats, nacelles; where they begin and end, and how long
+/// they are. find_lifting_bodies() finds them (lifting.hpp).
+#pragma once
+
+#include "cad/model/model.hpp"
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// A place along the span.
+struct LiftingStation {
+  geometry::Vec3 trailing, leading;
+  double chord = 0;      ///< the local chord
+  double thickness = 0;  ///< of the section, about
+};
+
+/// A line along an edge, with the local chord at each of its points.
+struct EdgeLine {
+  std::vector<geometry::Vec3> points;
+  std::vector<double> chords;
+};
+
+/// What lies before one strip or sharp edge of the CAD.
+struct LiftingElement {
+  cad::FaceId strip = cad::no_entity;    ///< the blunt trailing edge
+  cad::EdgeId edge = cad::no_entity;     ///< the sharp one
+  std::vector<LiftingStation> stations;  ///< from one end to the other, two at least
+  std::vector<EdgeLine> leading;  ///< in parts where sections change abruptly; may reach beyond stations
+  EdgeLine trailing;              ///< along the sharp edge, or a border of the strip
+  std::vector<geometry::Vec3>
+      opposite;                ///< of a strip: by point of `trailing`, the nearest of its other border
+  std::set<cad::EdgeId> ends;  ///< where the skin meets other faces: roots and tips
+  std::array<std::set<cad::VertexId>, 2> end_vertices;  ///< of the trailing edge
+};
+
+struct LiftingBodies {
+  std::vector<LiftingElement> elements;  ///< strips by face, then sharp edges
+  double reference_chord = 0;  ///< mean aerodynamic chord of the largest: the integral of c^2 over that of c
+  double semispan = 0;  ///< half of what the body extends along the span of the largest; of half models all
+};
+
+}  // namespace aeroloom::sizing

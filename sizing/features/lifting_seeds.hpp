@@ -1,0 +1,24 @@
+/// Edges of a model in which bodies end against the flow.
+#pragma once
+
+#include "cad/model/topology/blunt_edges.hpp"
+#include "sizing/features/lifting_bodies.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace aeroloom::sizing {
+
+/// A trailing edge, whatever lies before it.
+struct TrailingSeed {
+  LiftingElement element;               ///< without stations, chords, leading edge, ends
+  std::vector<cad::FaceId> neighbours;  ///< faces on both sides
+};
+
+/// The face, if it is a blunt strip that looks along the flow.
+std::optional<TrailingSeed> blunt_seed(const cad::Model& model, cad::FaceId face, geometry::Vec3 flow);
+
+/// The edge, if two faces meet in it at less than 60 degrees and the body lies ahead.
+std::optional<TrailingSeed> sharp_seed(const cad::Model& model, cad::EdgeId edge, geometry::Vec3 flow);
+
+}  // namespace aeroloom::sizing

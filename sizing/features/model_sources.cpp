@@ -1,0 +1,138 @@
+#include "sizing/features/model_sources.hpp"
+
+#include "sizing/field/curvature_size.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace aeroloom::sizing {
+namespace {
+
+using geometry::Vec3;
+
+/// Facets that samples start from: a fillet that turns less than this is seen by its neighbours.
+constexpr double facet_angle = 20 * std::numbers::pi / 180;
+/// Over the diagonal of the body, and over that of everything for the far field, which has no details.
+/// Chosen, not measured: samples are refined by sizes afterwards.
+constexpr double facet_deflection = 1e-3, far_facet_deflection = 5e-3;
+/// Of each smooth part of an edge, so that bisection misses no bend between two samples of equal size.
+constexpr int first_intervals = 8;
+
+struct EdgeSample {
+  double parameter;
+  Vec3 point;
+  double size;
+};
+
+/// Samples one edge by bisection, adds up its length on the way.
+class EdgeSampler {
+public:
+  EdgeSampler(const cad::Model& model, cad::EdgeId edge, bool far_field, const SizingOptions& options)
+      : _model(model), _edge(edge), _options(options), _limits(curvature_limits(far_field, options)) {}
+
+  std::vector<SizeSource> run() {
+    const std::vector<double> breaks = _model.edge_breaks(_edge);
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      EdgeSample last = sample(breaks[i]);
+      for (int part = 1; part <= first_intervals; ++part) {
+        const double t = breaks[i] + (breaks[i + 1] - breaks[i]) * part / first_intervals;
+        const EdgeSample next = sample(t);
+        cover(last, next, 0);
+        last = next;
+      }
+    }
+    ask_for_own_length();
+    return std::move(_sources);
+  }
+
+private:
+  EdgeSample sample(double t) {
+    const EdgeSample result{
+        t, _model.edge_point(_edge, t),
+        size_for_curvature(_model.edge_curvature(_edge, t), _limits, _options.maximum, _options)};
+    if (result.size < _options.maximum) _sources.push_back({result.point, result.size});
+    return result;
+  }
+
+  void cover(const EdgeSample& a, const EdgeSample& b, int depth) {
+    const double length = distance(a.point, b.point);
+    if (length <= spacing * std::min(a.size, b.size) || depth >= deepest_bisection) {
+      _length += length;
+      return;
+    }
+    const EdgeSample middle = sample(0.5 * (a.parameter + b.parameter));
+    cover(a, middle, depth + 1);
+    cover(middle, b, depth + 1);
+  }
+
+  void ask_for_own_length() {
+    const cad::Edge& edge = _model.edge(_edge);
+    if (_length >= _options.maximum) return;
+    const double size = feature_size(_length, smallest_feature_size(_options), _options);
+    _sources.push_back({_model.edge_point(_edge, 0.5 * (edge.first_parameter + edge.last_parameter)), size});
+  }
+
+  const cad::Model& _model;
+  cad::EdgeId _edge;
+  const SizingOptions& _options;
+  CurvatureLimits _limits;
+  double _length = 0;
+  std::vector<SizeSource> _sources;
+};
+
+/// Whether all that is in the first box lies in one side of the other.
+bool lies_on_side(const geometry::Box& own, const geometry::Box& box) {
+  const double tolerance = 1e-6 * box.diagonal();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (own.high[axis] <= box.low[axis] + tolerance || own.low[axis] >= box.high[axis] - tolerance)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> find_far_field(const cad::Model& model) {
+  const geometry::Box& all = model.bounds();
+  // Corners away from every side tell without a triangulation.
+  const auto corners_lie_on_side = [&](cad::FaceId face) {
+    geometry::Box corners;
+    for (const auto& loop : model.face(face).loops) {
+      for (const cad::Coedge& use : loop) corners.add(model.vertex(model.edge(use.edge).first));
+    }
+    return corners.empty() || lies_on_side(corners, all);
+  };
+  const auto all_lies_on_side = [&](cad::FaceId face) {
+    geometry::Box own;
+    for (const Vec3 p : sampling_facets(model, face, true).points) own.add(p);
+    return lies_on_side(own, all);
+  };
+  std::vector<bool> far(model.face_count(), false);
+  bool flagged = false;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    far[f] = model.is_far_field(f);
+    flagged = flagged || far[f];
+  }
+  if (flagged) return far;
+  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
+    far[f] = model.is_planar(f) && corners_lie_on_side(f) && all_lies_on_side(f);
+  }
+  return far;
+}
+
+cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field) {
+  const double deflection = far_field ? far_facet_deflection * model.bounds().diagonal()
+                                      : facet_deflection * model.body_bounds().diagonal();
+  return model.facets(face, deflection, facet_angle, cad::Model::Keep::yes);
+}
+
+std::vector<SizeSource> edge_sources(const cad::Model& model, cad::EdgeId edge, bool far_field,
+                                     const SizingOptions& options) {
+  const auto& faces = model.edge(edge).faces;
+  const bool vanishes = model.is_seam(edge) && model.sheet_count(faces.front()) > 1;
+  if (model.edge(edge).degenerate || vanishes) return {};
+  return EdgeSampler(model, edge, far_field, options).run();
+}
+
+}  // namespace aeroloom::sizing

@@ -1,0 +1,31 @@
+/// The cuts between charts and between pieces: discretised once, for both sides.
+#pragma once
+
+#include "sizing/field/size_field.hpp"
+#include "surface/charts/support.hpp"
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// Pairs of mesh vertices (lower first) that a boundary edge joins already: no second one may.
+using JoinedVertices = std::set<std::array<std::int32_t, 2>>;
+
+/// A support divided into parts. Whoever divided it, the edges between triangles of different parts are cuts.
+struct CutSupport {
+  Support support;
+  std::vector<std::int32_t> part;  ///< per triangle
+};
+
+/// The pairs that a support's loops join, for a support that is not cut yet.
+JoinedVertices joined_vertices(const Support& support);
+
+/// Spreads mesh vertices over the cuts so that segments have length 1 in the metric of the field, appends
+/// them to `vertices`, and takes the parts asunder. They come in the order of their first triangles, a part
+/// in several pieces as several parts. Pairs that cuts join are added to `joined`.
+std::vector<Support> discretise_cuts(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
+                                     FaceVertices& vertices, JoinedVertices& joined);
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,253 @@
+#include "surface/division/background.hpp"
+
+#include "geometry/angle.hpp"
+#include "surface/charts/support_mesher.hpp"
+#include "surface/charts/support_topology.hpp"
+#include "surface/division/boundary_thinning.hpp"
+#include "surface/division/parameters.hpp"
+#include "surface/surface_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace aeroloom::surface {
+namespace {
+
+using cad::Model;
+using geometry::Vec2;
+using geometry::Vec3;
+
+using geometry::degree;
+/// Of curves and of the surface along an edge of the background. Chosen, not measured.
+constexpr double largest_turn = 30 * degree;
+/// Edges of the background are as long as so many fine ones at least, however much the surface turns: a
+/// coarser mesh is its point.
+constexpr double fine_edges = 2;
+constexpr int smoothing_sweeps = 3;  // it carries cuts, it is no mesh: a few do
+/// Facets of the support turn less than this: edges between points whose normals differ by more are divided,
+/// in so many rounds.
+constexpr double facet_turn = 12 * degree;
+constexpr int dividing_rounds = 3;
+
+/// Parameters at the corners of each triangle, without jumps inside it: those of vertices across a seam are
+/// moved by a period, and the direction that means nothing at a pole is taken from the other corners. A
+/// triangle around a pole, or across sheets of a joined face, gets those of one corner everywhere: there is
+/// no better linear guess.
+class CornerParameters {
+public:
+  CornerParameters(const Model& model, const FaceMesh& mesh)
+      : _model(model), _mesh(mesh), _collapsed(mesh.points.size()) {
+    if (model.is_planar(mesh.face)) return;
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      const cad::SurfaceFrame frame = model.face_frame(mesh.face, mesh.uv[v]);
+      const double u = norm(frame.du), v_length = norm(frame.dv);
+      constexpr double vanishing = 1e-6;  // one derivative next to the other; at a pole; chosen, not measured
+      _collapsed[v] = {u <= vanishing * v_length, v_length <= vanishing * u};
+    }
+  }
+
+  std::array<Vec2, 3> operator()(const std::array<std::int32_t, 3>& triangle) const {
+    const Vec2 first = _mesh.uv[triangle[0]];
+    for (const std::int32_t v : triangle) {
+      if (_model.sheet(_mesh.face, _mesh.uv[v]) != _model.sheet(_mesh.face, first))
+        return {first, first, first};
+    }
+    const Vec2 periods = _model.parameter_periods(_mesh.face, first);
+    std::array<Vec2, 3> uv;
+    std::array<std::array<double, 3>, 2> values;
+    for (int direction = 0; direction < 2; ++direction) {
+      const double period = direction == 0 ? periods.x : periods.y;
+      int reference = -1;
+      double sum = 0;
+      int count = 0;
+      for (int i = 0; i < 3; ++i) {
+        const Vec2 at = _mesh.uv[triangle[i]];
+        values[direction][i] = direction == 0 ? at.x : at.y;
+        if (_collapsed[triangle[i]][direction]) continue;
+        if (reference < 0) reference = i;
+        values[direction][i] = unwrap(values[direction][i], values[direction][reference], period);
+        sum += values[direction][i];
+        ++count;
+      }
+      for (int i = 0; i < 3 && count > 0; ++i) {
+        if (_collapsed[triangle[i]][direction]) values[direction][i] = sum / count;
+      }
+    }
+    for (int i = 0; i < 3; ++i) uv[i] = {values[0][i], values[1][i]};
+    if (goes_round(values[0], periods.x) || goes_round(values[1], periods.y)) uv[1] = uv[2] = uv[0];
+    return uv;
+  }
+
+private:
+  static bool goes_round(const std::array<double, 3>& values, double period) {
+    constexpr double part = 0.4;  // of a period; three triangles around a tube span a third each
+    const auto [low, high] = std::minmax({values[0], values[1], values[2]});
+    return period > 0 && high - low > part * period;
+  }
+
+  const Model& _model;
+  const FaceMesh& _mesh;
+  std::vector<std::array<bool, 2>> _collapsed;  // per vertex: u means nothing there, v means nothing there
+};
+
+void carry_over(const std::vector<std::int32_t>& former, std::vector<std::int32_t>& part) {
+  std::vector<std::int32_t> now;
+  now.reserve(former.size());
+  for (const std::int32_t t : former) now.push_back(part[t]);
+  part = std::move(now);
+}
+
+/// Builds the support step by step.
+class SupportBuilder {
+public:
+  SupportBuilder(const Model& model, const Subface& subface, const Background& background,
+                 std::vector<std::int32_t>& part)
+      : _model(model), _subface(subface), _loops(background.loops), _part(part) {
+    const FaceMesh& mesh = background.mesh;
+    const CornerParameters parameters(model, mesh);
+    _support.face = mesh.face;
+    _support.points = mesh.points;
+    _support.triangles = mesh.triangles;
+    for (const auto& triangle : mesh.triangles) _support.corner_uv.push_back(parameters(triangle));
+    _support.mesh_vertex = background.on_loops;
+    _support.mesh_vertex.resize(mesh.points.size(), -1);
+  }
+
+  /// Divides the edges on loops at the fine vertices.
+  void insert_loop_vertices() {
+    const auto twins = geometry::match_half_edges(_support.triangles);
+    std::vector<EdgePoint> divisions;
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
+      if (twins[h] < 0) divide_loop_edge(h, divisions);
+    }
+    carry_over(divide_edges(_support, std::move(divisions)), _part);
+  }
+
+  /// Adds points on the surface where it turns much along an edge inside.
+  void follow_surface() {
+    if (_model.is_planar(_support.face)) return;
+    for (int round = 0; round < dividing_rounds; ++round) {
+      const auto twins = geometry::match_half_edges(_support.triangles);
+      std::vector<EdgePoint> divisions;
+      for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
+        if (twins[h] < h) continue;
+        if (!turns(h) && !turns(twins[h])) continue;
+        const Vec3 a = _support.points[start_of(_support, h)], b = _support.points[end_of(_support, h)];
+        const Vec2 guess = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
+        const auto middle = _model.project(_support.face, 0.5 * (a + b), _model.wrap(_support.face, guess));
+        if (!middle.converged || distance(middle.point, 0.5 * (a + b)) > 0.5 * distance(a, b)) continue;
+        const std::int32_t index = add_point(middle.point, -1);
+        divisions.push_back({h, 0.5, index, near(middle.uv, guess)});
+        const Vec2 twin_uv = 0.5 * (start_uv(_support, twins[h]) + end_uv(_support, twins[h]));
+        divisions.push_back({twins[h], 0.5, index, near(middle.uv, twin_uv)});
+      }
+      if (divisions.empty()) break;
+      carry_over(divide_edges(_support, std::move(divisions)), _part);
+    }
+  }
+
+  Support finish() {
+    _support.loop_edges = trace_loop_edges(_support, geometry::match_half_edges(_support.triangles));
+    return std::move(_support);
+  }
+
+private:
+  std::int32_t add_point(Vec3 point, std::int32_t vertex) {
+    _support.points.push_back(point);
+    _support.mesh_vertex.push_back(vertex);
+    return static_cast<std::int32_t>(_support.points.size()) - 1;
+  }
+
+  void divide_loop_edge(geometry::HalfEdge h, std::vector<EdgePoint>& divisions) {
+    const std::int32_t from = _support.mesh_vertex[start_of(_support, h)];
+    const std::int32_t to = _support.mesh_vertex[end_of(_support, h)];
+    const CoarseSegment* segment = _loops.find(from, to);
+    if (segment == nullptr) return;
+    std::vector<std::int32_t> inside(_loops.inside.begin() + segment->begin,
+                                     _loops.inside.begin() + segment->end);
+    if (segment->from != from) std::reverse(inside.begin(), inside.end());
+    std::vector<double> along{0};
+    Vec3 last = _subface.vertices.points[from];
+    for (const std::int32_t v : inside) {
+      along.push_back(along.back() + distance(last, _subface.vertices.points[v]));
+      last = _subface.vertices.points[v];
+    }
+    const double length = along.back() + distance(last, _subface.vertices.points[to]);
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      const double fraction = along[i + 1] / length;
+      const Vec2 guess = (1 - fraction) * start_uv(_support, h) + fraction * end_uv(_support, h);
+      divisions.push_back({h, fraction, add_point(_subface.vertices.points[inside[i]], inside[i]),
+                           near(_subface.vertices.uv[inside[i]], guess)});
+    }
+  }
+
+  Vec2 near(Vec2 uv, Vec2 others) const { return unwrap(_model, _support.face, uv, others); }
+
+  bool turns(geometry::HalfEdge h) const {
+    const auto normal = [&](Vec2 uv) {
+      return _model.face_frame(_support.face, _model.wrap(_support.face, uv)).normal;
+    };
+    const Vec3 first = normal(start_uv(_support, h)), second = normal(end_uv(_support, h));
+    return norm(first) > 0 && norm(second) > 0 && dot(first, second) < std::cos(facet_turn);
+  }
+
+  const Model& _model;
+  const Subface& _subface;
+  const CoarseLoops& _loops;
+  std::vector<std::int32_t>& _part;
+  Support _support;
+};
+
+/// The subface without the vertices on loops that the background does without. `on_loops` receives the
+/// vertices that stay.
+Subface thin_out(const Model& model, const Subface& subface, const CoarseLoops& loops,
+                 std::vector<std::int32_t>& on_loops) {
+  std::vector<char> keep(subface.vertices.points.size(), 0);
+  for (const CoarseSegment& segment : loops.segments) keep[segment.from] = keep[segment.to] = 1;
+  Subface thin{subface.support, {}, subface.load};
+  drop_boundary_vertices(model, keep, thin.support);
+  std::vector<std::int32_t> number(keep.size(), -1);
+  for (std::size_t v = 0; v < keep.size(); ++v) {
+    if (!keep[v]) continue;
+    number[v] = static_cast<std::int32_t>(on_loops.size());
+    on_loops.push_back(static_cast<std::int32_t>(v));
+    thin.vertices.points.push_back(subface.vertices.points[v]);
+    thin.vertices.uv.push_back(subface.vertices.uv[v]);
+    thin.vertices.vertex_keys.push_back(subface.vertices.vertex_keys[v]);
+  }
+  for (std::int32_t& v : thin.support.mesh_vertex) v = v < 0 ? -1 : number[v];
+  return thin;
+}
+
+}  // namespace
+
+std::optional<Background> mesh_background(const Model& model, const Subface& subface,
+                                          const sizing::SizeField& coarse, double factor,
+                                          const SurfaceOptions& options) {
+  Background background;
+  background.loops = coarsen_loops(subface, coarse, largest_turn);
+  Subface thin = thin_out(model, subface, background.loops, background.on_loops);
+  const SupportMeshing meshing{.chart_spread = options.chart_spread,
+                               .largest_turn = largest_turn,
+                               .least_fraction = std::min(1.0, fine_edges / factor),
+                               .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
+  try {
+    background.mesh = mesh_support(model, coarse, thin.support, std::move(thin.vertices), meshing);
+  } catch (const FaceConflict&) {
+    return std::nullopt;
+  } catch (const SurfaceError&) {  // no chart under these sizes
+    return std::nullopt;
+  }
+  return background;
+}
+
+Support support_of(const Model& model, const Subface& subface, const Background& background,
+                   std::vector<std::int32_t>& part) {
+  SupportBuilder builder(model, subface, background, part);
+  builder.insert_loop_vertices();
+  builder.follow_surface();
+  return builder.finish();
+}
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,23 @@
+/// Parameters of one point of a face that stand for it in different places of the parameter plane.
+#pragma once
+
+#include "cad/model/model.hpp"
+
+#include <cmath>
+
+namespace aeroloom::surface {
+
+/// The parameter nearest to `reference` of those that stand for the same place.
+inline double unwrap(double parameter, double reference, double period) {
+  return period > 0 ? parameter - period * std::round((parameter - reference) / period) : parameter;
+}
+
+/// The parameters of the same point nearest to `reference`; those where they belong to another sheet.
+inline geometry::Vec2 unwrap(const cad::Model& model, cad::FaceId face, geometry::Vec2 uv,
+                             geometry::Vec2 reference) {
+  if (model.sheet(face, uv) != model.sheet(face, reference)) return reference;
+  const geometry::Vec2 periods = model.parameter_periods(face, reference);
+  return {unwrap(uv.x, reference.x, periods.x), unwrap(uv.y, reference.y, periods.y)};
+}
+
+}  // namespace aeroloom::surface

@@ -1,0 +1,94 @@
+/// The report of the surface stage.
+#pragma once
+
+#include "cad/model/model.hpp"
+#include "geometry/vec.hpp"
+
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace aeroloom::surface {
+
+/// An angle of a piece where cuts end.
+struct CutAngle {
+  cad::FaceId face = cad::no_entity;
+  geometry::Vec3 point;
+  double degrees = 0;
+
+  static constexpr auto fields() { return std::tuple(&CutAngle::face, &CutAngle::point, &CutAngle::degrees); }
+};
+
+/// A corner of a CAD face below 30 degrees: the one triangle that fills it is as sharp.
+struct ListedCorner {
+  cad::FaceId face = cad::no_entity;
+  geometry::Vec3 point;
+  double degrees = 0;
+
+  static constexpr auto fields() {
+    return std::tuple(&ListedCorner::face, &ListedCorner::point, &ListedCorner::degrees);
+  }
+};
+
+/// A tip of a CAD face between two curves tangent to each other that was closed (cusp_tips.hpp).
+struct ClosedTip {
+  cad::FaceId face = cad::no_entity;
+  geometry::Vec3 point;  ///< the CAD vertex it ends in
+  double length = 0;     ///< from there to the last vertices that became one
+  double moved = 0;      ///< how far a vertex on its curves moved, at most
+
+  static constexpr auto fields() {
+    return std::tuple(&ClosedTip::face, &ClosedTip::point, &ClosedTip::length, &ClosedTip::moved);
+  }
+};
+
+/// A triangle is a needle when its smallest angle is below this, degrees.
+inline constexpr double needle_degrees = 10;
+
+/// The cause of a needle.
+enum class NeedleCause : std::int32_t {
+  corner,  ///< two curves that meet at a CAD vertex enclose its smallest angle: forced
+  strip,   ///< one side lies on a curve, the third vertex on another one as close as the needle is thin:
+           ///< forced
+  mesh     ///< nothing of the CAD
+};
+
+/// "corner", "strip" or "mesh".
+const char* name_of(NeedleCause cause);
+
+/// The needles of a CAD face with one cause.
+struct NeedleGroup {
+  cad::FaceId face = cad::no_entity;
+  NeedleCause cause = NeedleCause::mesh;
+  std::int64_t needles = 0;     ///< triangles below needle_degrees
+  std::int64_t below_half = 0;  ///< of them, those below half as much
+  double degrees = 0;           ///< the smallest angle
+  geometry::Vec3 at;            ///< middle of the triangle that has it
+
+  static constexpr auto fields() {
+    return std::tuple(&NeedleGroup::face, &NeedleGroup::cause, &NeedleGroup::needles,
+                      &NeedleGroup::below_half, &NeedleGroup::degrees, &NeedleGroup::at);
+  }
+};
+
+struct SurfaceReport {
+  std::int64_t curve_vertices = 0;
+  std::int64_t pieces = 0;
+  std::int64_t divided_faces = 0;           ///< CAD faces of more than one piece
+  std::vector<CutAngle> cut_angles;         ///< where cuts end, by face and angle, the same on every rank
+  std::vector<ListedCorner> sharp_corners;  ///< by face, the same on every rank
+  std::vector<ClosedTip> closed_tips;       ///< by face, the same on every rank
+  std::vector<NeedleGroup> needles;         ///< by face and cause, the same on every rank
+  std::int64_t triangles = 0;
+  int mending_rounds = 0;    ///< rounds before the one that was accepted
+  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
+
+  static constexpr auto fields() {
+    return std::tuple(&SurfaceReport::curve_vertices, &SurfaceReport::pieces, &SurfaceReport::divided_faces,
+                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_tips,
+                      &SurfaceReport::needles, &SurfaceReport::triangles, &SurfaceReport::mending_rounds,
+                      &SurfaceReport::load_error_90);
+  }
+};
+
+}  // namespace aeroloom::surface

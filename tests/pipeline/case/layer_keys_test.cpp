@@ -1,0 +1,162 @@
+#include "pipeline/case/layer_rules.hpp"
+#include "tests/pipeline/case/case_fixture.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::cases {
+namespace {
+
+using mesh::PatchType;
+
+const std::vector<std::string> patches{"wing", "fan", "farfield"};
+const std::vector<PatchType> types{PatchType::wall, PatchType::wall, PatchType::farfield};
+
+class LayerKeys : public CaseTest {
+protected:
+  Case with_layers(const std::string& layers, const std::string& more = "") const {
+    return read(transport + more + "layers: {" + layers + "}\n");
+  }
+  std::string refused(const std::string& layers) const {
+    return error_of(transport + "layers: {" + layers + "}\n");
+  }
+  static layers::LayerOptions options_of(const Case& input) {
+    return layer_options(input.layers, input.sizing, patches, types);
+  }
+};
+
+TEST_F(LayerKeys, WithoutTheSectionThereAreNone) {
+  const Case input = read(transport);
+  EXPECT_FALSE(input.layers.given);
+  EXPECT_EQ(resolved_yaml(input).find("layers"), std::string::npos);
+  for (const layers::WallLayers& wall : options_of(input).patches) EXPECT_EQ(wall.first, 0);
+}
+
+TEST_F(LayerKeys, WithoutAHeightThereAreNone) {
+  const Case input = with_layers("walls: auto, until: isotropic");
+  EXPECT_FALSE(input.layers.given);
+  EXPECT_EQ(resolved_yaml(input), resolved_yaml(read(transport)));
+}
+
+TEST_F(LayerKeys, ComeBack) {
+  const Case input = with_layers(
+      "walls: none, first: 1e-5, constant: 3, growth: 1.3, count: 20, total: 0.5, patches: {wing: {first: "
+      "2e-5, "
+      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}, elements: tets, gate: {full_area: "
+      "0.9}");
+  const Case again = case_of_resolved(resolved_yaml(input));
+  EXPECT_TRUE(again.layers.given);
+  EXPECT_EQ(again.layers.walls, LayeredWalls::none);
+  ASSERT_EQ(again.layers.patches.size(), 2u);
+  EXPECT_EQ(again.layers.elements, layers::LayerElements::tets);
+  EXPECT_EQ(again.layers.gate.full_area, 0.9);
+  EXPECT_EQ(again.layers.patches[0].first, 2e-5);
+  EXPECT_EQ(again.layers.patches[1].count, 0);
+  EXPECT_EQ(resolved_yaml(again), resolved_yaml(input));
+}
+
+TEST_F(LayerKeys, WallsGetThemAndNothingElse) {
+  const layers::LayerOptions options = options_of(with_layers("first: 1e-3, growth: 1.3, count: 9"));
+  ASSERT_EQ(options.patches.size(), 3u);
+  for (const int wall : {0, 1}) {
+    EXPECT_EQ(options.patches[wall].first, 1e-3);
+    EXPECT_EQ(options.patches[wall].growth, 1.3);
+    EXPECT_EQ(options.patches[wall].constant, 2);
+    EXPECT_EQ(options.patches[wall].count, 9);
+  }
+  EXPECT_EQ(options.patches[2].first, 0);
+}
+
+TEST_F(LayerKeys, PatchesMayHaveOthersOrNone) {
+  const layers::LayerOptions options =
+      options_of(with_layers("first: 1e-3, total: 0.1, patches: {wing: {first: 2e-3}, fan: {count: 0}}"));
+  EXPECT_EQ(options.patches[0].first, 2e-3);
+  EXPECT_EQ(options.patches[0].total, 0.1);
+  EXPECT_EQ(options.patches[1].first, 0);
+  const layers::LayerOptions alone =
+      options_of(with_layers("walls: none, patches: {fan: {first: 1e-4, count: 3}}"));
+  EXPECT_EQ(alone.patches[0].first, 0);
+  EXPECT_EQ(alone.patches[1].first, 1e-4);
+  EXPECT_EQ(alone.patches[1].count, 3);
+}
+
+TEST_F(LayerKeys, PatchesMustBeWallsOfThisModel) {
+  const auto message = [&](const std::string& rule) -> std::string {
+    try {
+      options_of(with_layers("first: 1e-3, patches: {" + rule + "}"));
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("wign: {count: 3}")
+                .find("layers.patches.wign: there is no such patch; the nearest name is "
+                      "'wing'"),
+            std::string::npos);
+  EXPECT_NE(message("farfield: {count: 3}").find("is of type farfield"), std::string::npos);
+  EXPECT_EQ(message("farfield: {count: 0}"), "");
+}
+
+/// The workshops' tables: HLPW-3 medium and DPW-8's at 5 and 30 million, within 3 %.
+TEST_F(LayerKeys, HeightsFromTheFlowAreThoseOfTheWorkshops) {
+  using sizing::SolverPoints;
+  EXPECT_NEAR(first_height(0.67, 3.26e6, 275.8, SolverPoints::vertex) / 0.00117, 1, 0.03);
+  EXPECT_NEAR(first_height(1, 1.9e6, 529, SolverPoints::vertex) / 0.00545, 1, 0.03);
+  EXPECT_EQ(first_height(1, 1e6, 1, SolverPoints::cell), 2 * first_height(1, 1e6, 1, SolverPoints::vertex));
+}
+
+TEST_F(LayerKeys, LevelsHaveYPlusGrowthAndConstantLayers) {
+  const Case input = with_layers("reynolds: 5e6, length: 7", "sizing: {level: fine, family: dpw}\n");
+  const layers::WallLayers wall = options_of(input).patches[0];
+  EXPECT_EQ(wall.first, first_height(0.4, 5e6, 7, sizing::SolverPoints::vertex));
+  EXPECT_EQ(wall.growth, 1.045);
+  EXPECT_EQ(wall.constant, 5);
+  const Case given =
+      with_layers("reynolds: 5e6, length: 7, y_plus: 1, growth: 1.2, constant: 1", "sizing: {level: fine}\n");
+  EXPECT_EQ(options_of(given).patches[0].growth, 1.2);
+  EXPECT_EQ(options_of(given).patches[0].constant, 1);
+  EXPECT_EQ(options_of(given).patches[0].first, first_height(1, 5e6, 7, sizing::SolverPoints::vertex));
+}
+
+TEST_F(LayerKeys, HeightsMayBeThoseOfTheLevel) {
+  const std::string level = "sizing: {level: C, solver: cell}\n";
+  const Case input = with_layers("first: level, reynolds: 5e6, length: 7", level);
+  const layers::WallLayers wall = options_of(input).patches[0];
+  EXPECT_EQ(wall.first, first_height(1, 5e6, 7, sizing::SolverPoints::cell)) << "y+ of the centre";
+  EXPECT_NEAR(y_plus_of(wall.first, 5e6, 7), 2, 1e-12) << "of the node";
+  EXPECT_EQ(wall.growth, 1.1);
+  EXPECT_EQ(wall.constant, 2) << "no level with a letter says how many";
+  const Case again = case_of_resolved(resolved_yaml(input));
+  EXPECT_TRUE(again.layers.first_of_level);
+  EXPECT_FALSE(again.layers.first);
+  EXPECT_EQ(options_of(again).patches[0].first, wall.first);
+}
+
+TEST_F(LayerKeys, SayWhatIsMissing) {
+  const auto expect = [&](const std::string& layers, const std::string& text) {
+    EXPECT_NE(refused(layers).find(text), std::string::npos) << refused(layers);
+  };
+  expect("growth: 1.2", "case.yaml:2:1: 'layers' needs the height of the first layer: 'first', or");
+  expect("first: 1e-5, y_plus: 1, reynolds: 1e6, length: 1", "'layers.first' and 'layers.y_plus' exclude");
+  expect("y_plus: 1", "'layers.reynolds' and 'layers.length' are needed");
+  expect("y_plus: 1, reynolds: 1e6", "'layers.reynolds' and 'layers.length' are needed");
+  expect("reynolds: 1e6, length: 1", "needs 'layers.y_plus', or 'sizing.level'");
+  expect("first: level, reynolds: 1e6, length: 1", "'layers.first: level' needs 'sizing.level'");
+  expect("first: level, y_plus: 1", "'layers.first: level' and 'layers.y_plus' exclude");
+  expect("first: levl", "expected a number or 'level', got 'levl'");
+  expect("gate: {full_area: 0.9}", "'layers' needs the height of the first layer");
+  expect("first: 1, gate: {full_area: 2}", "at most 1");
+  expect("walls: none", "needed below 'layers.patches'");
+  expect("walls: none, patches: {wing: {growth: 1.1}}", "'layers.patches.wing' needs 'first'");
+  expect("first: 0", "above 0");
+  expect("first: 1, growth: 0.9", "at least 1 and at most 2");
+  expect("first: 1, until: forever", "isotropic");
+  const std::string of_level = transport + "sizing: {level: C}\nlayers: {first: level, length: 1}\n";
+  EXPECT_NE(error_of(of_level).find("'layers.reynolds' and 'layers.length' are needed"), std::string::npos)
+      << error_of(of_level);
+}
+
+}  // namespace
+}  // namespace aeroloom::cases

@@ -1,0 +1,102 @@
+#include "pipeline/case/patch_rules.hpp"
+
+#include "cad/domain/domain.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::cases {
+namespace {
+
+using mesh::PatchType;
+
+const cad::Model& transport() {
+  static const cad::Model model = [] {
+    cad::DomainOptions options;
+    options.transport = cad::TransportDimensions{};
+    return cad::prepare_domain(options).model;
+  }();
+  return model;
+}
+
+PatchType type_of(const TypedPatches& patches, const std::string& name) {
+  const auto& names = patches.model.patches();
+  const auto found = std::find(names.begin(), names.end(), name);
+  EXPECT_NE(found, names.end()) << name;
+  return patches.types.at(static_cast<std::size_t>(found - names.begin()));
+}
+
+TEST(PatchRules, DefaultsAreFarFieldAndWalls) {
+  const TypedPatches patches = apply_patch_rules(transport(), {});
+  ASSERT_EQ(patches.types.size(), patches.model.patches().size());
+  EXPECT_EQ(patches.model.patches(), transport().patches());
+  for (std::size_t p = 0; p < patches.types.size(); ++p) {
+    const bool far = patches.model.patches()[p] == "farfield";
+    EXPECT_EQ(patches.types[p], far ? PatchType::farfield : PatchType::wall) << patches.model.patches()[p];
+  }
+}
+
+TEST(PatchRules, APlaneOfSymmetryIsNoFarField) {
+  cad::DomainOptions options;
+  options.transport = cad::TransportDimensions{};
+  options.far_field = cad::FarFieldOptions{.shape = cad::FarFieldShape::hemisphere};
+  const TypedPatches patches = apply_patch_rules(cad::prepare_domain(options).model, {});
+  EXPECT_EQ(type_of(patches, "symmetry"), PatchType::symmetry);
+  EXPECT_EQ(type_of(patches, "farfield"), PatchType::farfield);
+  EXPECT_EQ(type_of(patches, "fuselage"), PatchType::wall);
+}
+
+TEST(PatchRules, SaysWhatARuleGetsBesides) {
+  const TypedPatches patches = apply_patch_rules(transport(), {{"farfield", {"*wing*"}, PatchType::wall}});
+  ASSERT_EQ(patches.warnings.size(), 1U);
+  EXPECT_NE(patches.warnings[0].find("patches.farfield: the model has a patch of this name"),
+            std::string::npos)
+      << patches.warnings[0];
+  EXPECT_TRUE(apply_patch_rules(transport(), {{"farfield", {}, PatchType::outlet}}).warnings.empty());
+}
+
+TEST(PatchRules, PatternsJoinFacesAndTheFirstRuleHolds) {
+  const TypedPatches patches = apply_patch_rules(
+      transport(), {{"lifting", {"*wing*", "*tail*"}, PatchType::slip}, {"rest", {"*"}, {}}});
+  const std::vector<std::string>& names = patches.model.patches();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "lifting"), 1);
+  EXPECT_EQ(names.size(), 2U);
+  EXPECT_EQ(type_of(patches, "lifting"), PatchType::slip);
+  EXPECT_EQ(type_of(patches, "rest"), PatchType::wall);
+  for (cad::FaceId f = 0; f < patches.model.face_count(); ++f) {
+    const bool lifting = names[patches.model.face(f).patch] == "lifting";
+    const std::string& face = transport().face(f).name;
+    const std::string& patch = transport().patches()[transport().face(f).patch];
+    const bool named = (face + " " + patch).find("wing") != std::string::npos ||
+                       (face + " " + patch).find("tail") != std::string::npos;
+    EXPECT_EQ(lifting, named) << face;
+  }
+}
+
+TEST(PatchRules, ARuleThatComesTooLateIsRefused) {
+  EXPECT_THROW(apply_patch_rules(transport(), {{"all", {"*"}, {}}, {"farfield", {}, PatchType::inlet}}),
+               std::invalid_argument);
+}
+
+TEST(PatchRules, APatchOfThisNameNeedsNoPattern) {
+  const TypedPatches patches = apply_patch_rules(transport(), {{"farfield", {}, PatchType::outlet}});
+  EXPECT_EQ(patches.model.patches(), transport().patches());
+  EXPECT_EQ(type_of(patches, "farfield"), PatchType::outlet);
+}
+
+TEST(PatchRules, APatternWithoutFacesNamesTheNearest) {
+  try {
+    apply_patch_rules(transport(), {{"outer", {"farfeild"}, {}}});
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("'farfeild'; the nearest names are 'farfield'"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::cases

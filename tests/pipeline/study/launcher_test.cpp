@@ -1,0 +1,62 @@
+#include "pipeline/study/launcher.hpp"
+
+#include "tests/pipeline/study/studies.hpp"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::study {
+namespace {
+
+TEST(Launcher, FillsItsPattern) {
+  const Launcher launcher = make_launcher("srun -N {nodes} -n {ranks} nice {command}");
+  EXPECT_EQ(launcher.line(8, 2, {"/opt/aeroloom", "run", "it's a case.yaml"}),
+            "srun -N 2 -n 8 nice /opt/aeroloom run 'it'\\''s a case.yaml'");
+  EXPECT_EQ(launcher.line(1, 1, {"x"}), "srun -N 1 -n 1 nice x");
+  EXPECT_EQ((Launcher{"mpirun -n {ranks} {command}", false}.line(1, 1, {"x", "a b"})), "exec x 'a b'");
+}
+
+TEST(Launcher, RefusesPatternsThatStartNothing) {
+  EXPECT_THROW(make_launcher("mpirun {command}"), std::invalid_argument);
+  EXPECT_THROW(make_launcher("mpirun -n {ranks}"), std::invalid_argument);
+}
+
+TEST(Launcher, TellsHowALineEnded) {
+  const StudyFolder folder("lines");
+  const std::filesystem::path log = folder.path / "log";
+  EXPECT_EQ(run_line("echo said; echo wrong >&2; exit 3", log).code, 3);
+  EXPECT_EQ(read_file(log), "said\nwrong\n");
+  EXPECT_EQ(run_line("kill -9 $$", log).code, 128 + 9);
+}
+
+TEST(Launcher, GivesOnTheFirstEnvironment) {
+  const StudyFolder folder("environment");
+  ::setenv("AEROLOOM_ADDED_LATER", "1", 1);
+  EXPECT_EQ(run_line("echo \"${AEROLOOM_ADDED_LATER-unset}\"; test -n \"$PATH\"", folder.path / "log").code,
+            0);
+  EXPECT_EQ(read_file(folder.path / "log"), "unset\n");
+}
+
+TEST(Launcher, EndsALineWithAllThatItStarted) {
+  const StudyFolder folder("ended");
+  std::thread other([&] {
+    while (!std::filesystem::exists(folder.path / "begun"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    end_line();
+  });
+  const std::string begun = (folder.path / "begun").string();
+  const Ended ended =
+      run_line("sleep 100 & echo $! > " + begun + ".part; mv " + begun + ".part " + begun + "; wait",
+               folder.path / "log");
+  other.join();
+  EXPECT_GE(ended.code, 128);
+  EXPECT_LT(ended.seconds, 30);
+  const std::string child = read_file(begun);
+  EXPECT_FALSE(std::filesystem::exists("/proc/" + child.substr(0, child.find('\n')) + "/cwd/"));
+}
+
+}  // namespace
+}  // namespace aeroloom::study

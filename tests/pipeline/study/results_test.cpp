@@ -1,0 +1,161 @@
+#include "pipeline/study/results.hpp"
+
+#include "pipeline/study/page.hpp"
+#include "pipeline/study/table.hpp"
+#include "tests/pipeline/study/studies.hpp"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::study {
+namespace {
+
+Machine machine_of(int processors) {
+  Machine machine;
+  machine.host = "<here>";
+  machine.processors = processors;
+  return machine;
+}
+
+/// A strong series that halves its time twice as it should, and a weak one that loses a fifth.
+void leave_all(const StudyRecord& study) {
+  for (const RunSpec& run : study.runs) {
+    const double noise = 0.1 * (run.repeat - 1);
+    const double wall = (run.series == Series::serial   ? 8.0
+                         : run.series == Series::strong ? 10.0 / run.ranks
+                                                        : 10 + (run.ranks > 1 ? 2.5 : 0)) +
+                        noise;
+    const double tets = run.series == Series::weak ? 1e5 * run.ranks : 1e5;
+    leave_report(folder_of(study.options.directory, run), wall, tets,
+                 run.series == Series::serial ? "piece" : fmt::format("{}", tets), 8.0 / run.ranks);
+  }
+}
+
+const SeriesRow& row_of(const std::vector<SeriesRow>& rows, Series series, int ranks) {
+  return *std::find_if(rows.begin(), rows.end(),
+                       [&](const SeriesRow& row) { return row.series == series && row.ranks == ranks; });
+}
+
+TEST(Results, MarksTellHowFarARunIs) {
+  const StudyFolder folder("marks");
+  EXPECT_EQ(read_marks(folder.path).state, RunState::planned);
+  mark_begin(folder.path, 17);
+  EXPECT_EQ(read_marks(folder.path).state, RunState::begun);
+  EXPECT_EQ(read_marks(folder.path).process, 17);
+  mark_end(folder.path, 143);
+  EXPECT_EQ(read_marks(folder.path).state, RunState::failed);
+  mark_begin(folder.path, 18);
+  mark_end(folder.path, 0);
+  const RunMarks marks = read_marks(folder.path);
+  EXPECT_EQ(marks.state, RunState::ended);
+  EXPECT_EQ(marks.attempts, 2);
+}
+
+TEST(Results, SpeedUpIsAgainstOneRankInOnePiece) {
+  const StudyFolder folder("rows");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 3, {{1, {}}, {2, {}}});
+  leave_all(study);
+  const std::vector<RunResult> runs = collect_runs(study);
+  EXPECT_NO_THROW(require_equal_meshes(runs));
+  const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
+  ASSERT_EQ(rows.size(), 5U);
+  const SeriesRow& two = row_of(rows, Series::strong, 2);
+  EXPECT_EQ(two.ended, 3);
+  EXPECT_FALSE(two.by_cpu);
+  EXPECT_NEAR(two.median.wall, 5.1, 1e-12);  // the median of 5, 5.1, 5.2
+  EXPECT_NEAR(two.speedup, 8.1 / 5.1, 1e-12);
+  EXPECT_NEAR(two.speedup_of_series, 10.1 / 5.1, 1e-12);
+  EXPECT_NEAR(two.efficiency, 8.1 / 5.1 / 2, 1e-12);
+  EXPECT_NEAR(two.median.imbalance, 4.0 / 2.1, 1e-9);
+  EXPECT_NEAR(row_of(rows, Series::weak, 2).efficiency, 10.1 / 12.6, 1e-12);
+}
+
+TEST(Results, MoreRanksThanProcessorsAreJudgedByCpu) {
+  const StudyFolder folder("cpu");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 1);
+  leave_all(study);
+  const std::vector<SeriesRow> rows = make_rows(study, collect_runs(study), machine_of(1));
+  const SeriesRow& two = row_of(rows, Series::strong, 2);
+  EXPECT_TRUE(two.by_cpu);
+  EXPECT_NEAR(two.seconds(), 4, 1e-12);
+  EXPECT_NEAR(two.speedup, 2, 1e-12);
+  EXPECT_NE(study_text(rows).find("* more ranks than processors"), std::string::npos);
+}
+
+TEST(Results, DifferentMeshesAreNamed) {
+  const StudyFolder folder("hashes");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 2);
+  leave_all(study);
+  leave_report(folder_of(folder.path, study.runs[2]), 5, 1e5, "other");
+  try {
+    require_equal_meshes(collect_runs(study));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("'strong_1_1' and 'strong_2_1'"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(Results, WhatFailedIsShownAsThat) {
+  const StudyFolder folder("failed");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 1);
+  leave_all(study);
+  const std::filesystem::path failed = folder_of(folder.path, study.runs[2]);
+  std::filesystem::remove(failed / "report.json");
+  write_file(failed / "log", "volume: 3 of 9\nerror: out of memory <here>\n\n");
+  mark_begin(failed, 3);
+  mark_end(failed, 8);
+  const std::filesystem::path begun = folder_of(folder.path, study.runs[1]);
+  std::filesystem::remove(begun / "marks");
+  mark_begin(begun, 4);
+  const std::vector<RunResult> runs = collect_runs(study, {{"strong_1_1", "job 7 RUNNING 0:0"}});
+  EXPECT_EQ(runs[2].marks.state, RunState::failed);
+  EXPECT_EQ(runs[2].failure, "error: out of memory <here>");
+  EXPECT_EQ(runs[1].marks.state, RunState::begun);
+  EXPECT_EQ(runs[1].failure, "queue: job 7 RUNNING 0:0");
+  const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
+  EXPECT_EQ(row_of(rows, Series::strong, 2).failed, 1);
+  const std::string page = study_page(study_json(study, runs, rows, machine_of(2)).dump());
+  EXPECT_NE(page.find("out of memory &lt;here&gt;"), std::string::npos);
+  EXPECT_EQ(page.find("<here>"), std::string::npos);
+}
+
+TEST(Results, TableAndPageHaveAllRuns) {
+  const StudyFolder folder("page");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 2, {{1, {}}, {2, {}}});
+  leave_all(study);
+  const std::vector<RunResult> runs = collect_runs(study);
+  const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
+  const std::string csv = study_csv(runs);
+  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  std::istringstream lines(csv);
+  std::string head;
+  std::getline(lines, head);
+  std::size_t count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_EQ(commas(line), commas(head)) << line;
+  EXPECT_EQ(count, study.runs.size());
+  const std::string json = study_json(study, runs, rows, machine_of(2)).dump();
+  const std::string page = study_page(json);
+  for (const char* part : {"Speed-up of the strong series", "class=\"ideal\"", "Efficiency", "Time per stage",
+                           "weak_2_2", "&lt;here&gt;", "minimum: 1"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("://"), std::string::npos);
+  EXPECT_NE(compare_text(json, json).find("1.000"), std::string::npos);
+  EXPECT_NE(compare_text(json, json).find("the same"), std::string::npos);
+}
+
+TEST(Results, MeshesGoAndReportsStay) {
+  const StudyFolder folder("meshes");
+  leave_report(folder.path, 1, 1, "x");
+  write_file(folder.path / "mesh" / "mesh_0.vtu", "much");
+  write_file(folder.path / "mesh.pvtu", "little");
+  remove_meshes(folder.path);
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "report.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path / "marks"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "mesh"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "mesh.pvtu"));
+}
+
+}  // namespace
+}  // namespace aeroloom::study

@@ -1,0 +1,78 @@
+#include "volume/core/core_border.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::volume {
+
+namespace {
+
+/// Cells that are counted to a core leaf with core all around: four at each of its six sides, half of which
+/// are the neighbours'.
+constexpr int cells_per_leaf = 12;
+
+/// Whether core leaves touch a block, as far as is seen without looking closer.
+bool may_be_beside_core(const LeafSurroundings& around, const CoreLeaves& core) {
+  bool found = false;
+  around.for_each_cube([&](const LeafSurroundings::Cube& cube) {
+    using Size = LeafSurroundings::Size;
+    found = found || cube.size == Size::finer || (cube.size != Size::outside && core.is_core(cube.leaf));
+  });
+  return found;
+}
+
+}  // namespace
+
+ShellShare find_shell(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares,
+                      BlockPoints points) {
+  ShellShare share;
+  BlockPoints& kept = share.points;
+  kept.first = share.borders.first = points.first;
+  kept.starts.push_back(0);
+  share.borders.starts.push_back(0);
+  CoreCells cells(tree, core, squares);
+  const BlockIndex last = points.last();
+  for (BlockIndex b = points.first; b < last; ++b) {
+    const std::int64_t begin = points.starts[b - points.first], end = points.starts[b - points.first + 1];
+    const std::uint8_t leaves = core.of(b);
+    std::uint8_t deep = 0;
+    std::uint16_t inner_cells = 0, border_cells = 0;
+    const bool all_core = leaves != 0 && !core.is_beside_shell(b);
+    if (!all_core && (begin != end || leaves != 0)) cells.move_to(b);
+    if (all_core) {
+      deep = leaves;
+      inner_cells = static_cast<std::uint16_t>(cells_per_leaf * __builtin_popcount(leaves));
+    } else if (leaves != 0) {
+      cells.make_here();
+      share.borders.triangles.insert(share.borders.triangles.end(), cells.borders().begin(),
+                                     cells.borders().end());
+      inner_cells =
+          static_cast<std::uint16_t>(std::count_if(cells.cells().begin(), cells.cells().end(),
+                                                   [](const CoreCell& cell) { return cell.of_shell == 0; }));
+      border_cells = static_cast<std::uint16_t>(cells.cells().size() - inner_cells);
+      for (int child = 0; child < 8; ++child) {
+        if ((leaves >> child & 1) && cells.is_deep(child)) deep |= static_cast<std::uint8_t>(1U << child);
+      }
+    }
+    if (!all_core && begin != end) {
+      const bool all_shell = leaves == 0 && !may_be_beside_core(cells.around(), core);
+      for (std::int64_t i = begin; i < end; ++i) {
+        const HalfPlace leaf = cells.around().place_of(points.slots[i] / slots_per_leaf);
+        const int(&place)[3] = slot_places[points.slots[i] % slots_per_leaf];
+        if (!all_shell &&
+            !cells.is_of_shell({2 * leaf[0] + place[0], 2 * leaf[1] + place[1], 2 * leaf[2] + place[2]}))
+          continue;
+        kept.slots.push_back(points.slots[i]);
+        kept.points.push_back(points.points[i]);
+        kept.regions.push_back(points.regions[i]);
+      }
+    }
+    kept.starts.push_back(static_cast<std::int64_t>(kept.points.size()));
+    share.borders.starts.push_back(static_cast<std::int64_t>(share.borders.triangles.size()));
+    share.deep.push_back(deep);
+    share.inner_cells.push_back(inner_cells);
+    share.border_cells.push_back(border_cells);
+  }
+  return share;
+}
+
+}  // namespace aeroloom::volume

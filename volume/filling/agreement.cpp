@@ -1,0 +1,105 @@
+#include "volume/filling/agreement.hpp"
+
+#include "geometry/disjoint_sets.hpp"
+#include "mesh/exchange/rendezvous.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace aeroloom::volume {
+
+namespace {
+
+/// A face as it travels to the rank that matches it.
+struct WireFace {
+  std::array<mesh::SharedVertexKey, 3> vertices;
+  ZoneIndex zone;
+  mesh::RegionId region;
+  std::int32_t index;  ///< in its rank's list, times two, plus its orientation
+
+  bool odd() const { return index & 1; }
+  static constexpr auto fields() {
+    return std::tuple(&WireFace::vertices, &WireFace::zone, &WireFace::region, &WireFace::index);
+  }
+};
+
+bool are_partners(const WireFace& a, const WireFace& b) {
+  return a.zone != b.zone && a.region == b.region && a.odd() != b.odd();
+}
+
+/// Which of these faces have no partner on any rank. Collective.
+std::vector<std::int32_t> find_unmatched_here(const parallel::Communicator& communicator,
+                                              std::span<const ZoneFace> faces) {
+  std::vector<WireFace> mine;
+  mine.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const ZoneFace& face = faces[i];
+    mine.push_back({face.vertices, face.zone, face.region, static_cast<std::int32_t>(2 * i) + face.odd});
+  }
+  const mesh::Rendezvous meeting(communicator, mine, &WireFace::vertices, &WireFace::zone);
+  return meeting.answer<std::int32_t>([](const auto& group, const auto& reply) {
+    if (group.size() == 2 && are_partners(group[0].item, group[1].item)) return;
+    for (const auto& guest : group) reply(guest, guest.item.index / 2);
+  });
+}
+
+}  // namespace
+
+std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
+                                     std::span<const ZoneFace> faces, parallel::StageClock& clock) {
+  std::vector<ZoneFace> mine;
+  {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (const std::int32_t face : find_unmatched_here(communicator, faces)) mine.push_back(faces[face]);
+  }
+  std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);
+  std::sort(all.begin(), all.end(), [](const ZoneFace& a, const ZoneFace& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices
+           : a.zone != b.zone       ? a.zone < b.zone
+                                    : a.odd < b.odd;
+  });
+  return all;
+}
+
+std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {
+  struct Use {
+    mesh::SharedVertexKey vertex;
+    std::int32_t face;
+  };
+  std::vector<Use> uses;
+  for (std::size_t f = 0; f < unmatched.size(); ++f) {
+    for (const mesh::SharedVertexKey v : unmatched[f].vertices)
+      uses.push_back({v, static_cast<std::int32_t>(f)});
+  }
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.face < b.face;
+  });
+  geometry::DisjointSets<std::int32_t> sets(unmatched.size());
+  for (std::size_t i = 1; i < uses.size(); ++i) {
+    if (uses[i].vertex == uses[i - 1].vertex) sets.unite(uses[i - 1].face, uses[i].face);
+  }
+  std::vector<std::int32_t> number(unmatched.size(), -1);
+  std::vector<DisputedPlace> places;
+  for (std::size_t f = 0; f < unmatched.size(); ++f) {
+    std::int32_t& n = number[sets.root(static_cast<std::int32_t>(f))];
+    if (n < 0) {
+      n = static_cast<std::int32_t>(places.size());
+      places.emplace_back();
+    }
+    DisputedPlace& place = places[n];
+    ++place.faces;
+    place.zones.push_back(unmatched[f].zone);
+    for (const LeafNumber leaf : unmatched[f].leaves) {
+      if (leaf >= 0) place.leaves.push_back(leaf);
+    }
+  }
+  for (DisputedPlace& place : places) {
+    std::sort(place.zones.begin(), place.zones.end());
+    place.zones.erase(std::unique(place.zones.begin(), place.zones.end()), place.zones.end());
+    std::sort(place.leaves.begin(), place.leaves.end());
+    place.leaves.erase(std::unique(place.leaves.begin(), place.leaves.end()), place.leaves.end());
+  }
+  return places;
+}
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,96 @@
+/// Cells of the core on their way to the pieces they belong to, and what their points are called there.
+#pragma once
+
+#include "geometry/sort_by_key.hpp"
+#include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
+#include "volume/filling/core_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A cell on its way to the piece it belongs to.
+struct CoreParcel {
+  std::int32_t target;  ///< a zone, or a range of the curve after all of them
+  parallel::Rank rank;
+  mesh::RegionId region;
+  std::uint8_t shared;
+  std::array<std::int64_t, 4> points;
+
+  static constexpr auto fields() {
+    return std::tuple(&CoreParcel::target, &CoreParcel::rank, &CoreParcel::region, &CoreParcel::shared,
+                      &CoreParcel::points);
+  }
+};
+
+/// A point of a cell on its way.
+struct CorePoint {
+  parallel::Rank rank;
+  std::int64_t number;
+  geometry::Vec3 point;
+
+  static constexpr auto fields() {
+    return std::tuple(&CorePoint::rank, &CorePoint::number, &CorePoint::point);
+  }
+};
+
+/// Points of the lattice and what pieces call them.
+class CoreNaming {
+public:
+  explicit CoreNaming(const CoreSource& source) : _source(source) {}
+  const LatticeTree& tree() const { return _source.lattice.tree; }
+  geometry::Vec3 place(std::int64_t number) const {
+    const LeafNumber leaf = leaf_number_of_lattice(number);
+    if (tree().knows(leaf / 8))
+      return lattice_point(_source.lattice, tree().leaf_of(leaf), static_cast<int>(number % slots_per_leaf));
+    return std::lower_bound(_arrived.begin(), _arrived.end(), number,
+                            [](const CorePoint& p, std::int64_t wanted) { return p.number < wanted; })
+        ->point;
+  }
+  /// Cells of blocks that their rank may not know bring their points. Collective.
+  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells,
+                   parallel::StageClock& clock) {
+    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    for (const auto& [rank, number] : wanted_by_others(communicator.rank(), cells))
+      _arrived.push_back({rank, number, place(number)});
+    _arrived = mesh::deliver(communicator, std::move(_arrived), [](const CorePoint& p) { return p.rank; });
+    geometry::sort_by_key(_arrived, [](const CorePoint& p) { return static_cast<std::uint64_t>(p.number); });
+  }
+  void add_vertex(std::int64_t number, mesh::RegionId region, mesh::Piece& piece) const {
+    const geometry::Vec3 p = place(number);
+    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+    piece.vertex_dimension.push_back(mesh::CadDimension::region);
+    piece.vertex_entity.push_back(region);
+  }
+  mesh::SharedVertexKey vertex_key(std::int64_t number) const { return _source.finder.vertex_key_of(number); }
+
+private:
+  using Wanted = std::pair<parallel::Rank, std::int64_t>;
+  /// The points of cells that go to other ranks, each once, ascending.
+  static std::vector<Wanted> wanted_by_others(parallel::Rank here, std::span<const CoreParcel> cells) {
+    std::vector<Wanted> wanted, met(1 << 12, Wanted{-1, -1});  // cells next to each other share most points
+    for (const CoreParcel& cell : cells) {
+      if (cell.rank == here) continue;
+      for (const std::int64_t number : cell.points) {
+        Wanted& lately = met[static_cast<std::size_t>(number) % met.size()];
+        if (std::exchange(lately, {cell.rank, number}) != Wanted{cell.rank, number})
+          wanted.emplace_back(cell.rank, number);
+      }
+    }
+    std::sort(wanted.begin(), wanted.end());
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    return wanted;
+  }
+
+  const CoreSource& _source;
+  std::vector<CorePoint> _arrived;
+};
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,400 @@
+#include "volume/filling/core_pieces.hpp"
+
+#include "geometry/predicates.hpp"
+#include "mesh/data/piece_room.hpp"
+#include "volume/filling/core_parcels.hpp"
+#include "volume/filling/core_ranges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::volume {
+
+using mesh::LocalIndex;
+using mesh::Piece;
+using mesh::RegionId;
+using parallel::ScopedCpu;
+
+namespace {
+
+/// A cell by running numbers of the lattice.
+struct NumberedCell {
+  std::array<std::int64_t, 4> points;
+  std::uint8_t shared;  ///< points that other pieces may know, a bit each
+};
+
+void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
+  if (!geometry::has_positive_volume(piece.point(cell[0]), piece.point(cell[1]), piece.point(cell[2]),
+                                     piece.point(cell[3])))
+    throw std::logic_error("a tetrahedron of the core is flat or inverted");
+  piece.cells.insert(piece.cells.end(), cell.begin(), cell.end());
+}
+
+/// The points of a piece by number, and what it calls them.
+class PieceNumbers {
+public:
+  /// Most numbers are from `low` to before `high`: a place in a table each. The others are sorted.
+  PieceNumbers(std::span<const NumberedCell> cells, std::int64_t low, std::int64_t high)
+      : _low(low),
+        _high(high),
+        _local(static_cast<std::size_t>(high - low), unused),
+        _shared(_local.size(), 0) {
+    for (const NumberedCell& cell : cells) {
+      for (int k = 0; k < 4; ++k) note(cell.points[k], cell.shared >> k & 1);
+    }
+    std::sort(_others.begin(), _others.end(), [](const Other& a, const Other& b) {
+      return a.number != b.number ? a.number < b.number : a.shared > b.shared;
+    });
+    _others.erase(std::unique(_others.begin(), _others.end(),
+                              [](const Other& a, const Other& b) { return a.number == b.number; }),
+                  _others.end());
+  }
+
+  /// Calls add(number, whether other pieces may know it) for each, ascending; it returns what the piece calls
+  /// the point.
+  template <class Add>
+  void name(const Add& add) {
+    std::size_t next = 0;
+    for (; next < _others.size() && _others[next].number < _low; ++next)
+      _others[next].local = add(_others[next].number, _others[next].shared);
+    for (std::size_t i = 0; i < _local.size(); ++i) {
+      if (_local[i] == used) _local[i] = add(_low + static_cast<std::int64_t>(i), _shared[i] != 0);
+    }
+    for (; next < _others.size(); ++next)
+      _others[next].local = add(_others[next].number, _others[next].shared);
+  }
+  LocalIndex operator()(std::int64_t number) const {
+    if (number >= _low && number < _high) return _local[number - _low];
+    return std::lower_bound(_others.begin(), _others.end(), number,
+                            [](const Other& other, std::int64_t wanted) { return other.number < wanted; })
+        ->local;
+  }
+
+private:
+  static constexpr LocalIndex unused = -1, used = 0;
+  struct Other {
+    std::int64_t number;
+    bool shared;
+    LocalIndex local;
+  };
+  void note(std::int64_t number, bool is_shared) {
+    if (number < _low || number >= _high) return _others.push_back({number, is_shared, unused});
+    _local[number - _low] = used;
+    _shared[number - _low] |= static_cast<std::uint8_t>(is_shared);
+  }
+
+  std::int64_t _low, _high;
+  std::vector<LocalIndex> _local;
+  std::vector<std::uint8_t> _shared;
+  std::vector<Other> _others;
+};
+
+/// A piece of the core from its cells; vertices by number.
+Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const NumberedCell> cells,
+                 BlockIndex first, BlockIndex last) {
+  const std::int64_t low = lattice_number(naming.tree(), first, 0);
+  PieceNumbers numbers(cells, low, low + std::int64_t{last - first} * slots_per_block);
+  Piece piece;
+  piece.region = region;
+  numbers.name([&](std::int64_t number, bool is_shared) {
+    const LocalIndex v = piece.vertex_count();
+    naming.add_vertex(number, region, piece);
+    if (is_shared) {
+      piece.shared_vertices.push_back(v);
+      piece.shared_keys.push_back(naming.vertex_key(number));
+    }
+    return v;
+  });
+  piece.cells.reserve(4 * cells.size());
+  for (const NumberedCell& cell : cells) {
+    std::array<LocalIndex, 4> corners;
+    for (int k = 0; k < 4; ++k) corners[k] = numbers(cell.points[k]);
+    add_cell(corners, piece);
+  }
+  mesh::shrink_to_fit(piece);
+  return piece;
+}
+
+/// Running numbers met lately and what they stand for: cells next to each other on the curve share most.
+class RecentNumbers {
+public:
+  /// The result of `find(number)`, remembered from the last time where that is not long ago.
+  template <class Find>
+  LocalIndex operator()(std::int64_t number, const Find& find) {
+    Slot& slot = _slots[static_cast<std::size_t>(number) % slot_count];
+    if (slot.number != number) slot = {number, find(number)};
+    return slot.local;
+  }
+
+private:
+  static constexpr std::size_t slot_count = 1 << 12;  // chosen, not measured
+  struct Slot {
+    std::int64_t number = -1;
+    LocalIndex local = -1;
+  };
+  std::vector<Slot> _slots = std::vector<Slot>(slot_count);
+};
+
+/// Which vertices have a face that is there once.
+std::vector<std::uint8_t> find_open_vertices(std::vector<LocalTriangle> faces, LocalIndex vertex_count) {
+  // By the lowest vertex; the other two in one number.
+  std::vector<std::int64_t> starts(static_cast<std::size_t>(vertex_count) + 1, 0);
+  for (LocalTriangle& face : faces) {
+    std::sort(face.begin(), face.end());
+    ++starts[face[0] + 1];
+  }
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::uint64_t> others(faces.size());
+  std::vector<std::int64_t> next(starts.begin(), starts.end() - 1);
+  for (const LocalTriangle& face : faces)
+    others[next[face[0]]++] = static_cast<std::uint64_t>(face[1]) << 32 | static_cast<std::uint32_t>(face[2]);
+  std::vector<std::uint8_t> open(vertex_count, 0);
+  for (LocalIndex v = 0; v < vertex_count; ++v) {
+    const auto first = others.begin() + starts[v], last = others.begin() + starts[v + 1];
+    std::sort(first, last);
+    for (auto at = first; at != last;) {
+      const auto end = std::find_if(at, last, [&](std::uint64_t other) { return other != *at; });
+      if (end - at == 1) open[v] = open[*at >> 32] = open[static_cast<std::uint32_t>(*at)] = 1;
+      at = end;
+    }
+  }
+  return open;
+}
+
+/// Adds cells of the core to a zone's piece. What does not meet a face there is known elsewhere.
+void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, CoreSide& side, Piece& piece) {
+  const auto find = [](const std::vector<std::int64_t>& numbers, std::int64_t n) {
+    const auto at = std::lower_bound(numbers.begin(), numbers.end(), n);
+    return at != numbers.end() && *at == n ? static_cast<LocalIndex>(at - numbers.begin()) : -1;
+  };
+  std::vector<std::int64_t> added;
+  RecentNumbers met;
+  for (const CoreParcel& cell : cells) {
+    for (const std::int64_t n : cell.points) {
+      met(n, [&](std::int64_t number) {
+        const LocalIndex known = find(side.lattice, number);
+        if (known < 0) added.push_back(number);
+        return known;
+      });
+    }
+  }
+  std::sort(added.begin(), added.end());
+  added.erase(std::unique(added.begin(), added.end()), added.end());
+  const LocalIndex first_added = piece.vertex_count();
+  for (const std::int64_t n : added) naming.add_vertex(n, piece.region, piece);
+  const auto local_of = [&](std::int64_t n) {
+    const LocalIndex known = find(side.lattice, n);
+    return known >= 0 ? side.first_lattice + known : first_added + find(added, n);
+  };
+  std::vector<LocalTriangle> faces = std::move(side.borders);
+  faces.reserve(faces.size() + 4 * cells.size());
+  piece.cells.reserve(piece.cells.size() + 4 * cells.size());
+  RecentNumbers locals;
+  for (const CoreParcel& parcel : cells) {
+    std::array<LocalIndex, 4> cell;
+    for (int k = 0; k < 4; ++k) cell[k] = locals(parcel.points[k], local_of);
+    add_cell(cell, piece);
+    for (const auto& corners : mesh::tetrahedron_faces)
+      faces.push_back({cell[corners[0]], cell[corners[1]], cell[corners[2]]});
+  }
+  const std::vector<std::uint8_t> shared = find_open_vertices(std::move(faces), piece.vertex_count());
+  std::vector<LocalIndex> vertices;
+  std::vector<mesh::SharedVertexKey> vertex_keys;
+  std::size_t known = 0;
+  for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+    const bool was = known < piece.shared_vertices.size() && piece.shared_vertices[known] == v;
+    if (was || shared[v]) {
+      vertices.push_back(v);
+      vertex_keys.push_back(was ? piece.shared_keys[known]
+                                : naming.vertex_key(v >= first_added ? added[v - first_added]
+                                                                     : side.lattice[v - side.first_lattice]));
+    }
+    known += was;
+  }
+  piece.shared_vertices = std::move(vertices);
+  piece.shared_keys = std::move(vertex_keys);
+  mesh::shrink_to_fit(piece);
+}
+
+/// The piece of a zone in a region, and where it meets the core.
+std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
+  const auto at = std::lower_bound(result.pieces.begin(), result.pieces.end(), region,
+                                   [](const Piece& piece, RegionId wanted) { return piece.region < wanted; });
+  const auto place = at - result.pieces.begin();
+  if (at == result.pieces.end() || at->region != region) {
+    Piece piece;
+    piece.id = piece.region = region;
+    result.pieces.insert(at, std::move(piece));
+    result.core_sides.insert(result.core_sides.begin() + place, CoreSide{});
+  }
+  return {&result.pieces[place], &result.core_sides[place]};
+}
+
+/// Makes and schedules.
+class CoreMaker {
+public:
+  CoreMaker(const parallel::Communicator& communicator, const CoreSource& source,
+            std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock)
+      : _communicator(communicator),
+        _source(source),
+        _results(results),
+        _clock(clock),
+        _naming(source),
+        _ranges(communicator, source.lattice.tree, source.core, source.share, source.piece_tets, clock),
+        _cells(source.lattice.tree, source.core, source.squares) {}
+
+  CoreMesh run() {
+    std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
+    _naming.send_points(_communicator, parcels, _clock);
+    parcels = mesh::deliver(_communicator, std::move(parcels), [](const CoreParcel& p) { return p.rank; });
+    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    std::stable_sort(parcels.begin(), parcels.end(), [](const CoreParcel& a, const CoreParcel& b) {
+      return a.target != b.target ? a.target < b.target : a.region < b.region;
+    });
+    auto at = parcels.begin();
+    while (at != parcels.end() && at->target < _source.zones.count()) {
+      const auto end = end_of_group(at, parcels.end());
+      const auto [piece, side] = piece_in(at->region, _results.at(at->target));
+      extend_piece(_naming, std::span(at, end), *side, *piece);
+      *side = {};
+      _mesh.tetrahedra += end - at;
+      at = end;
+    }
+    // Where all the cells behind a piece's part of the border are of lower zones.
+    for (auto& [zone, result] : _results) {
+      for (std::size_t i = 0; i < result.pieces.size(); ++i) {
+        if (!result.core_sides[i].borders.empty())
+          extend_piece(_naming, {}, result.core_sides[i], result.pieces[i]);
+      }
+    }
+    parcels.erase(parcels.begin(), at);
+    parcels.shrink_to_fit();
+    make_pieces(parcels);
+    for (auto& [zone, result] : _results) result.core_sides.clear();
+    return std::move(_mesh);
+  }
+
+private:
+  using Parcels = std::vector<CoreParcel>::iterator;
+  static Parcels end_of_group(Parcels at, Parcels last) {
+    return std::find_if(
+        at, last, [&](const CoreParcel& p) { return p.target != at->target || p.region != at->region; });
+  }
+
+  std::vector<parallel::Rank> ranks_of_zones() const {
+    struct ZoneRank {
+      ZoneIndex zone;
+      parallel::Rank rank;
+      static constexpr auto fields() { return std::tuple(&ZoneRank::zone, &ZoneRank::rank); }
+    };
+    std::vector<ZoneRank> rows;
+    for (const auto& [zone, result] : _results) rows.push_back({zone, _communicator.rank()});
+    std::vector<parallel::Rank> ranks(_source.zones.count(), -1);
+    for (const ZoneRank& row : _communicator.all_gather_items<ZoneRank>(rows)) ranks[row.zone] = row.rank;
+    return ranks;
+  }
+
+  /// Cells of zones, and of ranges that other ranks make into pieces.
+  std::vector<CoreParcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
+    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    std::vector<CoreParcel> parcels;
+    const GhostBlocks& ghosts = _source.core.ghosts();
+    for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
+      const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
+      if (_source.core.of(b) == 0) continue;
+      const std::int32_t range = _ranges.of(b);
+      const bool goes = range >= 0 && _ranges.rank(range) != _communicator.rank();
+      if (!goes && _source.share.border_cells[i] == 0) continue;
+      const RegionId region = _source.core.region(b);
+      _cells.make(b);
+      for (const CoreCell& cell : _cells.cells()) {
+        if (cell.of_shell != 0) {
+          const ZoneIndex zone = lowest_zone(cell);
+          parcels.push_back({zone, ranks_of_zones[zone], region, 0, cell.points});
+        } else if (goes) {
+          parcels.push_back({_source.zones.count() + range, _ranges.rank(range), region,
+                             _ranges.shared_of(b, cell), cell.points});
+        }
+      }
+    }
+    return parcels;
+  }
+
+  ZoneIndex lowest_zone(const CoreCell& cell) const {
+    ZoneIndex lowest = _source.zones.count();
+    for (int k = 0; k < 4; ++k) {
+      if (cell.of_shell >> k & 1)
+        lowest =
+            std::min(lowest, _source.finder.zone_of(leaf_of_lattice(_source.lattice.tree, cell.points[k])));
+    }
+    return lowest;
+  }
+
+  /// The pieces from that one on were made of a range.
+  void note_range(std::int32_t range, std::size_t first, double seconds) {
+    double cells = 0;
+    std::int64_t bytes = 0;
+    for (std::size_t i = first; i < _mesh.pieces.size(); ++i) {
+      cells += _mesh.pieces[i].cell_count();
+      bytes += mesh::bytes_at_rest(_mesh.pieces[i]);
+    }
+    _clock.note_task({"core piece", range, cells, seconds, bytes});
+  }
+
+  /// Of the ranges that are this rank's; what others have of them comes later along the curve.
+  void make_pieces(std::span<const CoreParcel> arrived) {
+    const GhostBlocks& ghosts = _source.core.ghosts();
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < ghosts.own_count();) {
+      const std::size_t first = i, made = _mesh.pieces.size();
+      const double begin = parallel::cpu_seconds();
+      const std::int32_t range = _ranges.of(ghosts.first() + static_cast<BlockIndex>(i));
+      std::map<RegionId, std::vector<NumberedCell>> cells;
+      const bool is_mine = range >= 0 && _ranges.rank(range) == _communicator.rank();
+      for (; i < ghosts.own_count(); ++i) {
+        const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
+        if (_ranges.of(b) != range) break;
+        if (!is_mine || _source.share.inner_cells[i] == 0) continue;
+        _cells.make(b);
+        std::vector<NumberedCell>& of_region = cells[_source.core.region(b)];
+        for (const CoreCell& cell : _cells.cells()) {
+          if (cell.of_shell == 0) of_region.push_back({cell.points, _ranges.shared_of(b, cell)});
+        }
+      }
+      if (!is_mine) continue;
+      for (; next < arrived.size() && arrived[next].target == _source.zones.count() + range; ++next)
+        cells[arrived[next].region].push_back({arrived[next].points, arrived[next].shared});
+      for (auto& [region, of_region] : cells) {
+        if (of_region.empty()) continue;
+        Piece piece = make_piece(_naming, region, of_region, ghosts.first() + static_cast<BlockIndex>(first),
+                                 ghosts.first() + static_cast<BlockIndex>(i));
+        piece.id = range;
+        _mesh.tetrahedra += piece.cell_count();
+        _mesh.pieces.push_back(std::move(piece));
+      }
+      note_range(range, made, parallel::cpu_seconds() - begin);
+    }
+  }
+
+  const parallel::Communicator& _communicator;
+  const CoreSource& _source;
+  std::map<ZoneIndex, ZoneResult>& _results;
+  parallel::StageClock& _clock;
+  CoreNaming _naming;
+  CoreRanges _ranges;
+  CoreCells _cells;
+  CoreMesh _mesh;
+};
+
+}  // namespace
+
+CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
+                   std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock) {
+  return CoreMaker(communicator, source, results, clock).run();
+}
+
+}  // namespace aeroloom::volume

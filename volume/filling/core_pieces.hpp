@@ -1,0 +1,39 @@
+/// The core becomes part of the mesh. A tetrahedron with a point on the border goes to the piece of the
+/// lowest zone there, and is like any other from then on; the others become pieces of their own, ranges of
+/// the curve of equal weight.
+#pragma once
+
+#include "parallel/observation/timers.hpp"
+#include "volume/core/core_border.hpp"
+#include "volume/filling/zone_piece.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// Everything by which the core's cells are made and scheduled.
+struct CoreSource {
+  const LatticeSource& lattice;
+  const CoreLeaves& core;
+  const CoreSquares& squares;
+  const ShellShare& share;
+  const Zones& zones;
+  ZoneFinder finder;
+  std::int64_t piece_tets;  ///< of a piece of the core
+};
+
+/// A piece of the core, the place of its range along the curve in its id.
+struct CoreMesh {
+  std::vector<mesh::Piece> pieces;  ///< of this rank, by id, then region
+  std::int64_t tetrahedra = 0;      ///< of this rank, those that went to zones included
+};
+
+/// Adds to the zones' results what is theirs; a zone without piece in a region gets one. Collective. Throws
+/// std::logic_error where a tetrahedron is flat or inverted.
+CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
+                   std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock);
+
+}  // namespace aeroloom::volume

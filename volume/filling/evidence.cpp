@@ -1,0 +1,198 @@
+#include "volume/filling/evidence.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+
+namespace {
+
+constexpr std::size_t most_names = 8;  // in a message
+
+/// The triangles at vertices of the zone itself.
+std::vector<std::int32_t> own_triangles(const ZoneProblem& problem) {
+  std::vector<std::int32_t> own;
+  for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
+    const auto& v = problem.triangles[t];
+    if (std::any_of(v.begin(), v.end(), [&](mesh::LocalIndex w) { return problem.owners[w] == Owner::mine; }))
+      own.push_back(static_cast<std::int32_t>(t));
+  }
+  return own;
+}
+
+std::string name_faces(std::vector<std::int32_t> faces, const mesh::DistributedMesh& surface) {
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  std::string text = faces.empty() ? "" : "; CAD faces:";
+  for (std::size_t i = 0; i < std::min(faces.size(), most_names); ++i)
+    text += " '" + surface.faces[faces[i]] + "'";
+  if (faces.size() > most_names) text += fmt::format(" and {} more", faces.size() - most_names);
+  return text;
+}
+
+/// Triangles that share no vertices, all of them or those that are chosen.
+struct Soup {
+  std::vector<Vec3> points;
+  std::vector<LocalTriangle> triangles;
+
+  void add(const std::array<Vec3, 3>& corners) {
+    const auto v = static_cast<mesh::LocalIndex>(points.size());
+    triangles.push_back({v, v + 1, v + 2});
+    points.insert(points.end(), corners.begin(), corners.end());
+  }
+};
+
+/// By number, each once, on every rank.
+std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
+                                    std::span<const SurfaceTriangle> mine) {
+  std::vector<SurfaceTriangle> all = communicator.all_gather_items<SurfaceTriangle>(mine);
+  std::sort(all.begin(), all.end(),
+            [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
+  all.erase(
+      std::unique(all.begin(), all.end(),
+                  [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; }),
+      all.end());
+  return all;
+}
+
+}  // namespace
+
+void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& surface,
+                    const std::string& reason, Look look) {
+  const ZoneProblem& problem = content.problem;
+  const TriangleSoup part{problem.points, problem.triangles};
+  Item item;
+  item.zone = content.zone;
+  SurfaceDefect defect;
+  if (look == Look::for_defects) {
+    defect = find_defect(part);
+    if (defect.what.empty() && !problem.triangles.empty())
+      defect = find_intersections(part, BoundaryDistance(problem.points, problem.triangles));
+  }
+  item.has_defect = !defect.what.empty();
+  std::vector<std::int32_t> triangles = item.has_defect ? defect.triangles : own_triangles(problem);
+  geometry::Box box;
+  for (std::size_t v = 0; v < problem.points.size(); ++v) {
+    if (problem.owners[v] == Owner::mine) box.add(problem.points[v]);
+  }
+  item.message =
+      fmt::format("zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ",
+                  content.zone, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+  item.message += item.has_defect
+                      ? defect.what + describe_triangles(part, triangles) + "\nThe mesher said: " + reason +
+                            "\nUse smaller elements there, so that surfaces close to each other are "
+                            "resolved, or repair the geometry"
+                      : reason;
+  std::vector<std::int32_t> faces;
+  faces.reserve(triangles.size());
+  for (const std::int32_t t : triangles) faces.push_back(content.face[t]);
+  item.message += name_faces(std::move(faces), surface);
+  if (triangles.empty()) {
+    triangles.resize(problem.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), 0);
+  }
+  for (const std::int32_t t : triangles) {
+    auto& local = item.triangles.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      local[k] = static_cast<mesh::LocalIndex>(item.points.size());
+      item.points.push_back(problem.points[problem.triangles[t][k]]);
+    }
+  }
+  std::erase_if(_items, [&](const Item& known) { return known.zone == item.zone; });
+  _items.push_back(std::move(item));
+}
+
+Evidence::Item Evidence::lowest(const parallel::Communicator& communicator, const Item* mine) {
+  const std::int64_t none = INT32_MAX;
+  const std::int64_t zone = communicator.minimum(mine ? std::int64_t{mine->zone} : none);
+  if (zone == none) return {};
+  const bool is_mine = mine && mine->zone == zone;
+  const auto root = static_cast<parallel::Rank>(
+      communicator.minimum(std::int64_t{is_mine ? communicator.rank() : communicator.size()}));
+  Item item = is_mine ? *mine : Item();
+  communicator.broadcast_value(item, root);
+  return item;
+}
+
+void Evidence::raise(const Item& item, const std::string& tried) {
+  throw VolumeFailure(item.message + tried, item.points, item.triangles);
+}
+
+void Evidence::stop_at_defects(const parallel::Communicator& communicator) const {
+  const Item* worst = nullptr;
+  for (const Item& item : _items) {
+    if (item.has_defect && (!worst || item.zone < worst->zone)) worst = &item;
+  }
+  const Item item = lowest(communicator, worst);
+  if (item.zone != no_zone) raise(item, "");
+}
+
+void Evidence::give_up(const parallel::Communicator& communicator, ZoneIndex zone,
+                       const std::vector<Retry>& tried) const {
+  const Item* mine = nullptr;
+  for (const Item& item : _items) {
+    if (item.zone == zone) mine = &item;
+  }
+  std::string text = "\nNo way of filling it worked. Tried:\n  points as they come";
+  for (const Retry& retry : tried) {
+    if (retry.zone == zone) text += "\n  " + retry.change;
+  }
+  text += "\nUse other sizes there, or another piece size (VolumeOptions::piece_tets)";
+  raise(lowest(communicator, mine), text);
+}
+
+void refuse_surface(const parallel::Communicator& communicator, const Contradiction& contradiction,
+                    std::span<const SurfaceTriangle> triangles, const NearSurface& near,
+                    const mesh::DistributedMesh& surface) {
+  std::vector<SurfaceTriangle> mine;
+  if (!near.empty()) {
+    const SurfaceDefect defect = find_intersections({near.points(), near.triangles()}, near.distance());
+    for (const std::int32_t t : defect.triangles) mine.push_back(triangles[t]);
+  }
+  std::vector<SurfaceTriangle> culprits = gather(communicator, mine);
+  const bool intersects = !culprits.empty();
+  if (!intersects) {
+    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(mine),
+                 [&](const SurfaceTriangle& t) { return t.number == contradiction.triangle; });
+    culprits = gather(communicator, mine);
+  }
+  Soup soup;
+  std::vector<std::int32_t> all, faces;
+  for (const SurfaceTriangle& t : culprits) {
+    all.push_back(static_cast<std::int32_t>(all.size()));
+    faces.push_back(t.face);
+    soup.add(t.points);
+  }
+  const auto name_region = [&](mesh::RegionId region) {
+    if (region == mesh::no_region) return std::string("outside");
+    return surface.regions.empty() ? std::string("inside") : "in region '" + surface.regions[region] + "'";
+  };
+  const Vec3 p = contradiction.place;
+  throw VolumeFailure(
+      fmt::format(
+          "{}: ({:.6g}, {:.6g}, {:.6g}) is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
+          intersects ? "the surface intersects itself" : "the surface has a gap", p.x, p.y, p.z,
+          name_region(contradiction.seen), name_region(contradiction.elsewhere),
+          describe_triangles({soup.points, soup.triangles}, all),
+          "Use smaller elements there, so that surfaces close to each other are resolved, or repair the "
+          "geometry",
+          name_faces(std::move(faces), surface)),
+      soup.points, soup.triangles);
+}
+
+std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
+                                         const std::vector<ZoneFailure>& mine) {
+  std::vector<ZoneFailure> all;
+  for (const std::vector<ZoneFailure>& failures : communicator.all_gather_values(mine))
+    all.insert(all.end(), failures.begin(), failures.end());
+  std::sort(all.begin(), all.end(),
+            [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
+  return all;
+}
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,75 @@
+/// Remedies for zones that cannot be filled or do not fit together; their order is in filling_limits.hpp.
+#pragma once
+
+#include "volume/filling/agreement.hpp"
+#include "volume/filling/decomposition_data.hpp"
+#include "volume/filling/evidence.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// How far zones have climbed. The same on every rank. Refers to all it is made from.
+class ZoneLadder {
+public:
+  ZoneLadder(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
+             parallel::StageClock& clock, VolumeReport& report)
+      : _communicator(communicator),
+        _input(input),
+        _data(data),
+        _clock(clock),
+        _report(report),
+        _changes_of(data.zones->count(), 0),
+        _merged(data.zones->count(), 0),
+        _is_gone(data.zones->count(), 0) {}
+
+  /// Rungs that a zone has climbed since it was merged last.
+  int changes_of(ZoneIndex zone) const { return _changes_of[zone]; }
+  bool is_merged(ZoneIndex zone) const { return _merged[zone] != 0; }
+  /// Whether another zone has all that was the zone's.
+  bool is_gone(ZoneIndex zone) const { return _is_gone[zone] != 0; }
+  /// Of the halos of all zones.
+  std::vector<double> widths() const;
+
+  /// Changes what zones that failed are made of, and gives leaves of the core to the shell; returns the zones
+  /// to be filled again. `failures` and `leaving` are those of this rank. Collective. Throws VolumeFailure.
+  std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& failures,
+                                       const std::vector<LeavingLeaf>& leaving, const Evidence& evidence);
+  /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again. `faces` are those
+  /// of this rank's zones. Collective. Throws CollectiveError.
+  std::vector<ZoneIndex> resolve_disputes(std::span<const ZoneFace> faces);
+
+private:
+  /// A leaf where zones disagree, or beside one.
+  struct LeafOfPlace;
+  /// Blocks of this rank and zones that a remedy has touched: all zones that see them are filled again.
+  struct Changed {
+    std::vector<std::uint8_t> blocks;
+    std::vector<ZoneIndex> zones;
+  };
+  Changed nothing() const;
+  bool give_to_shell(const std::vector<LeavingLeaf>& leaving, Changed& changed);
+  bool climb(const ZoneFailure& failure, const Evidence& evidence, Changed& changed);
+  ZoneIndex widest_neighbour(ZoneIndex zone) const;
+  void merge(ZoneIndex a, ZoneIndex b);
+  void touch_all(ZoneIndex zone, Changed& changed) const;
+  std::vector<ZoneIndex> those_that_see(Changed changed);
+  std::vector<LeafOfPlace> leaves_around(std::span<const DisputedPlace> places, int rings) const;
+  LeafNumber lowest_leaf(ZoneIndex zone) const;
+  void note_places(std::span<const DisputedPlace> places);
+  void give(std::span<const DisputedPlace> places, Changed& changed);
+  void merge_those_around(std::span<const DisputedPlace> places, Changed& changed);
+
+  const parallel::Communicator& _communicator;
+  const VolumeInput& _input;
+  Decomposition::Data& _data;
+  parallel::StageClock& _clock;
+  VolumeReport& _report;
+  std::vector<int> _changes_of;
+  std::vector<std::uint8_t> _merged, _is_gone;
+  int _rounds_of_giving = 0;
+};
+
+}  // namespace aeroloom::volume

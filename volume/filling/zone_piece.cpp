@@ -1,0 +1,200 @@
+#include "volume/filling/zone_piece.hpp"
+
+#include "mesh/data/shared_vertex_keys.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+using mesh::LocalIndex;
+using mesh::Piece;
+using mesh::RegionId;
+
+namespace {
+
+class PieceMaker {
+public:
+  PieceMaker(const ZoneContent& content, const ZoneFilling& filling)
+      : _content(content), _filling(filling), _shared(content.problem.points.size(), 0) {
+    mark_shared();
+  }
+
+  Piece make(RegionId region, CoreSide& side) const {
+    const OwnedCells& owned = _filling.owned;
+    Piece piece;
+    piece.id = region;
+    piece.region = region;
+    std::vector<LocalIndex> number(_content.problem.points.size() + _filling.added.size(), -1);
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < owned.cells.size(); ++c) {
+      if (owned.regions[c] != region) continue;
+      ++count;
+      for (const LocalIndex v : owned.cells[c]) number[v] = 0;
+    }
+    add_vertices(region, number, piece);
+    note_core_side(region, number, side);
+    piece.cells.reserve(4 * count);
+    for (std::size_t c = 0; c < owned.cells.size(); ++c) {
+      if (owned.regions[c] != region) continue;
+      for (const LocalIndex v : owned.cells[c]) piece.cells.push_back(number[v]);
+    }
+    for (const std::int32_t t : owned.triangles) {
+      if (_content.problem.front[t] != region) continue;
+      for (const LocalIndex v : _content.problem.triangles[t]) piece.boundary.push_back(number[v]);
+      piece.triangle_face.push_back(_content.face[t]);
+      piece.triangle_patch.push_back(_content.patch[t]);
+    }
+    return piece;
+  }
+
+  std::vector<ZoneFace> faces() const {
+    std::vector<ZoneFace> result;
+    for (const Crossing& crossing : _filling.owned.crossings) {
+      const int* corner = mesh::tetrahedron_faces[crossing.face];
+      ZoneFace face{};
+      face.zone = _content.zone;
+      face.region = _filling.owned.regions[crossing.cell];
+      std::array<LocalIndex, 3> v;
+      for (int k = 0; k < 3; ++k) v[k] = _filling.owned.cells[crossing.cell][corner[k]];
+      const auto order = [&](int i, int j) {
+        if (vertex_key(v[j]) < vertex_key(v[i])) std::swap(v[i], v[j]), face.odd ^= 1;
+      };
+      order(0, 1), order(1, 2), order(0, 1);
+      for (int k = 0; k < 3; ++k) {
+        face.vertices[k] = vertex_key(v[k]);
+        face.leaves[k] = leaf(v[k]);
+      }
+      result.push_back(face);
+    }
+    return result;
+  }
+
+private:
+  /// `number` has the piece's vertices by those of the zone.
+  void note_core_side(RegionId region, const std::vector<LocalIndex>& number, CoreSide& side) const {
+    for (std::size_t v = _content.problem.surface_points(); v < given(); ++v) {
+      if (number[v] < 0) continue;
+      if (side.lattice.empty()) side.first_lattice = number[v];
+      side.lattice.push_back(static_cast<std::int64_t>(_content.vertex_keys[v]) - _content.surface_vertices);
+    }
+    for (const Crossing& border : _filling.owned.borders) {
+      if (_filling.owned.regions[border.cell] != region) continue;
+      const int* corner = mesh::tetrahedron_faces[border.face];
+      const LocalCell& cell = _filling.owned.cells[border.cell];
+      side.borders.push_back({number[cell[corner[0]]], number[cell[corner[1]]], number[cell[corner[2]]]});
+    }
+  }
+
+  std::size_t given() const { return _content.problem.points.size(); }
+  mesh::SharedVertexKey vertex_key(LocalIndex v) const {
+    if (static_cast<std::size_t>(v) < given()) return _content.vertex_keys[v];
+    return mesh::added_key(_content.zone, static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
+  }
+  LeafNumber leaf(LocalIndex v) const {
+    return static_cast<std::size_t>(v) < given() ? _content.leaves[v] : -1;
+  }
+
+  /// Vertices on faces to other zones, and where triangles of several regions meet.
+  void mark_shared() {
+    for (const Crossing& crossing : _filling.owned.crossings) {
+      const int* corner = mesh::tetrahedron_faces[crossing.face];
+      for (int k = 0; k < 3; ++k) {
+        const LocalIndex v = _filling.owned.cells[crossing.cell][corner[k]];
+        if (static_cast<std::size_t>(v) < given()) _shared[v] = 1;
+      }
+    }
+    for (const LocalIndex v : _filling.owned.touched) _shared[v] = 1;
+    const ZoneProblem& problem = _content.problem;
+    std::vector<RegionId> first(problem.surface_points(), mesh::no_region);
+    for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
+      for (const RegionId region : {problem.front[t], problem.back[t]}) {
+        if (region == mesh::no_region) continue;
+        for (const LocalIndex v : problem.triangles[t]) {
+          if (first[v] == mesh::no_region) first[v] = region;
+          if (first[v] != region) _shared[v] = 1;
+        }
+      }
+    }
+  }
+
+  /// Numbers the vertices that are used, in their order.
+  void add_vertices(RegionId region, std::vector<LocalIndex>& number, Piece& piece) const {
+    const std::size_t surface_points = _content.problem.surface_points();
+    const auto used = static_cast<std::size_t>(std::count(number.begin(), number.end(), 0));
+    piece.coordinates.reserve(3 * used);
+    piece.vertex_dimension.reserve(used);
+    piece.vertex_entity.reserve(used);
+    LocalIndex next = 0;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] < 0) continue;
+      number[v] = next++;
+      const Vec3 p = v < given() ? _content.problem.points[v] : _filling.added[v - given()];
+      piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+      const bool on_surface = v < surface_points;
+      piece.vertex_dimension.push_back(on_surface ? _content.dimension[v] : mesh::CadDimension::region);
+      piece.vertex_entity.push_back(on_surface ? _content.entity[v] : region);
+      if (v >= given() || !_shared[v]) continue;
+      piece.shared_vertices.push_back(number[v]);
+      piece.shared_keys.push_back(_content.vertex_keys[v]);
+    }
+  }
+
+  const ZoneContent& _content;
+  const ZoneFilling& _filling;
+  std::vector<std::uint8_t> _shared;  // per given point
+};
+
+}  // namespace
+
+ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling) {
+  ZoneResult result;
+  result.zone = content.zone;
+  std::vector<RegionId> regions = filling.owned.regions;
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  const PieceMaker maker(content, filling);
+  for (const RegionId region : regions)
+    result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));
+  result.faces = maker.faces();
+  result.steiner_points = static_cast<std::int64_t>(filling.added.size());
+  result.tetrahedra = static_cast<std::int64_t>(filling.owned.cells.size());
+  return result;
+}
+
+mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
+                                    const mesh::DistributedMesh& surface,
+                                    std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
+                                    ZoneIndex zones) {
+  struct PieceRegion {
+    std::int32_t place;  ///< a zone, or a range of the core after them
+    RegionId region;
+    static constexpr auto fields() { return std::tuple(&PieceRegion::place, &PieceRegion::region); }
+    auto operator<=>(const PieceRegion&) const = default;
+  };
+  std::vector<PieceRegion> rows;
+  for (const auto& [zone, result] : results) {
+    for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
+  }
+  for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
+  rows = communicator.all_gather_items<PieceRegion>(rows);
+  std::sort(rows.begin(), rows.end());
+  mesh::DistributedMesh mesh;
+  mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
+  const auto add = [&](std::int32_t place, Piece& piece) {
+    piece.id = static_cast<mesh::PieceId>(
+        std::lower_bound(rows.begin(), rows.end(), PieceRegion{place, piece.region}) - rows.begin());
+    mesh.pieces.push_back(std::move(piece));
+  };
+  for (auto& [zone, result] : results) {
+    for (Piece& piece : result.pieces) add(zone, piece);
+  }
+  for (Piece& piece : core) add(zones + piece.id, piece);
+  mesh.patches = surface.patches;
+  mesh.faces = surface.faces;
+  mesh.regions = surface.regions;
+  mesh.sides = surface.sides;
+  return mesh;
+}
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,312 @@
+#include "volume/lattice/block_regions.hpp"
+
+#include "geometry/disjoint_sets.hpp"
+#include "mesh/exchange/delivery.hpp"
+#include "volume/lattice/empty_balls.hpp"
+#include "volume/lattice/within_blocks.hpp"
+
+#include <algorithm>
+#include <compare>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+using mesh::RegionId;
+
+namespace {
+
+/// A face between a block that the surface does not meet and one that it does.
+struct Contact {
+  BlockNumber free, met;
+  BlockNumber set;     ///< that the free block is in, where known
+  std::int64_t order;  ///< of faces, the same on any number of ranks
+  Vec3 place;          ///< in the grid
+
+  static constexpr auto fields() {
+    return std::tuple(&Contact::free, &Contact::met, &Contact::set, &Contact::order, &Contact::place);
+  }
+};
+
+/// A set of blocks of one rank that has a face in common with a block, or a set, of another; or what the one
+/// tells the other.
+struct Joint {
+  BlockNumber set, with;
+
+  static constexpr auto fields() { return std::tuple(&Joint::set, &Joint::with); }
+  auto operator<=>(const Joint&) const = default;
+};
+
+/// Calls visit(b, n, face centre, number of the face) for the faces of this rank's blocks b whose
+/// other side is one block n.
+template <class Visit>
+void for_each_face(const LatticeTree& tree, const Visit& visit) {
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+    const GridCube cell = tree.cube(b);
+    const std::uint32_t edge = cell.edge();
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2;
+      const bool high = side % 2;
+      std::uint32_t low[3] = {cell.low.x, cell.low.y, cell.low.z};
+      if (high ? low[axis] + edge >= sizing::grid_size : low[axis] == 0) continue;
+      Vec3 place{low[0] + 0.5 * edge, low[1] + 0.5 * edge, low[2] + 0.5 * edge};
+      place[axis] += high ? 0.5 * edge : -0.5 * edge;
+      low[axis] = high ? low[axis] + edge : low[axis] - 1;
+      const BlockIndex n = tree.block_at({low[0], low[1], low[2]});
+      if (tree.cube(n).level <= cell.level) visit(b, n, place, 6 * tree.number(b) + side);
+    }
+  }
+}
+
+/// The sets of blocks that are joined over faces, as far as this rank's blocks are concerned; the lowest
+/// number of a set stands for it.
+class BlockSets {
+public:
+  BlockSets(const LatticeTree& tree, const SurfaceTable& table)
+      : _tree(tree), _own(tree.last() - tree.first()), _set(tree.last() - tree.first()) {
+    for_each_face(tree, [&](BlockIndex b, BlockIndex n, Vec3 place, std::int64_t face) {
+      if (table.is_met(b) != table.is_met(n)) {
+        const BlockIndex free = table.is_met(n) ? b : n, met = table.is_met(n) ? n : b;
+        _contacts.push_back({tree.number(free), tree.number(met), 0, face, place});
+      } else if (!table.is_met(b)) {
+        if (tree.is_own(n))
+          _own.unite(b - tree.first(), n - tree.first());
+        else
+          _joints.push_back({tree.number(b), tree.number(n)});
+      }
+    });
+    for (BlockIndex i = 0; i < tree.last() - tree.first(); ++i) _set[i] = first_of(i);
+  }
+
+  /// Ranks tell each other of lower sets until there are none. Collective.
+  void join_those_of_all_ranks(const parallel::Communicator& communicator) {
+    if (communicator.size() == 1) return;
+    for (Joint& joint : _joints) joint.set = own_set(joint.set);
+    // Each learns the other's set, and both know the joint.
+    std::vector<Joint> known = deliver(communicator, _joints);
+    for (Joint& joint : known) joint = {own_set(joint.with), joint.set};
+    keep_each_once(known);
+    for (const Joint& joint : deliver(communicator, known)) known.push_back({joint.with, joint.set});
+    keep_each_once(known);
+    for (bool changed = true; changed;) {
+      std::vector<Joint> told;
+      told.reserve(known.size());
+      for (const Joint& joint : known) told.push_back({set(joint.set), joint.with});
+      changed = false;
+      for (const Joint& joint : deliver(communicator, std::move(told))) {
+        if (joint.set >= set(joint.with)) continue;
+        set(joint.with) = joint.set;
+        changed = true;
+      }
+      changed = communicator.maximum(std::int64_t{changed}) > 0;
+    }
+  }
+
+  /// Of a block of this rank, by number.
+  BlockNumber set_of(BlockNumber b) { return set(own_set(b)); }
+
+  /// The contacts of this rank's met blocks in the order of faces, each with its set. Collective.
+  std::vector<Contact> take_contacts(const parallel::Communicator& communicator) {
+    std::vector<Contact> contacts =
+        mesh::deliver(communicator, std::move(_contacts),
+                      [&](const Contact& contact) { return _tree.owner(contact.free); });
+    for (Contact& contact : contacts) contact.set = set_of(contact.free);
+    contacts = mesh::deliver(communicator, std::move(contacts),
+                             [&](const Contact& contact) { return _tree.owner(contact.met); });
+    std::sort(contacts.begin(), contacts.end(),
+              [](const Contact& a, const Contact& b) { return a.order < b.order; });
+    return contacts;
+  }
+
+private:
+  BlockNumber first_of(BlockIndex i) { return _tree.number(_tree.first() + _own.root(i)); }
+  BlockNumber own_set(BlockNumber b) { return first_of(_tree.index(b) - _tree.first()); }
+  BlockNumber& set(BlockNumber own) { return _set[_tree.index(own) - _tree.first()]; }
+  std::vector<Joint> deliver(const parallel::Communicator& communicator, std::vector<Joint> joints) const {
+    return mesh::deliver(communicator, std::move(joints),
+                         [&](const Joint& joint) { return _tree.owner(joint.with); });
+  }
+  static void keep_each_once(std::vector<Joint>& joints) {
+    std::sort(joints.begin(), joints.end());
+    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  }
+
+  const LatticeTree& _tree;
+  geometry::DisjointSets<BlockIndex> _own;  // of this rank's blocks, from the first on
+  std::vector<BlockNumber> _set;            // of each own set, at its first block
+  std::vector<Joint> _joints;               // of blocks of this rank with others
+  std::vector<Contact> _contacts;           // that this rank has met
+};
+
+/// The region that was seen around a set of blocks, from how many places, and the first of them.
+struct Witness {
+  BlockNumber set;
+  RegionId region;
+  std::int64_t contact;
+  std::int64_t places;
+  mesh::GlobalIndex triangle;
+  Vec3 place;
+
+  static constexpr auto fields() {
+    return std::tuple(&Witness::set, &Witness::region, &Witness::contact, &Witness::places,
+                      &Witness::triangle, &Witness::place);
+  }
+  bool is_as(const Witness& other) const { return set == other.set && region == other.region; }
+  friend bool operator<(const Witness& a, const Witness& b) {
+    return std::tie(a.set, a.region, a.contact) < std::tie(b.set, b.region, b.contact);
+  }
+};
+
+/// One per set and region.
+std::vector<Witness> unite(std::vector<Witness> all) {
+  std::sort(all.begin(), all.end());
+  std::vector<Witness> united;
+  for (const Witness& seen : all) {
+    if (!united.empty() && united.back().is_as(seen))
+      united.back().places += seen.places;
+    else
+      united.push_back(seen);
+  }
+  return united;
+}
+
+/// Looks for the region of places in blocks that the surface meets.
+class Look {
+public:
+  Look(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+       const NearSurface& surface, const SearchRadii& radii)
+      : _frame(frame), _surface(surface), _radii(radii), _within(frame, tree, table, surface) {}
+
+  Vec3 place_of(const Contact& contact) const { return _frame.to_space(contact.place); }
+  /// Where an empty ball tells it.
+  std::optional<RegionId> known_region_at(Vec3 p) const { return _balls.region_at(p); }
+  /// From a place in a block, which has this place in the rank's share.
+  std::optional<WithinBlocks::Seen> from(BlockIndex b, std::size_t in_share, Vec3 p) {
+    if (_radii.is_from_within(in_share)) return _within.look(b, p);
+    _nearest = _surface.distance().nearest(p, _nearest.triangle);
+    const auto region = _surface.region_at(p, _nearest);
+    if (!region) return std::nullopt;
+    _balls.remember(p, _nearest.distance, *region);
+    return WithinBlocks::Seen{*region, _nearest.triangle};
+  }
+
+private:
+  const LatticeFrame& _frame;
+  const NearSurface& _surface;
+  const SearchRadii& _radii;
+  WithinBlocks _within;
+  BoundaryDistance::Nearest _nearest;
+  EmptyBalls _balls;
+};
+
+/// The regions that are seen from contacts. The first place of each
+/// kind is looked at for what it tells; others in an empty ball, whose region is known, only count.
+std::vector<Witness> witnesses_of(std::span<const Contact> contacts, const LatticeTree& tree,
+                                  std::span<const SurfaceTriangle> triangles, Look& look) {
+  std::vector<Witness> mine;
+  std::map<std::pair<BlockNumber, RegionId>, std::size_t> known;  // of `mine`
+  for (const Contact& contact : contacts) {
+    const Vec3 p = look.place_of(contact);
+    if (const auto region = look.known_region_at(p)) {
+      const auto witness = known.find({contact.set, *region});
+      if (witness != known.end()) {
+        ++mine[witness->second].places;
+        continue;
+      }
+    }
+    const BlockIndex met = tree.index(contact.met);
+    const auto seen = look.from(met, met - tree.first(), p);
+    if (!seen) continue;
+    const auto [witness, is_new] = known.insert({{contact.set, seen->region}, mine.size()});
+    if (is_new)
+      mine.push_back({contact.set, seen->region, contact.order, 1, triangles[seen->triangle].number, p});
+    else
+      ++mine[witness->second].places;
+  }
+  return mine;
+}
+
+/// The witnesses of the lowest set that is seen in several regions: what fewest places and what most say.
+std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witnesses) {
+  const auto first = std::adjacent_find(witnesses.begin(), witnesses.end(),
+                                        [](const Witness& a, const Witness& b) { return a.set == b.set; });
+  if (first == witnesses.end()) return std::nullopt;
+  const auto last =
+      std::find_if(first, witnesses.end(), [&](const Witness& w) { return w.set != first->set; });
+  const auto [fewest, most] = std::minmax_element(
+      first, last, [](const Witness& a, const Witness& b) { return a.places < b.places; });
+  return Contradiction{first->set, fewest->place, fewest->triangle, fewest->region, most->region};
+}
+
+/// The contradiction of the lowest set on all ranks. Collective.
+std::optional<Contradiction> lowest_of(const parallel::Communicator& communicator,
+                                       const std::optional<Contradiction>& mine) {
+  std::vector<Contradiction> all;
+  if (mine) all.push_back(*mine);
+  all = communicator.all_gather_items<Contradiction>(all);
+  if (all.empty()) return std::nullopt;
+  return *std::min_element(all.begin(), all.end(),
+                           [](const Contradiction& a, const Contradiction& b) { return a.set < b.set; });
+}
+
+/// The regions of sets, told by the ranks that have their first blocks, in their order. Collective.
+class RegionsOfSets {
+public:
+  RegionsOfSets(const parallel::Communicator& communicator, const LatticeTree& tree,
+                std::vector<BlockNumber> sets, const std::vector<Witness>& witnesses) {
+    struct Asked {
+      BlockNumber set;
+      parallel::Rank from;
+      RegionId region;
+      static constexpr auto fields() { return std::tuple(&Asked::set, &Asked::from, &Asked::region); }
+    };
+    std::sort(sets.begin(), sets.end());
+    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+    std::vector<Asked> asked;
+    asked.reserve(sets.size());
+    for (const BlockNumber set : sets) asked.push_back({set, communicator.rank(), mesh::no_region});
+    asked = mesh::deliver(communicator, std::move(asked), [&](const Asked& a) { return tree.owner(a.set); });
+    for (Asked& a : asked) {
+      const auto seen = std::partition_point(witnesses.begin(), witnesses.end(),
+                                             [&](const Witness& witness) { return witness.set < a.set; });
+      if (seen != witnesses.end() && seen->set == a.set) a.region = seen->region;
+    }
+    for (const Asked& a :
+         mesh::deliver(communicator, std::move(asked), [](const Asked& told) { return told.from; }))
+      _regions[a.set] = a.region;
+  }
+  RegionId of(BlockNumber set) const { return _regions.at(set); }
+
+private:
+  std::map<BlockNumber, RegionId> _regions;
+};
+
+}  // namespace
+
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
+                                const SurfaceAround& around, parallel::StageClock& clock) {
+  const LatticeTree& tree = lattice.tree;
+  const SurfaceTable& table = lattice.table;
+  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  BlockSets sets(tree, table);
+  sets.join_those_of_all_ranks(communicator);
+  const std::vector<Contact> contacts = sets.take_contacts(communicator);
+  Look look(lattice.frame, tree, table, around.surface, around.radii);
+  const std::vector<Witness> witnesses =
+      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, around.triangles, look),
+                          [&](const Witness& witness) { return tree.owner(witness.set); }));
+  BlockRegions found{std::vector<RegionId>(tree.last() - tree.first(), mesh::no_region),
+                     lowest_of(communicator, find_contradiction(witnesses))};
+  std::vector<BlockNumber> of_blocks;
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b)
+    of_blocks.push_back(table.is_met(b) ? 0 : sets.set_of(tree.number(b)));
+  const RegionsOfSets regions(communicator, tree, of_blocks, witnesses);
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+    if (!table.is_met(b)) found.of_block[b - tree.first()] = regions.of(of_blocks[b - tree.first()]);
+  }
+  return found;
+}
+
+}  // namespace aeroloom::volume

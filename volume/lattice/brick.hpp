@@ -1,0 +1,79 @@
+/// The forest of p4est behind a Forest: one tree, or the root cut into 4 x 4 x 4 trees, which have two levels
+/// more, but cost several times as much to balance where leaves lie along their borders. Internal to forest/.
+#pragma once
+
+#include "volume/lattice/forest.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <p8est.h>
+
+namespace aeroloom::forest {
+
+/// The level at which trees begin. Many lie along the Morton curve, eight to a cube of level 1, so that all
+/// leaves in their order are along it.
+inline constexpr int one_tree = 0, many_trees = 2;
+inline constexpr int tree_count = 1 << 3 * many_trees;
+
+/// One bit per tree.
+using TreeSet = std::uint64_t;
+inline bool has(TreeSet set, int tree) {
+  return (set >> tree & 1) != 0;
+}
+
+/// To be used within the life of a LibraryScope.
+class Brick {
+public:
+  /// Each tree a leaf. Collective.
+  Brick(const parallel::Communicator& communicator, int tree_level);
+  /// The leaves of a forest, larger ones as the trees in them. Each leaf of this rank has its weight in
+  /// p.user_int, where there are weights. Collective.
+  Brick(const parallel::Communicator& communicator, const Forest& forest,
+        std::span<const std::int32_t> weights = {});
+
+  p8est_t& forest() { return *_forest; }
+  int tree_level() const { return _tree_level; }
+  /// The level of the smallest leaves there may be.
+  int finest() const { return _tree_level + P8EST_QMAXLEVEL; }
+  /// The trees with more than one leaf. Collective.
+  TreeSet split_trees() const;
+  /// Trees that are parts of leaves which begin in another tree; so far each leaf has begun in its own, or
+  /// they are those of the forest this was made of.
+  void unite(TreeSet within) { _within = within; }
+  /// The level of the leaf that begins in a tree which is not split.
+  int level_at(int tree) const;
+  /// Collective.
+  Forest take() const;
+
+  /// Calls visit(tree, octant) for the leaves of this rank, in their order.
+  template <class Visit>
+  void for_each_octant(const Visit& visit) const {
+    for (int t = _forest->first_local_tree; t <= _forest->last_local_tree; ++t) {
+      sc_array_t& octants = p8est_tree_array_index(_forest->trees, t)->quadrants;
+      for (std::size_t i = 0; i < octants.elem_count; ++i) visit(t, *p8est_quadrant_array_index(&octants, i));
+    }
+  }
+
+  std::uint64_t key_of(int tree) const {
+    return static_cast<std::uint64_t>(tree) << 3 * (geometry::finest_level - _tree_level);
+  }
+  std::uint64_t key_of(int tree, const p8est_quadrant_t& octant) const;
+  geometry::GridCube cube_of(int tree, const p8est_quadrant_t& octant) const {
+    return {geometry::grid_point(key_of(tree, octant)), octant.level + _tree_level};
+  }
+
+private:
+  struct Free {
+    void operator()(p8est_connectivity_t* brick) const { p8est_connectivity_destroy(brick); }
+    void operator()(p8est_t* forest) const { p8est_destroy(forest); }
+  };
+  parallel::Communicator _communicator;
+  int _tree_level;
+  TreeSet _within = 0;
+  std::unique_ptr<p8est_connectivity_t, Free> _connectivity;
+  std::unique_ptr<p8est_t, Free> _forest;
+};
+
+}  // namespace aeroloom::forest

@@ -1,0 +1,33 @@
+#include "volume/lattice/ghost_blocks.hpp"
+
+namespace aeroloom::volume {
+
+GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree)
+    : _first(tree.first()), _last(tree.last()) {
+  if (communicator.size() == 1) return;
+  for (BlockIndex b = _first; b < _last; ++b) {
+    const GridBox around = GridBox::of(tree.cube(b)).dilated(0.5);
+    if (tree.is_within_own(around)) continue;
+    tree.for_each_block_in(around, [&](BlockIndex n) {
+      if (!is_own(n)) _ghosts.push_back(n);
+    });
+  }
+  std::sort(_ghosts.begin(), _ghosts.end());
+  _ghosts.erase(std::unique(_ghosts.begin(), _ghosts.end()), _ghosts.end());
+  for (const BlockIndex b : _ghosts) _numbers.push_back(tree.number(b));
+  std::vector<Wanted> asked;
+  asked.reserve(_ghosts.size());
+  for (const BlockIndex b : _ghosts)
+    asked.push_back({tree.number(b), static_cast<std::int32_t>(place(b)), communicator.rank()});
+  _wanted = mesh::deliver(communicator, std::move(asked),
+                          [&](const Wanted& wanted) { return tree.owner(wanted.block); });
+  for (Wanted& wanted : _wanted) wanted.block = tree.index(wanted.block) - _first;
+}
+
+void GhostBlocks::follow(const LatticeTree& tree) {
+  _first = tree.first(), _last = tree.last();
+  std::transform(_numbers.begin(), _numbers.end(), _ghosts.begin(),
+                 [&](BlockNumber number) { return tree.index(number); });
+}
+
+}  // namespace aeroloom::volume

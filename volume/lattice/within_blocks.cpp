@@ -1,0 +1,47 @@
+#include "volume/lattice/within_blocks.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::volume {
+
+using geometry::Vec3;
+
+namespace {
+
+geometry::Box box_in_space(const LatticeFrame& frame, const GridBox& box) {
+  geometry::Box around;
+  for (int corner = 0; corner < 8; ++corner)
+    around.add(frame.to_space({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                               corner & 4 ? box.high.z : box.low.z}));
+  return around;
+}
+
+}  // namespace
+
+void WithinBlocks::find_targets(BlockIndex b) {
+  _block = b;
+  _targets.clear();
+  const GridBox cube = GridBox::of(_tree.cube(b));
+  // The box of a triangle in the grid may meet the block where its box in space does not.
+  const geometry::Box around = box_in_space(_frame, cube).dilated(_table.longest_edge[b]);
+  _surface.distance().for_each_in(around, [&](const BoundaryDistance::Measured& found) {
+    const auto& [a, second, c] = found.corners;
+    if (grid_box(_frame, {a, second, c}).overlaps(cube))
+      _targets.push_back({found.triangle, (1.0 / 3.0) * (a + second + c)});
+  });
+}
+
+std::optional<WithinBlocks::Seen> WithinBlocks::look(BlockIndex b, Vec3 p) {
+  if (_surface.empty()) return std::nullopt;
+  if (b != _block) find_targets(b);
+  std::sort(_targets.begin(), _targets.end(), [&](const Target& left, const Target& right) {
+    return distance(left.center, p) < distance(right.center, p);
+  });
+  for (const Target& target : _targets) {
+    if (const auto region = _surface.region_towards(p, target.center, target.triangle))
+      return Seen{*region, target.triangle};
+  }
+  return std::nullopt;
+}
+
+}  // namespace aeroloom::volume

@@ -1,0 +1,74 @@
+#include "volume/zones/halo.hpp"
+
+#include <algorithm>
+
+namespace aeroloom::volume {
+
+double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                           BlockIndex b) {
+  double size = 0;
+  tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
+    size =
+        std::max({size, mean_edge_of_cell * frame.edge(tree.leaf_level(n)), double{table.longest_edge[n]}});
+  });
+  return size;
+}
+
+bool NearZone::knows(const GridBox& box) const {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const GridBox& place) { return place.gap_to(box) <= radius; });
+}
+
+ZonesAround::ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
+                         const Zones& zones, std::span<const double> widths)
+    : _frame(frame),
+      _tree(tree),
+      _table(table),
+      _zones(zones),
+      _widths(widths),
+      _widest(*std::max_element(widths.begin(), widths.end())) {}
+
+void ZonesAround::find_places(const GridCube& cube, const GridBox& around, int finest) {
+  const GridBox box = GridBox::of(cube);
+  if (!box.overlaps(around)) return;
+  const ZoneCuts& cuts = _zones.cuts();
+  if (const ZoneIndex zone = cuts.zone_of_all(cube); zone != no_zone) {
+    _places.push_back({_zones.name(zone), box});
+    return;
+  }
+  if (cube.level >= finest) {
+    cuts.for_each_zone_in(cube, [&](ZoneIndex zone) { _places.push_back({_zones.name(zone), box}); });
+    return;
+  }
+  const BlockIndex b = _tree.any_at(cube.low);
+  if (_tree.is_known(b) && _tree.level(b) == cube.level) {
+    _places.push_back({_zones.name(cuts.zone_of(cube)), box});
+    return;
+  }
+  for (int c = 0; c < 8; ++c) find_places(cube.child(c), around, finest);
+}
+
+void ZonesAround::move_to(BlockIndex b) {
+  const GridBox block = GridBox::of(_tree.cube(b));
+  const double size = largest_size_around(_frame, _tree, _table, b);
+  const GridBox around = block.dilated(_frame.grid_distance(_widest * size + _table.longest_edge[b]));
+  _places.clear();
+  find_places(LatticeTree::smallest_cube(around), around,
+              std::min(_tree.level(b) + finer_levels, sizing::finest_level));
+  for (const GivenLeaf& leaf : _zones.given()) {
+    if (leaf.box.overlaps(around)) _places.push_back({leaf.zone, leaf.box});
+  }
+  std::stable_sort(_places.begin(), _places.end(),
+                   [](const ZoneBox& a, const ZoneBox& b) { return a.zone < b.zone; });
+  _boxes.clear();
+  _near.clear();
+  for (const ZoneBox& place : _places) _boxes.push_back(place.box);
+  for (std::size_t first = 0, last; first < _places.size(); first = last) {
+    const ZoneIndex zone = _places[first].zone;
+    for (last = first + 1; last < _places.size() && _places[last].zone == zone;) ++last;
+    _near.push_back({zone, _frame.grid_distance(_widths[zone] * size),
+                     std::span<const GridBox>(_boxes).subspan(first, last - first)});
+  }
+}
+
+}  // namespace aeroloom::volume

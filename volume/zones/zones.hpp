@@ -1,0 +1,62 @@
+/// Zones: the sets of blocks that tetrahedra are scheduled by.
+#pragma once
+
+#include "volume/lattice/lattice_tree.hpp"
+#include "volume/zones/zone_cuts.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace aeroloom::volume {
+
+/// A leaf that was given to another zone.
+struct GivenLeaf {
+  BlockNumber block;
+  int child;
+  GridBox box;
+  ZoneIndex zone;
+};
+
+/// Which zone each leaf of the lattice belongs to: that of its block, unless the leaf was given away. The
+/// same on every rank that knows a block.
+class Zones {
+public:
+  /// Refers to `tree`.
+  Zones(const LatticeTree& tree, ZoneCuts cuts);
+
+  ZoneIndex count() const { return _cuts.count(); }
+  ZoneIndex of(BlockIndex b, int child) const { return _given.empty() ? _of_block[b] : find(b, child); }
+  /// Whether all leaves of a block are in one zone.
+  bool is_whole(BlockIndex b) const;
+  /// Whether a zone has leaves of a block.
+  bool has(ZoneIndex zone, BlockIndex b) const;
+  /// Gives a leaf to another zone. Ranks that do not know its block are told as well.
+  void give(const GivenLeaf& leaf);
+  /// All that is of zone `from` becomes of zone `to`.
+  void merge(ZoneIndex from, ZoneIndex to);
+
+  /// Where blocks were cut, and what became of those zones: merged ones have another name.
+  const ZoneCuts& cuts() const { return _cuts; }
+  ZoneIndex name(ZoneIndex cut) const { return _names[cut]; }
+  std::span<const GivenLeaf> given() const { return _given; }
+
+private:
+  ZoneIndex find(BlockIndex b, int child) const;
+
+  const LatticeTree& _tree;
+  ZoneCuts _cuts;
+  std::vector<ZoneIndex> _names;     // of zones as they were cut
+  std::vector<ZoneIndex> _of_block;  // without what was given away
+  std::vector<GivenLeaf> _given;     // by leaf
+};
+
+/// Sums over all ranks. `mine` has an entry per zone; those that are not 0 travel. Collective.
+std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator,
+                                      std::vector<std::int64_t> mine);
+
+/// How many zones of about `piece_tets` tetrahedra: a volume of less than one and a half is one zone, and
+/// others are rounded to three leading binary digits, so that zones of equal load divide well among ranks.
+ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets);
+
+}  // namespace aeroloom::volume
