@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2
+constexpr double triangles_per_square = 4 / std::numbers::sqrt3;  // times 1/h^2
 // Times 1/h^3: what meshes of ten models have on average, with edges of 0.98 h. Regular tetrahedra of edges h
 // would be 6 sqrt(2) = 8.5 if they filled space, those of a body-centred lattice are 9.1.
 constexpr double tetrahedra_per_volume = 11.3;
@@ -201,7 +201,7 @@ double ModelSampler::count_triangles(const SizeField& field) const {
         sum += integrate_facet(field, corners);
       }
       // Facets cut corners: the exact area makes up for it.
-      if (area > 0) mine.push_back({face.id, triangles_per_area * sum * _areas[face.id] / area});
+      if (area > 0) mine.push_back({face.id, triangles_per_square * sum * _areas[face.id] / area});
     }
   }
   std::vector<FaceCount> all = _communicator.all_gather_items<FaceCount>(mine);

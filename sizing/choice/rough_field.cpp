@@ -13,7 +13,7 @@ namespace {
 /// Leaves of a field that only tells how many elements there would be, and parts of faces for each of them.
 /// Chosen, not measured.
 constexpr std::int64_t most_leaves = 300'000;
-constexpr double parts_per_leaf = 4;
+constexpr double rough_parts_per_leaf = 4;
 /// Sizes over those asked for: of the first field, and of the last, which is built whatever it takes.
 constexpr double first_coarser = 4, coarsest = 4096;
 
@@ -33,7 +33,7 @@ double bias_of(double coarser, double growth) {
 RoughField ModelSampler::build_rough_field(const SizingOptions& options) {
   for (double coarser = first_coarser;; coarser *= 2) {
     const bool last = coarser >= coarsest;
-    const double most_parts = parts_per_leaf * coarser * coarser * static_cast<double>(most_leaves);
+    const double most_parts = rough_parts_per_leaf * coarser * coarser * static_cast<double>(most_leaves);
     if (!last && has_more_parts(options, most_parts)) continue;
     std::optional<SizeField> field =
         build_coarser(options, coarser, last ? std::numeric_limits<std::int64_t>::max() : most_leaves);

@@ -43,7 +43,7 @@ constexpr std::int64_t nodes_per_projection = 100;
 // Parts that are so many times as long as gaps ask for were hardly looked at. Chosen, not measured.
 constexpr double coarse_look = 8;
 constexpr std::int64_t looks_per_beat = 4096;  // between signs of life; chosen, not measured
-constexpr double nowhere = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 Vec3 unit_normal(const Triangle& t) {
   return normalized(cross(t[1] - t[0], t[2] - t[0]));
@@ -145,12 +145,12 @@ private:
   };
 
   struct Seen {
-    double gap = nowhere, open = nowhere;
+    double gap = endless, open = endless;
   };
 
   /// On both sides together; `thin`: of a side that is not meshed.
   struct Around {
-    double gap = nowhere, open = nowhere, thin = nowhere;
+    double gap = endless, open = endless, thin = endless;
   };
 
   std::vector<Gaps::Unseen> whole_facets() const {
@@ -229,7 +229,7 @@ private:
     const Wall& wall = _walls.facets[crossing.triangle];
     double away = crossing.distance;
     if (is_edge_within(wedge_slenderness * away, from, wall.face)) return {};
-    const Seen closed{away, nowhere};
+    const Seen closed{away, endless};
     if (!meshed) return closed;
     const double off = _deviations[facet] + wall.deviation;
     if (away < gap_over_error * (off + _accuracy)) {
@@ -238,8 +238,8 @@ private:
       if (away < std::max(gap_over_error * _accuracy, surface_gap_over_error * off)) return closed;
     }
     const double turn = norm(cross(_walls.normals[crossing.triangle], direction));
-    const bool closes = turn > 0 && is_edge_within(nowhere, from, wall.face, away / (closing_reach * turn));
-    return {closed.gap, closes ? nowhere : away};
+    const bool closes = turn > 0 && is_edge_within(endless, from, wall.face, away / (closing_reach * turn));
+    return {closed.gap, closes ? endless : away};
   }
 
   /// Walls that run together towards a common edge, bent as their facets are, are nearer to each other than

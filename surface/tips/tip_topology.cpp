@@ -58,9 +58,9 @@ struct Closing {
 };
 
 /// How the triangles after a tip's first `pairs` pairs know its vertices.
-class Surroundings {
+class PairSurroundings {
 public:
-  Surroundings(const Piece& piece, const std::vector<std::int32_t>& ranks, std::int32_t pairs)
+  PairSurroundings(const Piece& piece, const std::vector<std::int32_t>& ranks, std::int32_t pairs)
       : _piece(piece), _ranks(ranks), _pairs(pairs) {}
 
   /// One triangle, after the last pair, has both vertices of a pair, and what closes does not fold others.
@@ -119,7 +119,7 @@ std::int32_t closable_pairs(const Piece& piece, const Tip& tip, const std::vecto
     sum += triangles[i];
     if (sum == 2 * i - 1 && sum + 1 < piece.cell_count()) best = i;
   }
-  return best > 0 && Surroundings(piece, ranks, best).let_close() ? best : 0;
+  return best > 0 && PairSurroundings(piece, ranks, best).let_close() ? best : 0;
 }
 
 /// Tips whose pieces let them close, cut to the pairs that do. Collective.
