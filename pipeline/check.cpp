@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
+#include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/domain/face_patches.hpp"
 #include "pipeline/domain/load_domain.hpp"
@@ -31,7 +32,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double gibibyte = 1024.0 * 1024 * 1024;
 constexpr std::size_t shown_contacts = 20;  // of faces; `--json` has all
 /// For what is advised: enough pieces that ranks can even out what predictions miss, and pieces that are
 /// neither all border nor more than a rank should do alone. Chosen, not measured; a run without keys has
@@ -178,9 +178,9 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
              "{}{}\n",
              forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
              forecast.layers ? describe(*forecast.layers) : "", forecast.counts.triangles,
-             forecast.counts.tetrahedra, forecast.seconds, forecast.bytes / gibibyte,
+             forecast.counts.tetrahedra, forecast.seconds, forecast.bytes / parallel::gibibyte,
              forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
-             forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / gibibyte, ranks,
+             forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / parallel::gibibyte, ranks,
              forecast.piece_triangles, forecast.piece_tets, describe(forecast.levels),
              coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
 }

@@ -4,6 +4,7 @@
 #include "mesh/transfer/piece_size.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/observation/process_memory.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,8 +37,6 @@ constexpr std::array<StageShare, 5> stage_shares{{{"decompose", nullptr, 1.0e-6,
                                                   {"inspect", nullptr, 0.7e-6, 0},
                                                   {"output", nullptr, 0.4e-6, 0}}};
 
-constexpr double gibibyte = 1024.0 * 1024 * 1024;
-
 /// Of what layers add to the seconds of a run, the share of their own stage: 6.1 s for the 7 million prisms
 /// of the DLR-F6, which are taken to add 21 (docs/boundary_layers.md). Checks and files have the rest.
 constexpr double share_of_layer_stage = 0.3;
@@ -54,7 +53,7 @@ std::string advise(const Elements& elements, double limit, int ranks_here, int r
   const double for_elements = limit - base_bytes * ranks_here;
   if (for_elements <= 0) {
     return fmt::format("{} rank(s) on a node take {:.3g} GiB before the first element: fewer ranks on each",
-                       ranks_here, base_bytes * ranks_here / gibibyte);
+                       ranks_here, base_bytes * ranks_here / parallel::gibibyte);
   }
   const double share = for_elements * ranks / (elements.bytes * ranks_here);
   const double fitting = share * elements.tetrahedra;
@@ -161,8 +160,8 @@ void require_memory(const parallel::Communicator& communicator, const domain::Si
       parallel::FailureKind::resources,
       fmt::format("about {:.2g} tetrahedra{} are predicted, which take {:.3g} GiB on a node with {} of {} "
                   "rank(s); {:.3g} GiB are allowed (--max-memory). {}",
-                  elements.tetrahedra, layers, needed / gibibyte, ranks_here, ranks, limit / gibibyte,
-                  advise(elements, limit, ranks_here, ranks)));
+                  elements.tetrahedra, layers, needed / parallel::gibibyte, ranks_here, ranks,
+                  limit / parallel::gibibyte, advise(elements, limit, ranks_here, ranks)));
 }
 
 }  // namespace aeroloom::pipeline

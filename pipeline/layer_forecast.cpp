@@ -1,6 +1,7 @@
 #include "pipeline/layer_forecast.hpp"
 
 #include "layers/column_heights.hpp"
+#include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/layer_rules.hpp"
 #include "pipeline/domain/place_text.hpp"
 #include "pipeline/report/change_json.hpp"
@@ -211,7 +212,6 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
 std::string describe(const LayerForecast& forecast) {
   if (forecast.patches.empty()) return {};
   constexpr std::size_t shown = 10;
-  constexpr double gibibyte = 1024.0 * 1024 * 1024;
   std::string text;
   for (std::size_t i = 0; i < std::min(shown, forecast.patches.size()); ++i)
     text += describe_patch(forecast, forecast.patches[i]);
@@ -219,7 +219,7 @@ std::string describe(const LayerForecast& forecast) {
     text += fmt::format("layers on {} more patches, see check.json: forecast.layers\n",
                         forecast.patches.size() - shown);
   return text + fmt::format("layers add: about {:.3g} cells, {:.0f} s on one core, {:.2g} GiB\n",
-                            forecast.cells(), forecast.seconds(), forecast.bytes() / gibibyte);
+                            forecast.cells(), forecast.seconds(), forecast.bytes() / parallel::gibibyte);
 }
 
 nlohmann::ordered_json to_json(const LayerForecast& forecast) {

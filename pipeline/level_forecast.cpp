@@ -1,5 +1,6 @@
 #include "pipeline/level_forecast.hpp"
 
+#include "parallel/observation/process_memory.hpp"
 #include "pipeline/forecast.hpp"
 
 #include <cmath>
@@ -54,12 +55,12 @@ nlohmann::ordered_json to_json(const domain::LevelFindings& found) {
 
 std::string describe(const std::vector<LevelForecast>& levels) {
   if (levels.empty()) return {};
-  constexpr double gibibyte = 1024.0 * 1024 * 1024;
   std::string text = fmt::format("levels: {:<8} {:>12} {:>12} {:>14} {:>8}\n", "level", "triangles",
                                  "tetrahedra", "s on one core", "GiB");
   for (const LevelForecast& each : levels)
     text += fmt::format("        {:<8} {:>12.3g} {:>12.3g} {:>14.2g} {:>8.2g}\n", sizing::name_of(each.level),
-                        each.counts.triangles, each.counts.tetrahedra, each.seconds, each.bytes / gibibyte);
+                        each.counts.triangles, each.counts.tetrahedra, each.seconds,
+                        each.bytes / parallel::gibibyte);
   return text;
 }
 

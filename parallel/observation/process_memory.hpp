@@ -5,6 +5,8 @@
 
 namespace aeroloom::parallel {
 
+inline constexpr double gibibyte = 1024.0 * 1024 * 1024;  ///< bytes
+
 /// A memory figure of a file of /proc/self, in bytes; 0 where the system does not tell.
 std::int64_t process_memory(const char* path, const char* key);
 
