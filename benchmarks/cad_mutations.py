@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Meshes CAD files with one small mistake each, made by mutate_cad, and prints a table in Markdown.
 
-usage: cad_mutations.py [--build BUILD] [--count N] [--seed S] [--target T] [--arbiter ARBITER] [--keep FOLDER] FILE...
+usage: cad_mutations.py [--build BUILD] [--count N] [--seed S] [--target T] [--arbiter ARBITER] [--keep FOLDER] [--page FILE] FILE...
 
 N seeds from S on, each with the file that is its number modulo that of files; what a mutation is follows from its seed
 (mutate_cad.cpp). Written as STEP and BREP by turns of five, IGES files as IGES instead of STEP; loosened tolerances as BREP. Each must end in a valid mesh, or in
@@ -16,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from printed_table import PrintedTable, add_page_option
 
 LIMIT_S = 120
 KINDS = ["vertex moved", "edge split", "face offset", "sliver inserted", "tolerances loosened"]
@@ -90,19 +92,21 @@ def main():
     parser.add_argument("--target", type=int, default=20000)
     parser.add_argument("--arbiter")
     parser.add_argument("--keep")
+    add_page_option(parser)
     options = parser.parse_args()
-    print("| file | seed | mutation | share of the diagonal | exit | smallest dihedral | tetrahedra | retries | s | closed | message |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    table = PrintedTable("Files", ("file", "seed", "mutation", "share of the diagonal", "exit", "smallest dihedral", "tetrahedra", "retries",
+                                   "s", "closed", "message"))
     bad = 0
     for seed in range(options.seed, options.seed + options.count):
         row = one(options, options.files[seed % len(options.files)], seed)
         bad += not row.good
         angle = "" if row.angle is None else f"{row.angle:.1f}"
         code = "not mutated" if row.code is None else row.code
-        print(f"| {row.file} | {row.seed} | {row.kind} | {row.share} | {code} | {angle} | {row.tetrahedra or ''} | "
-              f"{row.retries} | {row.seconds:.0f} | {row.closed} | {'**not as wanted** ' if not row.good else ''}{row.message} |",
-              flush=True)
-    print(f"\n{options.count} mutations, {bad} not as wanted")
+        table.add(row.file, row.seed, row.kind, row.share, code, angle, row.tetrahedra or "", row.retries, f"{row.seconds:.0f}",
+                  row.closed, f"{'**not as wanted** ' if not row.good else ''}{row.message}")
+    note = f"{options.count} mutations, {bad} not as wanted"
+    print(f"\n{note}")
+    table.save(options.page, f"{note}.")
     return 1 if bad else 0
 
 

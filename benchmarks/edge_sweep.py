@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Trailing edges of all thicknesses, all sizes from the model: the tables of docs/trailing_edges.md.
+"""Trailing edges of all thicknesses, all sizes from the model, as Markdown tables.
 
 usage: edge_sweep.py PROGRAM [--shape transport|separate|tapered|partly_sharp] [--steps N] [--forecast] [--only I ...]
-                     [--set KEY=VALUE ...] [--wings WINGS] [--keep FOLDER]
-       edge_sweep.py PROGRAM --budgets [--shape SHAPE] [--thickness SHARE ...]
+                     [--set KEY=VALUE ...] [--wings WINGS] [--keep FOLDER] [--page FILE]
+       edge_sweep.py PROGRAM --budgets [--shape SHAPE] [--thickness SHARE ...] [--page FILE]
 
 Thicknesses of 0.01 to 1 % of the chord in equal ratios. For each the forecast of `aeroloom check` and, without
 --forecast, a run: *fate* is what `geometry.trailing_edges: auto` decided, of most edges; *aspect* what elements along
@@ -22,6 +22,7 @@ import sys
 import tempfile
 
 from edges import ROOT, call, cpu_seconds
+from printed_table import PrintedTable, add_page_option
 
 PARTS = ("wing", "horizontal_tail", "vertical_tail")
 SUFFIX = {"separate": "igs", "tapered": "step", "partly_sharp": "step"}
@@ -62,9 +63,9 @@ def decisions(edges, features):
     return [(edge["face"], edge["fate"], edge["moved"]) for edge in edges], features["aspect"], features["share"]
 
 
-def text_of(told):
+def cells_of(told):
     angle = f"{told['angle']:.1f}" if told["angle"] < 45 else "–"
-    return f"{told['fate']} | {told['aspect']:.2f} | {told['share']:.2f} | {angle} | {told['predicted'] / 1e3:,.0f}"
+    return told["fate"], f"{told['aspect']:.2f}", f"{told['share']:.2f}", angle, f"{told['predicted'] / 1e3:,.0f}"
 
 
 def run(options, case, folder, settings):
@@ -76,25 +77,25 @@ def run(options, case, folder, settings):
     made = {"least": least, "made": report["mesh"]["tetrahedra"], "improve": stages["improve"] / cpu,
             "seconds": report["wall_seconds"], "cpu": cpu,
             "run_decided": decisions(report["sizing"]["trailing_edges"], report["sizing"]["features"])}
-    text = (f"{report['mesh']['tetrahedra'] / 1e3:,.0f} | {least:.1f} | {100 * stages['improve'] / cpu:.0f} % | "
-            f"{stages['sizing']:.1f} | {cpu:.0f} | {report['wall_seconds']:.0f} | {report['mesh']['hash'][:8]}")
-    return text, made
+    cells = (f"{report['mesh']['tetrahedra'] / 1e3:,.0f}", f"{least:.1f}", f"{100 * stages['improve'] / cpu:.0f} %",
+             f"{stages['sizing']:.1f}", f"{cpu:.0f}", f"{report['wall_seconds']:.0f}", report["mesh"]["hash"][:8])
+    return cells, made
 
 
 def thicknesses(steps):
     return [1e-4 * 100 ** (i / (steps - 1)) for i in range(steps)]
 
 
-def complain(rows, what, wrong):
+def complaint(rows, what, wrong):
     """Of neighbours in a table."""
     found = [f"{a[0]} to {b[0]}" for a, b in zip(rows, rows[1:]) if wrong(a[1], b[1])]
-    print(f"{what}: {'; '.join(found) if found else 'nowhere'}", flush=True)
+    return f"{what}: {'; '.join(found) if found else 'nowhere'}"
 
 
 def sweep(options, scratch):
-    print("| trailing edge, % | fate | aspect | share | forecast angle | predicted, thousands |"
-          + ("" if options.forecast else " made | least angle | improve | sizing, CPU s | all, CPU s | s | hash |"))
-    print("|---" * (6 if options.forecast else 13) + "|")
+    of_runs = () if options.forecast else ("made", "least angle", "improve", "sizing, CPU s", "all, CPU s", "s", "hash")
+    table = PrintedTable(f"Thicknesses, {options.shape}", (
+        "trailing edge, %", "fate", "aspect", "share", "forecast angle", "predicted, thousands", *of_runs))
     rows = []
     for i, thickness in enumerate(thicknesses(options.steps)):
         if options.only and i not in options.only:
@@ -102,47 +103,58 @@ def sweep(options, scratch):
         folder = (options.keep or scratch) / f"{i}"
         case = case_of(options, thickness, scratch)
         told = forecast(options, case, folder, options.set)
-        line = f"| {100 * thickness:.3g} | {text_of(told)} |"
+        cells = (f"{100 * thickness:.3g}", *cells_of(told))
         if not options.forecast:
-            text, made = run(options, case, folder, options.set)
+            of_run, made = run(options, case, folder, options.set)
             told |= made
-            line += f" {text} |"
-        print(line, flush=True)
+            cells += of_run
+        table.add(*cells)
         rows.append((f"{100 * thickness:.3g}", told))
     kept = [row for row in rows if row[1]["fate"] != "closed"]
-    complain(kept, "shares do not fall with the thickness", lambda a, b: b["share"] > (1 + NOISE) * a["share"])
-    complain(kept, "forecast angles do not rise with the thickness", lambda a, b: b["angle"] < a["angle"])
+    last = [complaint(kept, "shares do not fall with the thickness", lambda a, b: b["share"] > (1 + NOISE) * a["share"]),
+            complaint(kept, "forecast angles do not rise with the thickness", lambda a, b: b["angle"] < a["angle"])]
     if not options.forecast:
-        summarise(rows, options)
+        last += summary(rows, options)
+    finish(table, last, options)
 
 
-def summarise(rows, options):
+def finish(table, last, options):
+    print("\n" + "\n".join(last))
+    table.save(options.page, "\n".join(f"- {line}" for line in last))
+
+
+def summary(rows, options):
     told = [row[1] for row in rows]
     settings = dict(setting.split("=") for setting in options.set)
     most = float(settings.get("sizing.feature_budget", BUDGET)) * float(settings.get("sizing.target_tetrahedra", TARGET))
     yardstick = min(rows, key=lambda row: abs(math.log(float(row[0]) / 100 / YARDSTICK)))
     other = [row[0] for row in rows if row[1]["decided"] != row[1]["run_decided"]]
-    print(f"check and run decide differently: {', '.join(other) or 'nowhere'}")
-    print(f"least angle: {min(row['least'] for row in told):.1f} (20)")
-    print(f"tetrahedra over budget times target: {max(row['made'] for row in told) / most:.2f} (1.1)")
-    print(f"improvement's share of the CPU: {max(row['improve'] for row in told):.2f} (0.35)")
+    lines = [f"check and run decide differently: {', '.join(other) or 'nowhere'}",
+             f"least angle: {min(row['least'] for row in told):.1f} (20)",
+             f"tetrahedra over budget times target: {max(row['made'] for row in told) / most:.2f} (1.1)",
+             f"improvement's share of the CPU: {max(row['improve'] for row in told):.2f} (0.35)"]
     for what, key in (("wall time", "seconds"), ("CPU", "cpu")):
         ratio = max(row[key] for row in told) / yardstick[1][key]
-        print(f"{what} over that of {yardstick[0]} %: {ratio:.2f}" + (" (1)" if key == "seconds" else ""))
+        lines.append(f"{what} over that of {yardstick[0]} %: {ratio:.2f}" + (" (1)" if key == "seconds" else ""))
+    return lines
 
 
 def budgets(options, scratch):
-    print("| trailing edge, % | budget | fate | aspect | share | forecast angle | predicted, thousands |\n" + "|---" * 7 + "|")
+    table = PrintedTable(f"Budgets, {options.shape}", ("trailing edge, %", "budget", "fate", "aspect", "share", "forecast angle",
+                                                       "predicted, thousands"))
+    last = []
     for thickness in options.thickness:
         rows = []
         for budget in BUDGETS:
             case = case_of(options, thickness, scratch)
             told = forecast(options, case, scratch, [*options.set, f"sizing.feature_budget={budget}"])
-            print(f"| {100 * thickness:.3g} | {budget:g} | {text_of(told)} |", flush=True)
+            table.add(f"{100 * thickness:.3g}", f"{budget:g}", *cells_of(told))
             rows.append((f"{budget:g}", told))
         kept = [row for row in rows if row[1]["fate"] != "closed"]
-        complain(kept, "shares do not rise with the budget", lambda a, b: b["share"] < a["share"])
-        complain(kept, "forecast angles do not rise with the budget", lambda a, b: b["angle"] < a["angle"])
+        edge = f"{100 * thickness:.3g} %"
+        last += [complaint(kept, f"{edge}: shares do not rise with the budget", lambda a, b: b["share"] < a["share"]),
+                 complaint(kept, f"{edge}: forecast angles do not rise with the budget", lambda a, b: b["angle"] < a["angle"])]
+    finish(table, last, options)
 
 
 def main():
@@ -157,6 +169,7 @@ def main():
     parser.add_argument("--set", nargs="*", default=[])
     parser.add_argument("--wings", default=ROOT / "build/release/benchmarks/wings")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the outputs")
+    add_page_option(parser)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         (budgets if options.budgets else sweep)(options, pathlib.Path(folder))

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The tables of docs/trailing_edges.md: what meshes make of thin trailing edges, and how near forecasts come.
+"""What meshes make of thin trailing edges, and how near forecasts come, as a Markdown table.
 
 usage: edges.py PROGRAM [--wings WINGS] [--arbiter CHECKER] [--only PART ...] [--folder CAD --files FILE ...]
+                [--page FILE]
 
 For each case: the forecast of `aeroloom check`, and a run on so many ranks (default 1). With --files, CAD files of a
 folder with all sizes from the model instead of the cases. Counts of tetrahedra in thousands. Angles in degrees: of all
@@ -18,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 
+from printed_table import PrintedTable, add_page_option
 from whole_run import verdict
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -75,33 +77,34 @@ def least_angles(report):
     return [f"{angle:.1f}" if angle is not None else "–" for angle in angles], below
 
 
-def row(options, label, case, settings, ranks, folder):
+def row(options, case, settings, ranks, folder):
+    """Cells of the table behind the label and the budget."""
     settings = [word for setting in [*settings, f"output.directory={folder}"] for word in ("--set", setting)]
     call([options.program, "check", case, *settings])
     forecast = json.loads((folder / "check.json").read_text())["forecast"]
-    log = call([ROOT / "scripts/mpirun_local.sh", ranks, options.program, "run", case, *settings])
+    call([ROOT / "scripts/mpirun_local.sh", ranks, options.program, "run", case, *settings])
     report = json.loads((folder / "report.json").read_text())
     made, predicted = report["mesh"]["tetrahedra"], forecast["tetrahedra"]
     (least, unpinned, rest), below = least_angles(report)
     stages = {stage["name"]: cpu_seconds(stage) for stage in report["stages"]}
     told = "yes" if report["unresolved_features"] or report["sizing"]["features"]["unresolved"] else "no"
-    return (f"| {label} | {predicted / 1e3:,.0f} | {made / 1e3:,.0f} | {predicted / made:.2f} | {least} | {unpinned} | {rest} | "
-            f"{below:,} | {100 * stages['improve'] / sum(stages.values()):.0f} % | {report['wall_seconds']:.0f}"
-            f"{f' on {ranks} ranks' if ranks > 1 else ''} | {verdict(options, folder)} | {told} | {report['mesh']['hash'][:8]} |"), log
+    seconds = f"{report['wall_seconds']:.0f}{f' on {ranks} ranks' if ranks > 1 else ''}"
+    return (f"{predicted / 1e3:,.0f}", f"{made / 1e3:,.0f}", f"{predicted / made:.2f}", least, unpinned, rest, f"{below:,}",
+            f"{100 * stages['improve'] / sum(stages.values()):.0f} %", seconds, verdict(options, folder), told, report["mesh"]["hash"][:8])
 
 
 def works(options, scratch):
-    """Label, case, settings, ranks."""
+    """Name, budget, case, settings, ranks."""
     if options.files is not None:
         for name in options.files:
             case = pathlib.Path(scratch) / "case.yaml"
             case.write_text(json.dumps({"geometry": {"file": str(next(options.folder.rglob(name)))}}))
-            yield f"`{name}` | {DEFAULT_BUDGET}", case, [], 1
+            yield name, DEFAULT_BUDGET, case, [], 1
         return
     for case, settings, ranks in RUNS:
         budget = re.findall(r"feature_budget=(\d+)", " ".join(settings))
         if not options.only or any(part in case for part in options.only):
-            yield f"`{case}` | {budget[-1] if budget else DEFAULT_BUDGET}", CASES / f"{case}.yaml", settings, ranks
+            yield case, budget[-1] if budget else DEFAULT_BUDGET, CASES / f"{case}.yaml", settings, ranks
 
 
 def main():
@@ -113,19 +116,21 @@ def main():
     parser.add_argument("--folder", type=pathlib.Path, help="of CAD files")
     parser.add_argument("--files", nargs="*", help="of that folder, instead of the cases")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the outputs")
+    add_page_option(parser)
     options = parser.parse_args()
     if options.files is None:
         write_wings(options.wings)
-    print("| case | budget | predicted, thousands | made | ratio | least angle | apart from pinned | and from unresolved | below 10 | "
-          "improve's CPU | s | valid | tells of unresolved | hash |\n" + "|---" * 14 + "|")
+    table = PrintedTable("Cases" if options.files is None else "Other CAD", (
+        "case", "budget", "predicted, thousands", "made", "ratio", "least angle", "apart from pinned", "and from unresolved", "below 10",
+        "improve's CPU", "s", "valid", "tells of unresolved", "hash"))
     with tempfile.TemporaryDirectory() as scratch:
-        for number, (label, case, settings, ranks) in enumerate(works(options, scratch)):
-            name = pathlib.Path(label.split("`")[1]).name
-            folder = options.keep / f"{name}{''.join(settings).replace('sizing.', '_')}" if options.keep else pathlib.Path(scratch) / str(number)
+        for number, (name, budget, case, settings, ranks) in enumerate(works(options, scratch)):
+            folder = options.keep / f"{pathlib.Path(name).name}{''.join(settings).replace('sizing.', '_')}" if options.keep else pathlib.Path(scratch) / str(number)
             try:
-                print(row(options, label, case, settings, ranks, folder)[0], flush=True)
+                table.add(f"`{name}`", budget, *row(options, case, settings, ranks, folder))
             except RuntimeError as error:
-                print(f"| {label} | {error} |" + " |" * 11, flush=True)
+                table.add(f"`{name}`", budget, error)
+    table.save(options.page)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import pathlib
 
 import numpy
 import vtk
+from printed_table import PrintedTable, add_page_option
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 Distances = collections.namedtuple("Distances", "away cell")  # per sample
@@ -192,6 +193,7 @@ def sharp_sides(points, triangles, angle):
 
 
 def compare(file, output, options):
+    """Cells of the table."""
     points, triangles, _ = read_file(file)
     low, high = points.min(axis=0), points.max(axis=0)
     diagonal = numpy.linalg.norm(high - low)
@@ -219,8 +221,8 @@ def compare(file, output, options):
         if len(sharp):
             away = distances(sample_edges(points, sharp, apart)[0], mesh, edges).away
             kept = f"{100 * (away < options.near * diagonal).mean():.1f}"
-    print(f"| {file.name} | {len(triangles):,} | {len(cells):,} | {there.away.max() / diagonal:.1e} | {back.away.max() / diagonal:.1e} | "
-          f"{rms / diagonal:.1e} | {ratio:.3f} | {nodes / diagonal:.0e} | {on_sides} | {kept} |", flush=True)
+    return (file.name, f"{len(triangles):,}", f"{len(cells):,}", f"{there.away.max() / diagonal:.1e}", f"{back.away.max() / diagonal:.1e}",
+            f"{rms / diagonal:.1e}", f"{ratio:.3f}", f"{nodes / diagonal:.0e}", on_sides, kept)
 
 
 def main():
@@ -230,13 +232,15 @@ def main():
     parser.add_argument("--angle", type=float, default=40, help="degrees at which a side is an edge")
     parser.add_argument("--near", type=float, default=1e-3, help="over the diagonal: how far from the mesh's edges an edge is kept")
     parser.add_argument("--samples", type=float, default=150, help="along the diagonal")
+    add_page_option(parser)
     options = parser.parse_args()
-    print("| file | triangles | of the mesh | file to mesh | mesh to file | rms | over element | nodes | nodes on edges | edges kept, % |")
-    print("|---" * 10 + "|")
+    table = PrintedTable("Files", ("file", "triangles", "of the mesh", "file to mesh", "mesh to file", "rms", "over element", "nodes",
+                                   "nodes on edges", "edges kept, %"))
     for output in sorted(path for path in options.outputs.iterdir() if (path / "surface.pvtp").exists()):
         file = options.folder / output.name
         if file.suffix in (".stl", ".off", ".smesh"):
-            compare(file, output, options)
+            table.add(*compare(file, output, options))
+    table.save(options.page)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Boundary layers of a finished run, measured in its files and beside what its report says.
 
-usage: layer_coverage.py OUTPUT [OUTPUT ...] [--tolerance T]
+usage: layer_coverage.py OUTPUT [OUTPUT ...] [--tolerance T] [--page FILE]
 
 Counts, heights and areas come from mesh.pvtu and surface.pvtp alone; report.json tells which layers were asked for, and is compared
 with. A column is a chain of nodes over a vertex of a wall, each one layer above the one before. Each column counts for a third of the
@@ -18,6 +18,7 @@ import sys
 
 import numpy
 import vtk
+from printed_table import PrintedTable, add_page_option
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 MOST_LAYERS, ISOTROPIC = 1000, 0.7
@@ -198,16 +199,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("output", nargs="+", type=pathlib.Path)
     parser.add_argument("--tolerance", type=float, default=0.002)
+    add_page_option(parser)
     options = parser.parse_args()
-    print("| patch | all, % | fewer, % | none, % | mean number | bare, % | first height | growth |\n|---|---|---|---|---|---|---|---|")
+    table = PrintedTable("Patches", ("patch", "all, %", "fewer, %", "none, %", "mean number", "bare, %", "first height", "growth"))
     agree = True
     for folder in options.output:
         for name, found, said in measure(folder):
-            shares = " | ".join(f"{100 * found[key]:.2f} ({100 * said[key]:.2f})" for key in ("full", "partial", "empty"))
+            shares = (f"{100 * found[key]:.2f} ({100 * said[key]:.2f})" for key in ("full", "partial", "empty"))
             first, growth = (" ".join(f"{value:.3f}" for value in found[key]) for key in ("first", "growth"))
-            print(f"| {name} | {shares} | {found['layers_mean']:.2f} ({said['layers_mean']:.2f}) | {100 * found['bare']:.2f} | {first} | {growth} |")
+            table.add(name, *shares, f"{found['layers_mean']:.2f} ({said['layers_mean']:.2f})", f"{100 * found['bare']:.2f}", first, growth)
             agree &= all(abs(found[key] - said[key]) <= options.tolerance for key in ("full", "partial", "empty"))
             agree &= abs(found["layers_mean"] - said["layers_mean"]) <= options.tolerance * max(1, said["layers_mean"])
+    table.save(options.page)
     if not agree:
         sys.exit("the files and the report differ")
 

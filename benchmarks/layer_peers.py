@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Boundary layers of Aeroloom, of Gmsh by extrusion and of OpenFOAM's snappyHexMesh on one wall, as a Markdown table.
 
-usage: layer_peers.py PROGRAM CASE FOLDER [--limit SECONDS] [--gmsh-layers-only]
+usage: layer_peers.py PROGRAM CASE FOLDER [--limit SECONDS] [--gmsh-layers-only] [--page FILE]
 
 CASE has a body in a far field, and `layers` with first, growth and count. Gmsh extrudes the triangles of our wall along its normals,
 with the same heights, and fills what is left up to our far field; with a plane of symmetry it makes the layers alone. snappyHexMesh gets
@@ -21,6 +21,7 @@ import sys
 import numpy
 import vtk
 from layer_coverage import read
+from printed_table import PrintedTable, add_page_option
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import layer_peers_cases as cases
@@ -61,12 +62,11 @@ def areas_of(points, triangles):
 
 
 def row_of(jacobians, covered, seconds, cells):
-    """Of the table; `covered` are the shares of the wall with all layers and with any."""
-    worst = "– | – | –"
+    """Cells of the table; `covered` are the shares of the wall with all layers and with any."""
+    worst = ("–", "–", "–")
     if len(jacobians):
-        worst = f"{jacobians.min():.3f} | {numpy.percentile(jacobians, 1):.3f} | {(jacobians <= 0).sum():,}"
-    shares = " | ".join(f"{100 * share:.2f}" for share in covered)
-    return f"{len(jacobians):,} | {shares} | {worst} | {cells:,} | {seconds}"
+        worst = (f"{jacobians.min():.3f}", f"{numpy.percentile(jacobians, 1):.3f}", f"{(jacobians <= 0).sum():,}")
+    return f"{len(jacobians):,}", *(f"{100 * share:.2f}" for share in covered), *worst, f"{cells:,}", seconds
 
 
 def timed(command, folder, log, limit, where=None):
@@ -202,6 +202,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--limit", type=float, default=900.0)
     parser.add_argument("--gmsh-layers-only", action="store_true", help="let Gmsh leave the rest empty")
+    add_page_option(parser)
     options = parser.parse_args()
     root = options.folder.resolve()
     folders = {name: root / name for name in ("ours", "gmsh", "snappy")}
@@ -211,16 +212,20 @@ def main():
                   "log.ours", options.limit, ROOT)
     wall = Wall(folders["ours"])
     part = sum(wall.stages[name] for name in ("layers", "decompose", "volume", "improve"))
-    print(f"{len(wall.walls):,} triangles of walls, median edge {wall.edge:.4g}, {len(wall.heights)} layers from {wall.heights[0]:.4g} "
-          "on\n\n| mesher | prisms and hexahedra of layers | all layers, % of the wall | any | least Jacobian | 1 % | inverted "
-          "| all cells | CPU s |\n|---|" + "---|" * 8)
+    note = (f"{len(wall.walls):,} triangles of walls, median edge {wall.edge:.4g}, {len(wall.heights)} layers from {wall.heights[0]:.4g} "
+            "on.")
+    print(f"{note}\n")
+    table = PrintedTable(options.case.stem, ("mesher", "prisms and hexahedra of layers", "all layers, % of the wall", "any",
+                                             "least Jacobian", "1 %", "inverted", "all cells", "CPU s"))
     jacobians, covered, cells = ours(folders["ours"])
-    print(f"| Aeroloom | {row_of(jacobians, covered, f'{whole:.1f} ({part:.1f})', cells)} |", flush=True)
+    table.add("Aeroloom", *row_of(jacobians, covered, f"{whole:.1f} ({part:.1f})", cells))
     jacobians, covered, seconds, cells = gmsh(folders["gmsh"], wall, options)
-    print(f"| Gmsh | {row_of(jacobians, covered, f'{seconds:.1f}', cells)} |", flush=True)
+    table.add("Gmsh", *row_of(jacobians, covered, f"{seconds:.1f}", cells))
     jacobians, others, covered, seconds, cells = snappy(folders["snappy"], wall, options)
-    print(f"| snappyHexMesh | {row_of(jacobians, covered, f'{seconds:.1f}', cells)} |\n\nsnappyHexMesh: {others:,} more cells of layers "
-          "are neither prisms nor hexahedra")
+    table.add("snappyHexMesh", *row_of(jacobians, covered, f"{seconds:.1f}", cells))
+    left = f"snappyHexMesh: {others:,} more cells of layers are neither prisms nor hexahedra"
+    print(f"\n{left}")
+    table.save(options.page, f"{note} {left}.")
 
 
 if __name__ == "__main__":

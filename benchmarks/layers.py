@@ -2,6 +2,7 @@
 """Boundary layers on every CAD file of a collection, as a Markdown table.
 
 usage: layers.py FOLDER [--program PROGRAM] [--arbiter CHECKER] [--classes AB] [--target N] [--scratch DIR]
+                 [--page FILE [--section HEADING]]
 
 FOLDER is as in real_cad.py. First height 1e-5 of the longest side of the file's box, growth 1.2, until the last layer is about
 isotropic, N tetrahedra aimed at (default 40,000). Area: percent of the walls whose columns have all layers, none, and the limit that
@@ -16,6 +17,7 @@ import subprocess
 import tempfile
 import time
 
+from printed_table import PrintedTable, add_page_option
 from real_cad import SUFFIXES, read_classes
 
 LIMIT_S = 300
@@ -52,7 +54,8 @@ def main_limit(layers):
     return max(areas, key=areas.get) if areas and max(areas.values()) > 0 else "–"
 
 
-def row(options, file, folder):
+def cells_of(options, file, folder):
+    """The part of the walls with all layers, None where there is no mesh, and the cells of the table."""
     case = folder / "case.yaml"
     case.write_text(f"geometry: {{file: '{file.resolve()}'}}\nsizing: {{target_tetrahedra: {options.target}}}\n")
     start = time.monotonic()
@@ -60,13 +63,13 @@ def row(options, file, folder):
     seconds = time.monotonic() - start
     if done.returncode != 0:
         message = next((line for line in done.stderr.splitlines() if "error" in line), "").split("error", 1)[-1]
-        return None, f"| {file.name} | – | – | – | – | – | – | {seconds:.0f} | {done.returncode}: {message[2:100]} |"
+        return None, (file.name, *"––––––", f"{seconds:.0f}", f"{done.returncode}: {message[2:100]}")
     report = json.loads((folder / "out" / "report.json").read_text())
     layers, mesh = report["layers"], report["mesh"]
     valid = verdict(options, folder, case) if options.arbiter else "–"
-    return layers["full"], (f"| {file.name} | {mesh['prisms']:,} | {mesh['tetrahedra']:,} | {100 * layers['full']:.1f} | "
-                            f"{100 * layers['empty']:.1f} | {report['quality']['min_dihedral_deg']:.1f} | {valid} | {seconds:.0f} | "
-                            f"{main_limit(layers)} |")
+    return layers["full"], (file.name, f"{mesh['prisms']:,}", f"{mesh['tetrahedra']:,}", f"{100 * layers['full']:.1f}",
+                            f"{100 * layers['empty']:.1f}", f"{report['quality']['min_dihedral_deg']:.1f}", valid, f"{seconds:.0f}",
+                            main_limit(layers))
 
 
 def main():
@@ -77,20 +80,26 @@ def main():
     parser.add_argument("--classes", default="AB")
     parser.add_argument("--target", type=int, default=40_000)
     parser.add_argument("--scratch")
+    add_page_option(parser)
+    parser.add_argument("--section", default="CAD", help="heading of the table on the page")
     options = parser.parse_args()
     classes = read_classes(options.folder)
     files = sorted(f for f in options.folder.rglob("*") if f.suffix.lower() in SUFFIXES and classes.get(f.name, "A") in options.classes)
-    print("| file | prisms | tetrahedra | all layers, % | none, % | least angle | valid | s | mostly limited by |\n|---|---|---|---|---|---|---|---|---|")
+    table = PrintedTable(options.section, ("file", "prisms", "tetrahedra", "all layers, %", "none, %", "least angle", "valid", "s",
+                                           "mostly limited by"))
     covered = []
     for file in files:
         with tempfile.TemporaryDirectory(dir=options.scratch) as folder:
             try:
-                full, text = row(options, file, pathlib.Path(folder))
+                full, cells = cells_of(options, file, pathlib.Path(folder))
             except (subprocess.TimeoutExpired, subprocess.CalledProcessError, KeyError) as error:
-                full, text = None, f"| {file.name} | – | – | – | – | – | – | – | {type(error).__name__} |"
+                full, cells = None, (file.name, *"–––––––", type(error).__name__)
         covered += [] if full is None else [full]
-        print(text, flush=True)
-    print(f"\n{len(covered)} of {len(files)} files; median of the area with all layers {100 * statistics.median(covered):.1f} %")
+        table.add(*cells)
+    median = f"{100 * statistics.median(covered):.1f} %" if covered else "unknown"
+    note = f"{len(covered)} of {len(files)} files have a mesh; median of the area with all layers: {median}."
+    print(f"\n{note}")
+    table.save(options.page, note)
 
 
 if __name__ == "__main__":

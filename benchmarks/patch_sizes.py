@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Sizes of surface meshes over those of another by distance from trailing edges, as a Markdown table.
 
-usage: patch_sizes.py THICK/surface.pvtp THIN/surface.pvtp ... [--patches]
+usage: patch_sizes.py THICK/surface.pvtp THIN/surface.pvtp ... [--patches] [--page FILE]
 
 All are meshes of one aircraft whose trailing edges differ: THICK's patches that end in `trailing_edge` say where these
 are. The size of a triangle is the mean of its edges; compared are its averages by area over triangles of one patch, by
@@ -15,6 +15,7 @@ import pathlib
 
 import numpy
 import vtk
+from printed_table import PrintedTable, add_page_option
 from vtk.util.numpy_support import vtk_to_numpy
 
 EDGES = [0, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]
@@ -108,7 +109,7 @@ def summary(label, rows):
     columns = [[row[4][k] for row in rows if row[4][k] is not None] for k in range(len(EDGES) - 1)]
     away = [ratio for low, column in zip(EDGES, columns) if low >= AWAY for ratio in column]
     medians = [show(numpy.median(column)) if column else "–" for column in columns]
-    return f"| {label} | " + " | ".join([*medians, show(numpy.median(away)), f"{min(away):.2f} – {max(away):.2f}"]) + " |"
+    return label, *medians, show(numpy.median(away)), f"{min(away):.2f} – {max(away):.2f}"
 
 
 def main():
@@ -116,6 +117,7 @@ def main():
     parser.add_argument("thick")
     parser.add_argument("thin", nargs="+")
     parser.add_argument("--patches", action="store_true", help="a table of patches for each THIN first")
+    add_page_option(parser)
     options = parser.parse_args()
     surface = read(options.thick)
     locator, strips = trailing_edges(surface)
@@ -129,8 +131,10 @@ def main():
         if options.patches:
             print_patches(rows)
         lines.append(summary(pathlib.Path(path).parent.name, rows))
-    print("| mesh | " + " | ".join(f"to {high:g}" for high in EDGES[1:]) + f" | from {AWAY:g}: median | least – largest |\n"
-          + "|---" * (2 + len(EDGES)) + "|\n" + "\n".join(lines))
+    table = PrintedTable("Sizes", ("mesh", *(f"to {high:g}" for high in EDGES[1:]), f"from {AWAY:g}: median", "least – largest"))
+    for line in lines:
+        table.add(*line)
+    table.save(options.page)
 
 
 if __name__ == "__main__":

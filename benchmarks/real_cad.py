@@ -17,6 +17,8 @@ import subprocess
 import tempfile
 import time
 
+from printed_table import PrintedTable, add_page_option
+
 SUFFIXES = {".step", ".stp", ".igs", ".iges", ".brep", ".stl", ".obj", ".off", ".ply", ".poly", ".smesh"}
 LIMIT_S = 300
 
@@ -85,13 +87,14 @@ def mesh_file(options, file, kind):
                    report["quality"]["min_dihedral_deg"], least_angle_apart(report), seconds, sizing, memory, report["mesh"]["hash"], "")
 
 
-def print_row(row, folder):
+def cells_of(row, folder):
     outcome = {True: "valid", None: "mesh", False: "INVALID"}[row.valid] if row.code == 0 else f"exit {row.code}"
-    figures = f"{row.tetrahedra:,} | {row.angle:.1f} | {row.apart} | {row.seconds:.0f} | {row.sizing:.1f} | {row.memory / 2**30:.1f} | {row.hash[:8]}"
+    figures = (f"{row.tetrahedra:,}", f"{row.angle:.1f}", row.apart, f"{row.seconds:.0f}", f"{row.sizing:.1f}",
+               f"{row.memory / 2**30:.1f}", row.hash[:8])
     if row.code != 0:
-        figures = f"| | | {row.seconds:.0f} | | |"
+        figures = ("", "", "", f"{row.seconds:.0f}", "", "", "")
     message = row.message.replace(f"{folder}/", "").replace("|", "/")
-    print(f"| {row.name} | {row.kind} | {outcome} | {figures} | {message} |", flush=True)
+    return row.name, row.kind, outcome, *figures, message
 
 
 def main():
@@ -106,23 +109,27 @@ def main():
     parser.add_argument("--classes", default="ABC")
     parser.add_argument("--keep", help="folder for the outputs")
     parser.add_argument("--scratch", help="folder for what is deleted afterwards")
+    add_page_option(parser)
+    parser.add_argument("--section", default="CAD", help="heading of the table on the page")
     options = parser.parse_args()
 
     classes = read_classes(options.folder)
     files = sorted(f for f in options.folder.rglob("*") if f.suffix.lower() in SUFFIXES)
     files = [f for f in files if not options.only or f.name in options.only]
     files = [f for f in files if classes.get(f.name, options.classes[0]) in options.classes]
-    print("| file | class | outcome | tetrahedra | smallest dihedral | apart from CAD and features | s | of it sizing | GiB | hash | message |")
-    print("|---" * 11 + "|")
+    table = PrintedTable(options.section, ("file", "class", "outcome", "tetrahedra", "smallest dihedral", "apart from CAD and features",
+                                           "s", "of it sizing", "GiB", "hash", "message"))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         work = [pool.submit(mesh_file, options, f, classes.get(f.name, "")) for f in files]
         rows = [None] * len(work)
         for i, each in enumerate(work):
             rows[i] = each.result()
-            print_row(rows[i], str(files[i].parent))
+            table.add(*cells_of(rows[i], str(files[i].parent)))
     meshable = [row for row in rows if row.kind in "AB"]
     good = sum(row.code == 0 and row.valid is not False for row in meshable)
-    print(f"\n{good} of {len(meshable)} files that are to mesh do; longest run {max(r.seconds for r in rows):.0f} s.")
+    note = f"{good} of {len(meshable)} files that are to mesh do; longest run {max(r.seconds for r in rows):.0f} s."
+    print(f"\n{note}")
+    table.save(options.page, note)
 
 
 if __name__ == "__main__":

@@ -84,7 +84,7 @@ inline constexpr double interpolated = 1e-7;
 inline constexpr double better_pace = 0.1;
 /// What faces are sewn with, one after the other (of the diagonal of those that do not close). Three quarters
 /// of the real files with gaps close at the first, all but one at the third; the fourth is there for that
-/// one, a turbine blade with gaps of 1.1e-4 of its length and a sound model otherwise (docs/real_cad.md).
+/// one, a turbine blade with gaps of 1.1e-4 of its length and a sound model otherwise (docs/cad_repair.md).
 inline constexpr double sewing[] = {1e-7, 1e-6, 1e-5, 1e-4};
 /// Sewn with more, the log says that gaps were wide: between the third of `sewing` and the fourth.
 inline constexpr double cautioned_sewing = 2e-5;
@@ -135,7 +135,7 @@ inline constexpr double uniting[] = {1e-7, 1e-6, 1e-5};
 // Areas and volumes, relative. Areas of FacePlace and of the diagnosis are good to `area_precision`
 // (model/model_data.hpp).
 
-/// The CAD library's volumes of trimmed spline solids are right to about this (docs/real_cad.md); a boolean
+/// The CAD library's volumes of trimmed spline solids are right to about this (docs/cad_repair.md); a boolean
 /// operation gone wrong is off by a body.
 inline constexpr double integrated_volume = 2e-3;
 /// Far field, bodies and fluid add up to this, of the bodies. Less than `integrated_volume`: no boolean

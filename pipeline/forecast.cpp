@@ -38,7 +38,7 @@ constexpr std::array<StageShare, 5> stage_shares{{{"decompose", nullptr, 1.0e-6,
                                                   {"output", nullptr, 0.4e-6, 0}}};
 
 /// Of what layers add to the seconds of a run, the share of their own stage: 6.1 s for the 7 million prisms
-/// of the DLR-F6, which are taken to add 21 (docs/boundary_layers.md). Checks and files have the rest.
+/// of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the rest.
 constexpr double share_of_layer_stage = 0.3;
 
 /// What a run is predicted to make and to hold, layers included, all ranks together but for what each starts

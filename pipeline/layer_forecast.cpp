@@ -23,7 +23,7 @@ using geometry::Vec3;
 using sizing::Triangle;
 using Json = nlohmann::ordered_json;
 
-// What a prism of layers adds to a run, cut into tetrahedra or not (docs/boundary_layers.md).
+// What a prism of layers adds to a run, cut into tetrahedra or not (benchmarks/results/layers.md).
 constexpr double seconds_per_prism = 3e-6, bytes_per_prism = 75;
 
 constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times 1/h^2

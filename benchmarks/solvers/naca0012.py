@@ -3,6 +3,7 @@
 layers and on a C-grid of blockMesh, with the same domain, schemes and wall functions.
 
 usage: naca0012.py FOLDER [--angle 10] [--steps 3000] [--y-plus 30] [--program AEROLOOM] [--report]
+                   [--page FILE]
 
 The run on the C-grid starts from a uniform flow, that on the other mesh, whose steps are dearer, from the C-grid's flow; each is one
 process. Called again, they go on from their last written step. Needs OpenFOAM v1912 or later, Gmsh, which makes the CAD, and Python's
@@ -17,6 +18,9 @@ import naca0012_grids as grids
 import simple_case
 import start_from
 from potential_flow import ROOT, run
+
+sys.path.append(str(ROOT / "benchmarks"))
+from printed_table import PrintedTable, add_page_option  # noqa: E402
 
 LAST = 300
 STEADY, LIFT_SHARE, DRAG_SHARE = 0.005, 0.03, 0.10
@@ -91,13 +95,15 @@ def figures(folder):
 
 def report(found, options):
     """The table and the line RESULT; whether all held."""
-    print("| grid | cells | step | lift | its spread | drag | its spread | y+ mean | least | most |\n|---|" + "---|" * 9)
+    table = PrintedTable(f"{options.angle:g} degrees", ("grid", "cells", "step", "lift", "its spread", "drag", "its spread", "y+ mean", "least",
+                                                        "most"))
     for name, row in found.items():
-        print(f"| {name} | {row['cells']:,} | {row['step']} | {row['lift']:.4f} | {100 * row['lift_spread']:.2f} % | "
-              f"{row['drag']:.5f} | {100 * row['drag_spread']:.2f} % | {row['y_mean']:.1f} | {row['y_least']:.1f} | "
-              f"{row['y_most']:.1f} |")
+        table.add(name, f"{row['cells']:,}", row["step"], f"{row['lift']:.4f}", f"{100 * row['lift_spread']:.2f} %", f"{row['drag']:.5f}",
+                  f"{100 * row['drag_spread']:.2f} %", f"{row['y_mean']:.1f}", f"{row['y_least']:.1f}", f"{row['y_most']:.1f}")
     if options.angle in NASA:
-        print(f"| NASA | | | {NASA[options.angle][0]} | | {NASA[options.angle][1]} | | | | |")
+        lift, drag = NASA[options.angle]
+        table.add("NASA", "", "", lift, "", drag)
+    table.save(options.page)
     ours, theirs = found["layers"], found["c_grid"]
     with_lift = abs(theirs["lift"]) > 0.1
     lift_off = ours["lift"] / theirs["lift"] - 1 if with_lift else ours["lift"] - theirs["lift"]
@@ -117,6 +123,7 @@ def main():
     parser.add_argument("--y-plus", type=float, default=30.0, help="of the first cell's centre")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/aeroloom")
     parser.add_argument("--report", action="store_true", help="only read what runs have written so far")
+    add_page_option(parser)
     options = parser.parse_args()
     if options.steps < 100 or options.steps % 100:
         parser.error(f"--steps {options.steps} is no multiple of 100")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What Code_Saturne says of a mesh: its preprocessor reads the CGNS file, its solver judges the cells.
 
-usage: saturne_quality.py MESH FOLDER [--program AEROLOOM] [--tools DIR]
+usage: saturne_quality.py MESH FOLDER [--program AEROLOOM] [--tools DIR] [--page FILE]
 
 MESH is anything that `aeroloom convert` reads, a CGNS file included. Needs Debian's package code-saturne. Ends with a line RESULT; the
 exit code says whether all volumes are positive, no cell fails the criterion of orthogonality and the coherency check was passed.
@@ -12,6 +12,9 @@ import re
 import sys
 
 from potential_flow import ROOT, run
+
+sys.path.append(str(ROOT / "benchmarks"))
+from printed_table import PrintedTable, add_page_option  # noqa: E402
 
 
 def range_of(log, title):
@@ -26,6 +29,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/aeroloom")
     parser.add_argument("--tools", type=pathlib.Path, default=pathlib.Path("/usr/lib/code_saturne"))
+    add_page_option(parser)
     options = parser.parse_args()
     folder = options.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
@@ -41,15 +45,18 @@ def main():
     volumes = [float(re.search(rf"{word} += +(\S+)", log).group(1)) for word in (
         "Minimum control volume", "Maximum control volume", "Total volume for the domain")]
     criteria = re.findall(r"Criterion \d: (.+):\n +Number of bad cells detected: (\d+)", log)
-    print("| criterion | bad cells | share |\n|---|---|---|")
+    table = PrintedTable("Bad cells", ("criterion", "bad cells", "share"))
     for name, count in criteria:
-        print(f"| {name} | {int(count):,} | {100 * int(count) / cells:.2f} % |")
-    print("\n| quantity | least | most |\n|---|---|---|")
+        table.add(name, f"{int(count):,}", f"{100 * int(count) / cells:.2f} %")
+    table.save(options.page)
+    print()
+    table = PrintedTable("Ranges", ("quantity", "least", "most"))
     for title in ("the interior faces non-orthogonality coefficient", "the boundary faces non-orthogonality coefficient",
                   "the interior faces warping", "the interior faces weighting coefficient",
                   "the cells off-centering coefficient", "the cellwise warping error"):
         low, high = range_of(log, title)
-        print(f"| {title.removeprefix('the ')} | {low:.4g} | {high:.4g} |")
+        table.add(title.removeprefix("the "), f"{low:.4g}", f"{high:.4g}")
+    table.save(options.page)
     bad = dict(criteria)
     coherent = "End of coherency check" in log
     print(f"RESULT cells={cells} least_volume={volumes[0]:.6g} most_volume={volumes[1]:.6g} volume={volumes[2]:.8g} "

@@ -15,14 +15,14 @@
 namespace aeroloom::sizing {
 namespace {
 
-/// The finest size of a feature, over the minimum (docs/trailing_edges.md). Chosen, not
+/// The finest size of a feature, over the minimum (docs/cad_repair.md). Chosen, not
 /// measured.
 constexpr double finest_over_minimum = 1e-3;
 /// At short edges and sharp corners, over the minimum. Chosen, not measured.
 constexpr double finest_point = 0.05;
 /// Of the widest gap that was sewn: narrower features may be what sewing left. Chosen, not measured.
 constexpr double finest_over_gap = 0.5;
-// Of the budget: forecasts are 10 to 14 % too low where strips take most of a mesh (docs/trailing_edges.md).
+// Of the budget: forecasts are 10 to 14 % too low where strips take most of a mesh (docs/cad_repair.md).
 constexpr double aim = 0.9;
 // Values are tried on a logarithmic scale: steps of 4 %, up to a factor of a thousand.
 constexpr int steps_per_octave = 16, last_step = 160;

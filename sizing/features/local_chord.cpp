@@ -71,7 +71,7 @@ Section section_of(const Skin& skin, const SectionPlane& plane, double width) {
 }  // namespace
 
 double local_chord(const Skin& skin, const ChordPlace& at) {
-  // Planes tilted by up to 40 degrees either way: edges are swept (docs/trailing_edges.md).
+  // Planes tilted by up to 40 degrees either way: edges are swept (docs/cad_repair.md).
   constexpr int tilts = 4;
   constexpr double step = 10 * std::numbers::pi / 180;
   const Vec3 ahead = normalized(at.into - dot(at.into, at.along) * at.along);

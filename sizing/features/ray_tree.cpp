@@ -13,7 +13,7 @@ using geometry::Vec3;
 using Frame = std::array<Vec3, 3>;
 
 // Numbers of this file were chosen, not measured one by one; the bundle of pipes that they are for is
-// measured in docs/real_cad.md.
+// measured in benchmarks/results/many_faces.md.
 
 constexpr std::int32_t boxes_per_leaf = 4;
 // Areas of the sides of a box over the area of the triangle in it, from which on it is cut, at most so often;

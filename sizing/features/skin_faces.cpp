@@ -29,7 +29,7 @@ bool is_valley(const cad::Model& model, cad::FaceId face, cad::FaceId other, con
 std::set<cad::FaceId> skin_faces(const cad::Model& model, std::span<const cad::FaceId> first,
                                  cad::FaceId strip, Kinks kinks) {
   // Degrees: a skin goes on beyond an edge that turns by less, but for tips and noses
-  // (docs/trailing_edges.md).
+  // (docs/cad_repair.md).
   constexpr double largest_kink = 50;
   // Degrees: planform kinks and patches that fit badly turn by less. Chosen, not measured.
   constexpr double deepest_valley = 15;
