@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""What breaks a run on several hosts, and what is left: the table of docs/clusters.md. Needs root and `scripts/setup.sh --cluster`.
+"""What breaks a run on several hosts, and what is left: the table of benchmarks/results/cluster_failures.md. Needs root and `scripts/setup.sh --cluster`.
 
 usage: cluster_failures.py PROGRAM [--only WORD] [--launcher NAME] [--limit 120] [--slurm KEY=VALUE] [--mca KEY=VALUE]
-           [--sysctl KEY=VALUE] [--verbose]
+           [--sysctl KEY=VALUE] [--verbose] [--page FILE]
 A cluster of three hosts is made for each row, and a run of four ranks on it is harmed once its surface is there. Prints Markdown.
 """
 import argparse
@@ -18,6 +18,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(SOURCE / "tests" / "cluster"))
 from cluster import SHARED, Cluster, obstacle  # noqa: E402
 from cluster_test import block, left_on, prepare  # noqa: E402
+from printed_table import PrintedTable, add_page_option  # noqa: E402
 
 REQUEUED = "mpirun, requeued"
 LAUNCHERS = ["srun", "mpirun", REQUEUED]
@@ -173,18 +174,21 @@ def main():
     parser.add_argument("--sysctl", action="append", default=[])
     parser.add_argument("--mca", action="append", default=[])
     parser.add_argument("--verbose", action="store_true")
+    add_page_option(parser)
     arguments = parser.parse_args()
     if why := obstacle():
         sys.exit(why)
     for pair in arguments.mca:
         key, value = pair.split("=", 1)
         os.environ[f"OMPI_MCA_{key}"] = value
-    print("| what | launcher | ranks gone after s | job over | exit code, state | hosts clean | last words |\n|---|---|---|---|---|---|---|")
+    table = PrintedTable("Faults", ("fault", "launcher", "ranks gone after s", "job over after s", "exit code, state",
+                                    "hosts clean after s", "last words"))
     for name in HARM:
         for launcher in arguments.launcher or LAUNCHERS:
             told = "B:" not in name if launcher == "srun" else launcher == "mpirun" or name == "power lost"
             if arguments.only in name and told:
-                print(f"| {name} | {launcher} | {' | '.join(measure(arguments.program, launcher, name, arguments))} |", flush=True)
+                table.add(name, launcher, *measure(arguments.program, launcher, name, arguments))
+    table.save(arguments.page)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tetrahedra with two or more faces on the boundary, in meshes as written (.pvtu, .vtu).
 
-usage: corners.py MESH ... [--places N]
+usage: corners.py MESH ... [--places N] [--page FILE]
 
 Such a tetrahedron fills the angle between two of its faces on the boundary alone. `forced`: that angle, degrees, is below
 twice the target (--target, 28), so that no two of the target's angle fit; `narrow`: it is below 70. `shared faces`
@@ -12,6 +12,8 @@ import argparse
 import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
+
+from printed_table import PrintedTable, add_page_option
 
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))  # opposite to each corner
 TETRAHEDRON = 10
@@ -63,7 +65,11 @@ def main():
     parser.add_argument("meshes", nargs="+")
     parser.add_argument("--target", type=float, default=28)
     parser.add_argument("--places", type=int, default=0, help="print so many that are not forced")
+    add_page_option(parser)
     options = parser.parse_args()
+    table = PrintedTable("Tetrahedra with several faces on the boundary", ("mesh", "tetrahedra", "least angle", "several faces", "forced",
+                                                                           "narrow", "others"))
+    places = []
     for name in options.meshes:
         points, tets, regions = read(name)
         sides = boundary_sides(tets, regions)
@@ -76,13 +82,16 @@ def main():
         pairs = sides[several][:, :, None] & sides[several][:, None, :] & ~np.eye(4, dtype=bool)
         wedge = np.where(pairs, angles, 180).min(axis=(1, 2)) if len(several) else np.zeros(0)
         forced, narrow = wedge < 2 * options.target, wedge < 70
-        print(f"{name}: {len(tets)} tetrahedra, least angle {least:.2f}, {len(several)} with several faces on the "
-              f"boundary, {forced.sum()} forced, {(narrow & ~forced).sum()} narrow, {(~narrow & ~forced).sum()} others")
+        table.add(name, f"{len(tets):,}", f"{least:.2f}", len(several), forced.sum(), (narrow & ~forced).sum(),
+                  (~narrow & ~forced).sum())
         for i in np.flatnonzero(~forced)[:options.places]:
             place = points[tets[several[i]]].mean(axis=0)
             own = np.where(np.eye(4, dtype=bool), 180, angles[i]).min()
-            print(f"  {sides[several[i]].sum()} faces, wedge {wedge[i]:.1f}, least angle {own:.1f}, at "
-                  f"{place[0]:.8g} {place[1]:.8g} {place[2]:.8g}")
+            places.append(f"{name}: {sides[several[i]].sum()} faces, wedge {wedge[i]:.1f}, least angle {own:.1f}, at "
+                          f"{place[0]:.8g} {place[1]:.8g} {place[2]:.8g}")
+    table.save(options.page)
+    if places:
+        print("\n" + "\n".join(places))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What `aeroloom check` forecasts of cases against their runs on one rank, as a Markdown table.
 
-usage: forecasts.py PROGRAM CASE ... [-- KEY=VALUE ...]
+usage: forecasts.py PROGRAM CASE ... [--page FILE] [-- KEY=VALUE ...]
 
 Ratios are forecast over run: triangles, tetrahedra, memory (the most that the program and its children occupied in any stage), and
 seconds of CPU, which on one rank are those of the clock; pictures left out. The last row counts the cases whose tetrahedra are within
@@ -14,6 +14,8 @@ import resource
 import subprocess
 import sys
 import tempfile
+
+from printed_table import PrintedTable, add_page_option
 
 BARS = {"tetrahedra": 1.15, "memory": 1.25, "time": 1.4}
 
@@ -55,16 +57,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("cases", nargs="+")
+    add_page_option(parser)
     arguments = parser.parse_args(words[:at])
-    print("| case | tetrahedra | triangles | tetrahedra | memory | time |\n|---|---|---|---|---|---|")
+    table = PrintedTable("Forecast over run", ("case", "tetrahedra of the run", "triangles", "tetrahedra", "memory", "time"))
     within = dict.fromkeys(BARS, 0)
     for case in arguments.cases:
         count, found = ratios(arguments.program, case, words[at + 1:])
         for name, bar in BARS.items():
             within[name] += 1 / bar <= found[name] <= bar
-        print(f"| {pathlib.Path(case).stem} | {count:,} | " + " | ".join(f"{ratio:.2f}" for ratio in found.values()) + " |", flush=True)
-    counts = " | ".join(f"{within[name]} of {len(arguments.cases)} within {BARS[name] - 1:.0%}" for name in BARS)
-    print(f"| all | | | {counts} |")
+        table.add(pathlib.Path(case).stem, f"{count:,}", *(f"{ratio:.2f}" for ratio in found.values()))
+    table.add("all", "", "", *(f"{within[name]} of {len(arguments.cases)} within {BARS[name] - 1:.0%}" for name in BARS))
+    table.save(arguments.page)
 
 
 if __name__ == "__main__":

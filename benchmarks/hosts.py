@@ -2,7 +2,7 @@
 """A run on hosts of one rank each with limited links, beside the same run on one host through shared memory, as Markdown tables:
 seconds and bytes of each stage, and the bytes that the program counted beside those that the links counted.
 
-usage: hosts.py PROGRAM CASE [--hosts 4] [--rate 1gbit] [--repeats 3]
+usage: hosts.py PROGRAM CASE [--hosts 4] [--rate 1gbit] [--repeats 3] [--page FILE]
 
 The hosts are made on this machine (tests/cluster/cluster.py: root, slurm-wlm, munge), so they share its processors: seconds say
 what links cost, not what more processors bring. Of each kind the run with the median of the seconds is shown. Links are read a
@@ -25,6 +25,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests" / "cluster"), str(ROOT / "tests" / "pipeline")]
 from cluster import SHARED, Cluster, obstacle  # noqa: E402
+from printed_table import PrintedTable, add_page_option  # noqa: E402
 
 PLAIN = ["--set", "output.pictures=false"]
 
@@ -103,6 +104,7 @@ def main():
     parser.add_argument("--hosts", type=int, default=4)
     parser.add_argument("--rate", default="1gbit")
     parser.add_argument("--repeats", type=int, default=3)
+    add_page_option(parser)
     options = parser.parse_args()
     if why := obstacle():
         sys.exit(f"hosts.py: {why}")
@@ -123,13 +125,15 @@ def main():
     links, carried, total = median(there, lambda run: run[0])
     assert memory["mesh"]["hash"] == links["mesh"]["hash"]
     mesh = links["mesh"]
-    print(f"{mesh['tetrahedra']:,} tetrahedra, {options.hosts} ranks, {options.rate}, hash {mesh['hash'][:8]}\n")
-    print("| stage | shared memory, s | links, s | MB counted | MB of the links |\n|---|---|---|---|---|")
+    note = f"{mesh['tetrahedra']:,} tetrahedra, {options.hosts} ranks, {options.rate}, hash {mesh['hash'][:8]}"
+    print(f"{note}\n")
+    table = PrintedTable("Stages", ("stage", "shared memory, s", "links, s", "MB counted", "MB of the links"))
     for one, other, bytes_ in zip(memory["stages"], links["stages"], carried):
-        print(f"| {one['name']} | {one['wall_seconds']:.2f} | {other['wall_seconds']:.2f} | {counted(other) / 1e6:.1f} "
-              f"| {bytes_ / 1e6:.1f} |")
+        table.add(one["name"], f"{one['wall_seconds']:.2f}", f"{other['wall_seconds']:.2f}", f"{counted(other) / 1e6:.1f}",
+                  f"{bytes_ / 1e6:.1f}")
     seconds = [sum(s["wall_seconds"] for s in report["stages"]) for report in (memory, links)]
-    print(f"| all | {seconds[0]:.2f} | {seconds[1]:.2f} | {sum(map(counted, links['stages'])) / 1e6:.1f} | {total / 1e6:.1f} |")
+    table.add("all", f"{seconds[0]:.2f}", f"{seconds[1]:.2f}", f"{sum(map(counted, links['stages'])) / 1e6:.1f}", f"{total / 1e6:.1f}")
+    table.save(options.page, note)
 
 
 if __name__ == "__main__":

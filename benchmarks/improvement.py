@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Angles of the finished mesh, side by side with Gmsh, as a Markdown table.
 
-usage: improvement.py PROGRAM CASE ... [-- KEY=VALUE ...]
+usage: improvement.py PROGRAM CASE ... [--page FILE] [-- KEY=VALUE ...]
 
 Each case runs on one rank. Gmsh gets the same surface mesh and fills it with its HXT algorithm and with its default
 (-algo del3d -optimize_netgen stays off: what `gmsh -3` does), sizes extended from the surface and scaled until the
@@ -18,6 +18,8 @@ import sys
 import tempfile
 
 import vtk
+
+from printed_table import PrintedTable, take_page_option
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -75,18 +77,17 @@ def judge(program, file, folder):
     return json.loads(report.read_text())
 
 
-def row(name, report, cpu):
+def add_row(table, name, report, cpu):
     if report is None:
-        print(f"| {name} | failed | | | | | | | | | |", flush=True)
+        table.add(name, "failed")
         return
     quality, count = report["quality"], report["mesh"]["tetrahedra"]
     smallest = quality["min_dihedral"]["histogram"]["counts"]
     largest = quality["max_dihedral"]["histogram"]["counts"]  # bins of two degrees
     per_million = [1e6 * n / count for n in (sum(smallest[:5]), sum(smallest[:10]), sum(largest[80:]))]
-    print(f"| {name} | {count:,} | {quality['min_dihedral_deg']:.1f} | {quality['max_dihedral_deg']:.1f} | "
-          + " | ".join(f"{n:.1f}" for n in per_million)
-          + f" | {quality['min_dihedral']['percentile_0.1']:.1f} | {quality['min_mean_ratio']:.2f} | "
-          f"{quality['mean_mean_ratio']:.3f} | {cpu:.2f} | {count / cpu / 1e6:.2f} |", flush=True)
+    table.add(name, f"{count:,}", f"{quality['min_dihedral_deg']:.1f}", f"{quality['max_dihedral_deg']:.1f}",
+              *(f"{n:.1f}" for n in per_million), f"{quality['min_dihedral']['percentile_0.1']:.1f}",
+              f"{quality['min_mean_ratio']:.2f}", f"{quality['mean_mean_ratio']:.3f}", f"{cpu:.2f}", f"{count / cpu / 1e6:.2f}")
 
 
 def main():
@@ -94,16 +95,17 @@ def main():
     if "--" in arguments:
         settings = arguments[arguments.index("--") + 1:]
         arguments = arguments[:arguments.index("--")]
+    arguments, page = take_page_option(arguments)
     program = os.path.abspath(arguments[0])
-    print("| mesh | tetrahedra | smallest | largest | < 10 /M | < 20 /M | > 160 /M | 0.1 % | mean ratio, least | "
-          "average | CPU s | Mtets/s |\n|" + "---|" * 12)
+    table = PrintedTable("Beside Gmsh", ("mesh", "tetrahedra", "smallest", "largest", "< 10 /M", "< 20 /M", "> 160 /M", "0.1 %",
+                                         "mean ratio, least", "average", "CPU s", "Mtets/s"))
     for case in arguments[1:]:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             report = ours(program, os.path.abspath(case), settings, folder / "ours")
             stages = {s["name"]: s["cpu_seconds_mean"] * report["ranks"] for s in report["stages"]}
             label = pathlib.Path(case).stem.removeprefix("improve_")
-            row(f"{label}: Aeroloom", report, stages["volume"] + stages["improve"])
+            add_row(table, f"{label}: Aeroloom", report, stages["volume"] + stages["improve"])
             write_msh(folder / "ours" / "surface.pvtp", folder / "surface.msh")
             largest = re.search(r"maximum: ([\d.e+-]+)", report["configuration"][report["configuration"].index("sizing"):])
             largest = float(largest.group(1)) if largest else 1e22
@@ -115,7 +117,8 @@ def main():
                     if theirs is None or abs(theirs["mesh"]["tetrahedra"] / report["mesh"]["tetrahedra"] - 1) < 0.1:
                         break
                     factor *= (theirs["mesh"]["tetrahedra"] / report["mesh"]["tetrahedra"]) ** (1 / 3)
-                row(f"{label}: {title}", theirs, cpu)
+                add_row(table, f"{label}: {title}", theirs, cpu)
+    table.save(page)
 
 
 if __name__ == "__main__":

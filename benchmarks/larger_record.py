@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A record of a larger run than any at hand, drawn from records of smaller ones, and what it predicts.
 
-usage: larger_record.py PROGRAM TETRAHEDRA[,...] RANKS[,...] RECORD RECORD [RECORD ...] [-- OPTION ...]
+usage: larger_record.py PROGRAM TETRAHEDRA[,...] RANKS[,...] RECORD RECORD [RECORD ...] [--page FILE] [-- OPTION ...]
 
 A record is the output folder of a run: report.json and tasks.csv. All records are runs of one case on one number of ranks, with
 sizes ever smaller. Serial, repeated and other work, exchanges and memory of each stage are fitted over the records by
@@ -18,6 +18,8 @@ import random
 import subprocess
 import sys
 import tempfile
+
+from printed_table import PrintedTable, take_page_option
 
 POWERS = (0, 1 / 3, 1 / 2, 2 / 3, 1)
 SERIAL, REPEATED, DIVISIBLE, MEMORY = "serial", "repeated", "divisible", "own memory"
@@ -167,15 +169,17 @@ def larger(records, n, folder):
     return fits
 
 
-def print_fits(records, fits):
-    print("| stage | seconds | " + " | ".join(f"{r.n:.3g}" for r in records) + " | fit | largest error |\n|---|---|" + "---|" * (len(records) + 2))
+def tabulate_fits(records, fits, page):
+    table = PrintedTable("Fits", ("stage", "seconds", *(f"{r.n:.3g}" for r in records), "fit", "largest error"))
     for name, what, fit in fits:
         values = [r.seconds(next(s for s in r.stages if s["name"] == name))[what] for r in records]
         if max(values) >= 0.01:
-            print(f"| {name} | {what} | " + " | ".join(f"{v:.3f}" for v in values) + f" | {fit} | {100 * fit.error:.0f} % |")
+            table.add(name, what, *(f"{v:.3f}" for v in values), fit, f"{100 * fit.error:.0f} %")
+    table.save(page)
+    print()
 
 
-def print_predictions(program, folder, n, many, options):
+def add_predictions(table, program, folder, n, many, options):
     subprocess.run([program, "scaling", "--predict", str(folder), "--ranks", many, *options], check=True, capture_output=True)
     for row in json.loads((folder / "prediction.json").read_text())["rows"]:
         geometry = next(stage for stage in row["stages"] if stage["name"] == "geometry")
@@ -184,29 +188,31 @@ def print_predictions(program, folder, n, many, options):
         of_geometry = geometry["seconds"] - geometry["losses"]["communication"]
         losses = {key: value - geometry["losses"][key] for key, value in row["losses"].items()}
         worst = sorted(losses.items(), key=lambda item: -item[1])[:3]
-        print(f"| {n:.3g} | {row['ranks']} | {row['seconds']:.1f} | {100 * row['efficiency']:.0f} % | "
-              f"{100 * (alone - of_geometry) / apart / row['ranks']:.0f} % | "
-              + ", ".join(f"{key} {value:.2f}" for key, value in worst) + " |")
+        table.add(f"{n:.3g}", row["ranks"], f"{row['seconds']:.1f}", f"{100 * row['efficiency']:.0f} %",
+                  f"{100 * (alone - of_geometry) / apart / row['ranks']:.0f} %",
+                  ", ".join(f"{key} {value:.2f}" for key, value in worst))
 
 
 def main():
     arguments = sys.argv[1:]
     options = arguments[arguments.index("--") + 1:] if "--" in arguments else []
     arguments = arguments[:arguments.index("--")] if "--" in arguments else arguments
+    arguments, page = take_page_option(arguments)
     if len(arguments) < 5:
         sys.exit(__doc__)
     program, sizes, many = arguments[:3]
     records = sorted((Record(pathlib.Path(folder)) for folder in arguments[3:]), key=lambda r: r.n)
-    table = []
+    table = None
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for size in sizes.split(","):
             fits = larger(records, float(size), folder)
-            if not table:
-                print_fits(records, fits)
-                print("\n| tetrahedra | ranks | seconds | efficiency | geometry apart | largest losses, geometry apart, s |\n|---|---|---|---|---|---|")
-            table.append(size)
-            print_predictions(program, folder, float(size), many, options)
+            if table is None:
+                tabulate_fits(records, fits, page)
+                table = PrintedTable("Predictions", ("tetrahedra", "ranks", "seconds", "efficiency", "geometry apart",
+                                                     "largest losses, geometry apart, s"))
+            add_predictions(table, program, folder, float(size), many, options)
+    table.save(page)
 
 
 if __name__ == "__main__":

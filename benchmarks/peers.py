@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The same CAD at the same sizes by Aeroloom and by the usual meshers, as Markdown tables; losses stand beside wins.
 
-usage: peers.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N] [--limit SECONDS] [--tries N] [--only PEER ...]
+usage: peers.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N] [--limit SECONDS] [--tries N] [--only PEER ...] [--page FILE]
 
 For each case: Aeroloom; Gmsh with its default algorithm and with HXT on one thread, and Netgen, on the domain that our program
 exports as STEP, with our bounds of sizes and curvature, scaled until the numbers of tetrahedra are within a sixth of each other
@@ -25,6 +25,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from printed_table import PrintedTable, add_page_option
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NEAR = (0.86, 1.17)
@@ -245,13 +247,13 @@ def matched(mesh, options, folder, sizes, wanted):
 def row(case, peer, ranks, found, judged):
     rate = judged["tetrahedra"] / found["wall"] / ranks
     memory = found["memory"] / 2**20
-    return (f"| {case} | {peer} | {judged['tetrahedra']:,} | {found['wall']:.1f} | {rate:,.0f} | {memory:,.0f} | "
-            f"{judged['least']:.2f} | {judged['p01']:.1f} | {judged['p1']:.1f} | {judged['largest']:.1f} | "
-            f"{judged['ratio']:.3f} | {found['verdict']} | {found['stages']} |")
+    return (case, peer, f"{judged['tetrahedra']:,}", f"{found['wall']:.1f}", f"{rate:,.0f}", f"{memory:,.0f}",
+            f"{judged['least']:.2f}", f"{judged['p01']:.1f}", f"{judged['p1']:.1f}", f"{judged['largest']:.1f}",
+            f"{judged['ratio']:.3f}", found["verdict"], found["stages"])
 
 
-def compare(options, case):
-    """Rows of the first table, as they come, and those of the second."""
+def compare(options, case, table):
+    """Adds the rows of the first table as they come, and returns those of the second."""
     label, said = pathlib.Path(case).stem.removeprefix("peers_"), []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -260,8 +262,8 @@ def compare(options, case):
         found = ours(options, case, mine)
         judged = measures(quality(options, found["file"], mine))
         found["verdict"] = arbitrate(options, found["file"], mine)
-        print(row(label, "Aeroloom", options.ranks, found, judged), flush=True)
-        said.append(f"| {label} | Aeroloom | " + " | ".join(solvers(options, found["file"], mine)) + " |")
+        table.add(*row(label, "Aeroloom", options.ranks, found, judged))
+        said.append((label, "Aeroloom", *solvers(options, found["file"], mine)))
         call([options.program, "export-cad", os.path.abspath(case), folder / "domain.step", "--domain"], folder,
              options.limit, where=ROOT)
         sizes = in_millimetres(found["report"])
@@ -281,10 +283,10 @@ def compare(options, case):
                 else:
                     theirs, their_measures = matched(peers[peer], options, place, sizes, judged["tetrahedra"])
                 theirs["verdict"] = arbitrate(options, theirs["file"], place)
-                print(row(label, peer, 1, theirs, their_measures), flush=True)
-                said.append(f"| {label} | {peer} | " + " | ".join(solvers(options, theirs["file"], place)) + " |")
+                table.add(*row(label, peer, 1, theirs, their_measures))
+                said.append((label, peer, *solvers(options, theirs["file"], place)))
             except Failed as why:
-                print(f"| {label} | {peer} | {why}" + " |" * 11, flush=True)
+                table.add(label, peer, why)
     return said
 
 
@@ -297,15 +299,18 @@ def main():
     parser.add_argument("--only", nargs="+")
     parser.add_argument("--arbiter", type=os.path.abspath)
     parser.add_argument("--tries", type=int, default=4)
+    add_page_option(parser)
     options = parser.parse_args()
-    print("| case | mesher | tetrahedra | wall s | per second and core | MiB | least angle | 0.1 % | 1 % | largest | mean ratio "
-          "| arbiter | seconds by stage |\n"
-          + "|---" * 13 + "|")
-    said = [line for case in options.cases for line in compare(options, case)]
-    print("\n| case | mesher | non-orthogonality, largest | mean | skewness | checkMesh | orthogonality, bad % | offset "
-          "| gradient | volume ratio |\n"
-          + "|---" * 10 + "|")
-    print("\n".join(said))
+    table = PrintedTable("Meshes and times", ("case", "mesher", "tetrahedra", "wall s", "per second and core", "MiB", "least angle",
+                                              "0.1 %", "1 %", "largest", "mean ratio", "arbiter", "seconds by stage"))
+    said = [row for case in options.cases for row in compare(options, case, table)]
+    table.save(options.page)
+    print()
+    table = PrintedTable("What solvers say", ("case", "mesher", "non-orthogonality, largest", "mean", "skewness", "checkMesh",
+                                              "orthogonality, bad %", "offset", "gradient", "volume ratio"))
+    for row_of_solvers in said:
+        table.add(*row_of_solvers)
+    table.save(options.page)
 
 
 if __name__ == "__main__":

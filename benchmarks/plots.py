@@ -1,4 +1,4 @@
-"""Plots as SVG for the pages in docs/, readable in black and white: series differ by dashes, markers and greys.
+"""Plots as SVG for the pages in benchmarks/results/, readable in black and white: series differ by dashes, markers and greys.
 
     panel = Panel("Speed-up", "ranks", "speed-up", x_log=2, y_log=2)
     panel.line("pieces", ranks, speed_up)

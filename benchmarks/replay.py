@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How well the replay of one run's records foretells the busiest of several ranks, as a Markdown table.
 
-usage: replay.py PROGRAM CASE [RANKS ...] [-- KEY=VALUE ...]
-       replay.py PROGRAM --study FOLDER
+usage: replay.py PROGRAM CASE [RANKS ...] [--page FILE] [-- KEY=VALUE ...]
+       replay.py PROGRAM --study FOLDER [--page FILE]
 
 Runs the case on each number of ranks (default 1 2 4 8) three times, in turns, or takes the runs of a study (`aeroloom scaling`;
 its strong series), and predicts the others from the record on the first number, of its runs that with the median CPU time.
@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 
+from printed_table import PrintedTable, take_page_option
 from volume_balance import run as report_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -70,8 +71,9 @@ def predictions(program, record, many, options=()):
     return {row["ranks"]: {stage["name"]: stage for stage in row["stages"]} for row in rows}
 
 
-def print_busy(runs, first, told):
-    print("| ranks | stage | predicted | measured | ratio | CPU of all over the record's | scaled |\n|---|---|---|---|---|---|---|")
+def tabulate_busy(runs, first, told, page):
+    table = PrintedTable("Work of the busiest rank", ("ranks", "stage", "predicted", "measured", "ratio", "CPU of all over the record's",
+                                                      "scaled"))
     total = lambda stages, ranks, names: ranks * sum(stages[name]["cpu_seconds_mean"] for name in names)
     grown = lambda ranks, names: (median_of(runs[ranks], lambda s: total(s, ranks, names)) /
                                   max(1e-9, median_of(runs[first], lambda s: total(s, first, names))))
@@ -81,16 +83,18 @@ def print_busy(runs, first, told):
                 for name in names]
         rows.append(("all", sum(row[1] for row in rows), median_of(runs[ranks], busy_of_all), grown(ranks, names)))
         for name, predicted, measured, factor in rows:
-            print(f"| {ranks} | {name} | {predicted:.3f} | {measured:.3f} | {predicted / max(1e-9, measured):.2f} | {factor:.2f} "
-                  f"| {predicted * factor / max(1e-9, measured):.2f} |")
+            table.add(ranks, name, f"{predicted:.3f}", f"{measured:.3f}", f"{predicted / max(1e-9, measured):.2f}", f"{factor:.2f}",
+                      f"{predicted * factor / max(1e-9, measured):.2f}")
+    table.save(page)
 
 
-def print_wall(program, runs, record):
+def tabulate_wall(program, runs, record, page):
     """On the processors that there are."""
     many = [ranks for ranks in list(runs)[1:] if ranks <= os.cpu_count()]
     if not many:
         return
-    print("\n| ranks | wall predicted | measured | ratio |\n|---|---|---|---|")
+    print()
+    table = PrintedTable("Wall seconds", ("ranks", "predicted", "measured", "ratio"))
     for ranks in many:
         with tempfile.TemporaryDirectory() as name:
             network = pathlib.Path(name) / "network.json"
@@ -99,7 +103,8 @@ def print_wall(program, runs, record):
             told = predictions(program, record, [ranks], ["--network", network])[ranks]
         predicted = sum(stage["seconds"] for name, stage in told.items() if name != "start")
         measured = median_of(runs[ranks], lambda s: sum(stage["wall_seconds"] for stage in s.values()))
-        print(f"| {ranks} | {predicted:.2f} | {measured:.2f} | {predicted / measured:.2f} |")
+        table.add(ranks, f"{predicted:.2f}", f"{measured:.2f}", f"{predicted / measured:.2f}")
+    table.save(page)
 
 
 def main():
@@ -107,6 +112,7 @@ def main():
     if "--" in arguments:
         settings = arguments[arguments.index("--") + 1:]
         arguments = arguments[:arguments.index("--")]
+    arguments, page = take_page_option(arguments)
     program = arguments[0]
     with tempfile.TemporaryDirectory() as name:
         if arguments[1] == "--study":
@@ -115,8 +121,8 @@ def main():
             runs = run_all(program, arguments[1], [int(r) for r in arguments[2:]] or [1, 2, 4, 8], settings, pathlib.Path(name))
         first = next(iter(runs))
         record = sorted(runs[first], key=lambda run: busy_of_all(run[1]))[len(runs[first]) // 2][0]
-        print_busy(runs, first, predictions(program, record, runs))
-        print_wall(program, runs, record)
+        tabulate_busy(runs, first, predictions(program, record, runs), page)
+        tabulate_wall(program, runs, record, page)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 """Seconds per stage of whole runs from CAD to the written mesh over the size of the mesh, as a Markdown table and a plot.
 
 usage: stage_times.py [PROGRAM] [SIZE ...] [--ranks N ...] [--repeats N] [--report FILE ...] [--table FILE] [--plot FILE]
+           [--page FILE]
 
 Sizes are numbers of tetrahedra (1e5 1e6 ...) around the built-in aircraft, all other sizes from the model. Each run is
 reported by its report.json; of the repeats the one with the median wall time counts, and its mesh is deleted. --report
@@ -18,7 +19,8 @@ import subprocess
 import tempfile
 
 from plots import Panel, save
-from surface_runs import PICTURES, ROOT
+from printed_table import PrintedTable, add_page_option
+from surface_runs import RESULTS, ROOT
 
 FIELDS = ["size", "ranks", "tetrahedra", "stage", "wall_seconds", "busiest_cpu_seconds", "waiting_seconds_mean"]
 TOTAL = "whole run"
@@ -56,15 +58,16 @@ def merge(table, fresh):
     return list(csv.DictReader(table.open()))
 
 
-def page(rows):
+def tabulate(rows, page):
     stages = list(dict.fromkeys(row["stage"] for row in rows if row["stage"] != TOTAL)) + [TOTAL]
-    print("| tetrahedra | ranks | " + " | ".join(stages) + " | µs per tetrahedron |\n" + "|---" * (len(stages) + 3) + "|")
+    table = PrintedTable("Seconds by stage", ("tetrahedra", "ranks", *stages, "µs per tetrahedron"))
     runs = list(dict.fromkeys((row["tetrahedra"], row["ranks"]) for row in rows))
     for tetrahedra, ranks in runs:
         seconds = {row["stage"]: float(row["wall_seconds"]) for row in rows
                    if (row["tetrahedra"], row["ranks"]) == (tetrahedra, ranks)}
-        print(f"| {int(tetrahedra):,} | {ranks} | " + " | ".join(f"{seconds[s]:.3g}" if s in seconds else "–" for s in stages) +
-              f" | {1e6 * seconds[TOTAL] / int(tetrahedra):.1f} |")
+        table.add(f"{int(tetrahedra):,}", ranks, *(f"{seconds[s]:.3g}" if s in seconds else "–" for s in stages),
+                  f"{1e6 * seconds[TOTAL] / int(tetrahedra):.1f}")
+    table.save(page)
     return stages
 
 
@@ -90,8 +93,9 @@ def main():
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--repeats", type=int, default=1)
     parser.add_argument("--report", type=pathlib.Path, nargs="+", default=[])
-    parser.add_argument("--table", type=pathlib.Path, default=ROOT / "docs/stage_times.csv")
-    parser.add_argument("--plot", default=PICTURES / "stage_times.svg")
+    parser.add_argument("--table", type=pathlib.Path, default=RESULTS / "stage_times.csv")
+    parser.add_argument("--plot", default=RESULTS / "stage_times.svg")
+    add_page_option(parser)
     options = parser.parse_args()
     rows = [row for path in options.report for row in rows_of(json.loads(path.read_text()))]
     for size in options.sizes:
@@ -104,7 +108,7 @@ def main():
             rows += rows_of(sorted(of, key=lambda report: report["wall_seconds"])[len(of) // 2])
         merge(options.table, rows)
     rows = merge(options.table, rows)
-    draw(options.plot, rows, page(rows))
+    draw(options.plot, rows, tabulate(rows, options.page))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The surface stage over rank counts with both schemes, one task per CAD face and pieces, as a Markdown table and plots.
 
-usage: surface_balance.py SURFACE_BENCHMARK [CASE ...] [--ranks N ...] [--repeats N] [--plot FILE]
+usage: surface_balance.py SURFACE_BENCHMARK [CASE ...] [--ranks N ...] [--repeats N] [--plot FILE] [--page FILE]
 
 Cases are files; configs/acceptance/surface_{sphere,submarine,d150}.yaml where none is given: one face, a dozen, and
 hundreds. Figures are CPU time of the tasks, so ranks may share cores: speed-up is the CPU of one rank with a task per
@@ -13,7 +13,8 @@ import os
 import pathlib
 
 from plots import Panel, save
-from surface_runs import PICTURES, ROOT, run
+from printed_table import PrintedTable, add_page_option
+from surface_runs import RESULTS, ROOT, run
 
 CASES = [ROOT / f"configs/acceptance/surface_{name}.yaml" for name in ("sphere", "submarine", "d150")]
 SCHEMES = {"faces": "a task per face", "pieces": "pieces"}
@@ -56,11 +57,12 @@ def main():
     parser.add_argument("cases", nargs="*", type=pathlib.Path, default=CASES)
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4, 8, 16, 32, 64])
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--plot", default=PICTURES / "surface_balance.svg")
+    parser.add_argument("--plot", default=RESULTS / "surface_balance.svg")
+    add_page_option(parser)
     options = parser.parse_args()
-    print("| case | scheme | ranks | pieces | triangles | CPU s | busiest CPU s | speed-up | busiest / mean | serial | "
-          "90 % of loads within | hash |")
-    print("|---" * 12 + "|")
+    table = PrintedTable("A task per face against pieces", (
+        "case", "scheme", "ranks", "pieces", "triangles", "CPU s", "busiest CPU s", "speed-up", "busiest / mean", "serial",
+        "90 % of loads within", "hash"))
     measured = {}
     for case in options.cases:
         name = case.stem.removeprefix("surface_")
@@ -68,12 +70,13 @@ def main():
         alone = by["faces", options.ranks[0]]
         for (scheme, ranks), r in by.items():
             if not r:
-                print(f"| {name} | {scheme} | {ranks} | failed |" + " |" * 8)
+                table.add(name, scheme, ranks, "failed")
                 continue
             speed_up = f"{alone['cpu_max'] / r['cpu_max']:.2f}" if alone else "–"
-            print(f"| {name} | {scheme} | {ranks} | {r['pieces']:.0f} | {r['triangles']:,.0f} | {r['cpu_total']:.2f} | "
-                  f"{r['cpu_max']:.3f} | {speed_up} | {r['busiest']:.3f} | {100 * r['serial_share']:.1f} % | "
-                  f"{100 * r['load_error_90']:.0f} % | {r['hash'][:8]} |", flush=True)
+            table.add(name, scheme, ranks, f"{r['pieces']:.0f}", f"{r['triangles']:,.0f}", f"{r['cpu_total']:.2f}",
+                      f"{r['cpu_max']:.3f}", speed_up, f"{r['busiest']:.3f}", f"{100 * r['serial_share']:.1f} %",
+                      f"{100 * r['load_error_90']:.0f} %", r["hash"][:8])
+    table.save(options.page)
     draw(options.plot, options.ranks, measured)
 
 

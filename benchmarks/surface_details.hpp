@@ -1,5 +1,6 @@
 // What a table cannot hold of a surface mesh, as JSON: the shape of its triangles by piece and by what they
-// touch, and histograms. docs/experiments.md is made from it.
+// touch, and histograms. benchmarks/results/surface_cuts.md and surface_quality.md
+// are made from it.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"

@@ -2,6 +2,7 @@
 """Triangles at cuts against those elsewhere, with a test of equivalence, and one piece against many, with histograms.
 
 usage: surface_quality.py SURFACE_BENCHMARK [FILE ...] [--program AEROLOOM] [--piece-triangles N] [--plots FOLDER]
+           [--page FILE]
 
 Cuts are those that the surface stage made: borders between pieces of one CAD face. Two one-sided tests (Schuirmann,
 J. Pharmacokinet. Biopharm. 15, 1987, doi:10.1007/BF01068419) at 5 % each: means are equivalent where the 90 % confidence
@@ -23,7 +24,8 @@ import subprocess
 import tempfile
 
 from plots import Panel, save
-from surface_runs import FILES, PICTURES, ROOT, run_with_details, t_quantile, write_case
+from printed_table import PrintedTable, add_page_option
+from surface_runs import FILES, RESULTS, ROOT, run_with_details, t_quantile, write_case
 
 ANGLE_MARGIN, RATIO_MARGIN = 1.0, 0.5  # degrees, per cent
 CUT, CUT_AND_CURVE, CURVE, INSIDE = range(4)
@@ -71,9 +73,9 @@ def verdict(middle, half, margin):
 
 def tabulate(options, files, folder):
     rows = {name: {} for name in COMPARISONS}
-    print("| model | compared | pieces | at cuts | elsewhere | smallest angle, difference in degrees | within 1 | mean ratio, "
-          "difference in % | within 0.5 % |")
-    print("|---" * 9 + "|")
+    table = PrintedTable("Triangles at cuts against others", (
+        "model", "compared", "pieces", "at cuts", "elsewhere", "smallest angle, difference in degrees", "within 1",
+        "mean ratio, difference in %", "within 0.5 %"))
     for file in files:
         case = write_case(file, folder, options.piece_triangles)
         figures, details = run_with_details(options.benchmark, case, folder)
@@ -81,14 +83,15 @@ def tabulate(options, files, folder):
             found = compare(details, *comparison) if figures else None
             rows[name][file.stem] = found
             if not found:
-                print(f"| {file.stem} | {name} | " + ("no mesh" if not figures else "too few cuts") + " |" * 7, flush=True)
+                table.add(file.stem, name, "no mesh" if not figures else "too few cuts")
                 continue
             at, elsewhere = found["count"]
-            print(f"| {file.stem} | {name} | {figures['pieces']} | {at:,.0f} | {elsewhere:,.0f} | "
-                  f"{found['angle']:+.2f} ± {found['angle_half']:.2f} | "
-                  f"{verdict(found['angle'], found['angle_half'], ANGLE_MARGIN)} | "
-                  f"{found['ratio']:+.3f} ± {found['ratio_half']:.3f} | "
-                  f"{verdict(found['ratio'], found['ratio_half'], RATIO_MARGIN)} |", flush=True)
+            table.add(file.stem, name, figures["pieces"], f"{at:,.0f}", f"{elsewhere:,.0f}",
+                      f"{found['angle']:+.2f} ± {found['angle_half']:.2f}",
+                      verdict(found["angle"], found["angle_half"], ANGLE_MARGIN),
+                      f"{found['ratio']:+.3f} ± {found['ratio_half']:.3f}",
+                      verdict(found["ratio"], found["ratio_half"], RATIO_MARGIN))
+    table.save(options.page)
     return rows
 
 
@@ -151,7 +154,8 @@ def main():
     parser.add_argument("files", nargs="*", type=pathlib.Path, default=[file for file in FILES if file.exists()])
     parser.add_argument("--program", type=os.path.abspath)
     parser.add_argument("--piece-triangles", type=int, default=1500)
-    parser.add_argument("--plots", type=pathlib.Path, default=PICTURES)
+    parser.add_argument("--plots", type=pathlib.Path, default=RESULTS)
+    add_page_option(parser)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         rows = tabulate(options, options.files, folder)

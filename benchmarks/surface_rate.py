@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Triangles per CPU second on one rank, beside `gmsh -2` with its default algorithm, at equal sizes.
 
-usage: surface_rate.py SURFACE_BENCHMARK [CASE ...]
+usage: surface_rate.py SURFACE_BENCHMARK [CASE ...] [--page FILE]
 
 Cases are names of the table below; all of them where none is given. Gmsh is asked for the same bounds and the
 same angle per element; its time is that of its 1-D and 2-D meshing, without reading the file. Ours is that of
@@ -12,6 +12,8 @@ import re
 import subprocess
 import sys
 import tempfile
+
+from printed_table import PrintedTable, take_page_option
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GEOMETRY = ROOT.parent / "shared" / "geometry"
@@ -63,19 +65,22 @@ def count_triangles(mesh):
 
 
 def main():
-    program, names = sys.argv[1], sys.argv[2:] or list(CASES)
-    print(f"{'case':10} {'triangles':>10} {'gmsh':>10} {'per s':>10} {'with sizes':>10} {'gmsh per s':>10} {'ratio':>6} {'with sizes':>10}")
+    arguments, page = take_page_option(sys.argv[1:])
+    program, names = arguments[0], arguments[1:] or list(CASES)
+    table = PrintedTable("Triangles per CPU second", (
+        "case", "triangles", "Gmsh", "per CPU s", "with the size field", "Gmsh per CPU s", "ratio", "with the size field"))
     for name in names:
         case = CASES[name]
         if not case["file"].exists():
-            print(f"{name:10} {case['file']} is not here")
+            print(f"{name}: {case['file']} is not here", file=sys.stderr)
             continue
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             triangles, rate, rate_with_sizes, _ = ours(program, case, folder)
             theirs, their_rate = gmsh(case, folder)
-        print(f"{name:10} {triangles:10.0f} {theirs:10} {rate:10.0f} {rate_with_sizes:10.0f} {their_rate:10.0f} "
-              f"{rate / their_rate:6.2f} {rate_with_sizes / their_rate:10.2f}")
+        table.add(name, f"{triangles:,.0f}", f"{theirs:,}", f"{rate:,.0f}", f"{rate_with_sizes:,.0f}", f"{their_rate:,.0f}",
+                  f"{rate / their_rate:.2f}", f"{rate_with_sizes / their_rate:.2f}")
+    table.save(page)
 
 
 if __name__ == "__main__":

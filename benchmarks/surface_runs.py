@@ -7,7 +7,7 @@ import statistics
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PICTURES = ROOT / "docs" / "pictures"
+RESULTS = ROOT / "benchmarks" / "results"
 AIRCRAFT = ROOT.parent / "shared" / "geometry" / "aircraft"
 FILES = [ROOT / "configs/geometry/sphere.brep"] + [AIRCRAFT / name for name in (
     "gmsh_dlr_f6.brep", "tigl_D150_fused_aircraft.brep", "su2_oneram6.igs", "gmsh_wing_fuselage.step", "gmsh_submarine.stp",

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """The volume in pieces beside the volume in one piece, as Markdown tables.
 
-usage: volume_pieces.py same PROGRAM CASE ... [--pieces N ...] [--ranks N ...] [-- KEY=VALUE ...]
-       volume_pieces.py cost PROGRAM CASE ... [--base PROGRAM] [--repeat N] [-- KEY=VALUE ...]
-       volume_pieces.py rate PROGRAM CASE ... [--repeat N] [-- KEY=VALUE ...]
+usage: volume_pieces.py same PROGRAM CASE ... [--pieces N ...] [--ranks N ...] [--page FILE] [-- KEY=VALUE ...]
+       volume_pieces.py cost PROGRAM CASE ... [--base PROGRAM] [--repeat N] [--page FILE] [-- KEY=VALUE ...]
+       volume_pieces.py rate PROGRAM CASE ... [--repeat N] [--page FILE] [-- KEY=VALUE ...]
 
 All runs are without improvement. Pieces are given by the tetrahedra wanted in one (volume.piece_tets).
 
@@ -38,6 +38,7 @@ import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from improvement import write_msh
+from printed_table import PrintedTable, add_page_option
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 ONE_PIECE = 1000000000
@@ -139,14 +140,15 @@ def shapes(mesh):
 def quality_row(case, mesh, away):
     smallest, largest, ratio = shapes(mesh)
     bad = (smallest < 28) | (largest > 138)
-    return (f"| {label(case)} | {len(mesh.cells):,} | {100 * bad.mean():.3f} | {away.sum():,} | {bad[away].sum():,} | "
-            f"{100 * bad[away].sum() / max(1, away.sum()):.4f} | {smallest.min():.2f} | {largest.max():.2f} | "
-            f"{ratio.mean():.4f} | {ratio[away].sum() / max(1, away.sum()):.4f} |")
+    return (label(case), f"{len(mesh.cells):,}", f"{100 * bad.mean():.3f}", f"{away.sum():,}", f"{bad[away].sum():,}",
+            f"{100 * bad[away].sum() / max(1, away.sum()):.4f}", f"{smallest.min():.2f}", f"{largest.max():.2f}",
+            f"{ratio.mean():.4f}", f"{ratio[away].sum() / max(1, away.sum()):.4f}")
 
 
 def same(options):
-    print("| case | pieces of | pieces | tetrahedra | difference | per 100,000 | of it away | "
-          + " | ".join(f"hash on {r}" for r in [1, *options.ranks]) + " |\n" + "|---" * (8 + len(options.ranks)) + "|")
+    table = PrintedTable("The same mesh in pieces as in one", (
+        "case", "pieces of", "pieces", "tetrahedra", "difference", "per 100,000", "of it away",
+        *(f"hash on {r}" for r in [1, *options.ranks])))
     qualities = []
     for case in options.cases:
         reference = None
@@ -160,17 +162,21 @@ def same(options):
                     hashes.append(run(options.program, case, ranks, piece_tets, options.settings, name)["mesh"]["hash"])
             away = away_from_surface(mesh)
             if reference is None:
-                reference, reference_away, difference = mesh, away, "– | – | –"
+                reference, reference_away, difference = mesh, away, ("–", "–", "–")
                 qualities.append(quality_row(case, mesh, away))
             else:
                 ours, theirs = lone_cells(reference, mesh)
                 lone, lone_away = ours.sum() + theirs.sum(), (ours & reference_away).sum() + (theirs & away).sum()
-                difference = f"{lone:,} | {1e5 * lone / len(reference.cells):.1f} | {lone_away:,}"
+                difference = (f"{lone:,}", f"{1e5 * lone / len(reference.cells):.1f}", f"{lone_away:,}")
             pieces = next(s["pieces"] for s in report["stages"] if s["name"] == "volume")
-            print(f"| {label(case)} | {piece_tets:,} | {pieces} | {len(mesh.cells):,} | {difference} | "
-                  + " | ".join(h[:8] for h in hashes) + " |", flush=True)
-    print("\n| largest pieces | tetrahedra | bad, % | away | bad away | bad away, % | smallest | largest | mean ratio | "
-          "away |\n" + "|---" * 10 + "|\n" + "\n".join(qualities))
+            table.add(label(case), f"{piece_tets:,}", pieces, f"{len(mesh.cells):,}", *difference, *(h[:8] for h in hashes))
+    table.save(options.page)
+    print()
+    table = PrintedTable("Quality in one piece", ("largest pieces", "tetrahedra", "bad, %", "away", "bad away", "bad away, %", "smallest",
+                                                  "largest", "mean ratio", "mean ratio away"))
+    for row in qualities:
+        table.add(*row)
+    table.save(options.page)
 
 
 # ---- cost ----------------------------------------------------------------------------------------------------------
@@ -180,8 +186,8 @@ def cost(options):
              ("60,000", options.program, 1, 60000), ("250,000", options.program, 2, 250000)]
     if options.base:
         kinds.append(("one piece, base program", options.base, 1, ONE_PIECE))
-    print("| case | pieces of | ranks | pieces | tetrahedra | wall s | of one piece's | CPU s | of one piece's |\n"
-          + "|---" * 9 + "|")
+    table = PrintedTable("What the overlap costs", ("case", "pieces of", "ranks", "pieces", "tetrahedra", "wall s", "of one piece's",
+                                                    "CPU s", "of one piece's"))
     for case in options.cases:
         least = [(float("inf"), float("inf"))] * len(kinds)
         reports = [None] * len(kinds)
@@ -192,8 +198,9 @@ def cost(options):
                 least[k] = tuple(map(min, least[k], seconds_of_filling(reports[k])))
         for (kind, _, ranks, _), (wall, cpu), report in zip(kinds, least, reports):
             pieces = next(s["pieces"] for s in report["stages"] if s["name"] == "volume")
-            print(f"| {label(case)} | {kind} | {ranks} | {pieces} | {report['mesh']['tetrahedra']:,} | {wall:.2f} | "
-                  f"{wall / least[0][0]:.2f} | {cpu:.2f} | {cpu / least[0][1]:.2f} |", flush=True)
+            table.add(label(case), kind, ranks, pieces, f"{report['mesh']['tetrahedra']:,}", f"{wall:.2f}",
+                      f"{wall / least[0][0]:.2f}", f"{cpu:.2f}", f"{cpu / least[0][1]:.2f}")
+    table.save(options.page)
 
 
 # ---- rate ----------------------------------------------------------------------------------------------------------
@@ -326,8 +333,8 @@ def matched_sizes(folder, mesh, largest):
 
 
 def rate(options):
-    print("| case | mesher | sizes | tetrahedra | wall s | of it look-up of sizes | CPU s | million tetrahedra / s | "
-          "without look-up |\n" + "|---" * 9 + "|")
+    table = PrintedTable("Beside Gmsh", ("case", "mesher", "sizes", "tetrahedra", "wall s", "of it look-up of sizes", "CPU s",
+                                         "million tetrahedra / s", "without look-up"))
     for case in options.cases:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
@@ -347,12 +354,12 @@ def rate(options):
                 if twice:
                     doubled.append(hxt(folder, twice))
         count, (wall, cpu) = report["mesh"]["tetrahedra"], map(min, zip(*ours))
-        print(f"| {label(case)} | Aeroloom | – | {count:,} | {wall:.2f} | – | {cpu:.2f} | {count / wall / 1e6:.3f} | – |",
-              flush=True)
+        table.add(label(case), "Aeroloom", "–", f"{count:,}", f"{wall:.2f}", "–", f"{cpu:.2f}", f"{count / wall / 1e6:.3f}", "–")
         count, wall, cpu = map(min, zip(*theirs))
         lookup = max(0.0, min(d[2] for d in doubled) - cpu) if doubled else 0.0
-        print(f"| {label(case)} | Gmsh HXT | {way} | {count:,} | {wall:.2f} | {lookup:.2f} | {cpu:.2f} | "
-              f"{count / wall / 1e6:.3f} | {count / (wall - lookup) / 1e6:.3f} |", flush=True)
+        table.add(label(case), "Gmsh HXT", way, f"{count:,}", f"{wall:.2f}", f"{lookup:.2f}", f"{cpu:.2f}",
+                  f"{count / wall / 1e6:.3f}", f"{count / (wall - lookup) / 1e6:.3f}")
+    table.save(options.page)
 
 
 def main():
@@ -369,6 +376,7 @@ def main():
     parser.add_argument("--ranks", type=int, nargs="+", default=[])
     parser.add_argument("--base")
     parser.add_argument("--repeat", type=int, default=3)
+    add_page_option(parser)
     options = parser.parse_args(arguments, argparse.Namespace(settings=settings))
     modes[options.mode](options)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Whole runs from CAD to mesh beside Gmsh with HXT on the same CAD, as Markdown tables.
 
-usage: whole_run.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N ...] [--repeat N] [-- KEY=VALUE ...]
+usage: whole_run.py PROGRAM CASE ... [--arbiter CHECKER] [--ranks N ...] [--repeat N] [--page FILE] [-- KEY=VALUE ...]
 
 For each case: our program on so many ranks (default 1 and 2), and Gmsh on one thread with the domain that our program
 exports as STEP, sizes from curvature with the angle and the bounds of our sizes, scaled until the numbers of
@@ -21,6 +21,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from printed_table import PrintedTable, add_page_option
 
 LIMIT_S = 180
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -130,10 +132,11 @@ def main():
     parser.add_argument("--arbiter")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--repeat", type=int, default=2)
+    add_page_option(parser)
     options = parser.parse_args(arguments, argparse.Namespace(settings=settings))
     stages = []
-    print("| case | mesher | ranks | tetrahedra | wall s | µs per tetrahedron | over Gmsh | over one rank | least angle | "
-          "valid |\n" + "|---" * 10 + "|")
+    table = PrintedTable("Whole runs beside Gmsh", ("case", "mesher", "ranks", "tetrahedra", "wall s", "µs per tetrahedron", "over Gmsh",
+                                                    "over one rank", "least angle", "valid"))
     for case in options.cases:
         runs, gmsh, valid = run_case(options, case)
         label = pathlib.Path(case).stem
@@ -141,19 +144,22 @@ def main():
         alone = runs[options.ranks[0]][0]
         for ranks, (wall, report) in runs.items():
             count = report["mesh"]["tetrahedra"]
-            print(f"| {label} | Aeroloom | {ranks} | {count:,} | {wall:.1f} | {1e6 * wall / count:.1f} | "
-                  f"{f'{wall / count / theirs_each:.2f}' if gmsh else '–'} | {wall / alone:.2f} | {report['quality']['min_dihedral_deg']:.1f} | "
-                  f"{valid[ranks]} |", flush=True)
-            stages.append(f"| {label} | Aeroloom, {ranks} | " + ", ".join(
-                f"{s['name']} {s['wall_seconds']:.2f} ({s['cpu_seconds_max']:.2f})" for s in report["stages"]) + " |")
+            table.add(label, "Aeroloom", ranks, f"{count:,}", f"{wall:.1f}", f"{1e6 * wall / count:.1f}",
+                      f"{wall / count / theirs_each:.2f}" if gmsh else "–", f"{wall / alone:.2f}",
+                      f"{report['quality']['min_dihedral_deg']:.1f}", valid[ranks])
+            stages.append((label, f"Aeroloom, {ranks}", ", ".join(
+                f"{s['name']} {s['wall_seconds']:.2f} ({s['cpu_seconds_max']:.2f})" for s in report["stages"])))
         if not gmsh:
-            print(f"| {label} | Gmsh HXT | 1 | none, or not within {LIMIT_S} s | – | – | – | – | – | – |", flush=True)
+            table.add(label, "Gmsh HXT", 1, f"none, or not within {LIMIT_S} s", *"––––––")
             continue
-        print(f"| {label} | Gmsh HXT | 1 | {gmsh['tetrahedra']:,} | {gmsh['wall']:.1f} | {1e6 * theirs_each:.1f} | 1 | – | "
-              "– | – |", flush=True)
-        stages.append(f"| {label} | Gmsh HXT | " + ", ".join(
-            f"{k + 1}-D {t:.2f}" for k, t in enumerate(gmsh["steps"])) + " |")
-    print("\n| case | mesher, ranks | stages, wall s (CPU s of the busiest rank) |\n|---|---|---|\n" + "\n".join(stages))
+        table.add(label, "Gmsh HXT", 1, f"{gmsh['tetrahedra']:,}", f"{gmsh['wall']:.1f}", f"{1e6 * theirs_each:.1f}", 1, "–", "–", "–")
+        stages.append((label, "Gmsh HXT", ", ".join(f"{k + 1}-D {t:.2f}" for k, t in enumerate(gmsh["steps"]))))
+    table.save(options.page)
+    print()
+    table = PrintedTable("Stages of whole runs", ("case", "mesher, ranks", "stages, wall s (CPU s of the busiest rank)"))
+    for row in stages:
+        table.add(*row)
+    table.save(options.page)
 
 
 if __name__ == "__main__":

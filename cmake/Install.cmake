@@ -37,6 +37,7 @@ file(GLOB cases CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/configs/*.yaml)
 install(FILES ${cases} DESTINATION ${CMAKE_INSTALL_DATADIR}/aeroloom/configs)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY benchmarks/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/benchmarks)
 
 # The copyright file of a Debian package holds the licence in full, paragraphs apart by a dot.
 file(READ LICENSE licence)

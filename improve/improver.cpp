@@ -135,8 +135,8 @@ constexpr int most_trials = 8;
 constexpr cavities::CavityExtent last_extent{2, true};
 
 /// Trials, so many that they are no burden, for each of the bad ones: one takes about as long as improving
-/// ten thousand tetrahedra. None where more are left than 320 and one in 3,000 (docs/improvement.md has what
-/// more and fewer gave).
+/// ten thousand tetrahedra. None where more are left than 320 and one in 3,000. What more and fewer gave is
+/// in benchmarks/results/improvement.md.
 int affordable_trials(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
                       std::int64_t bad) {
   std::int64_t cells = 0;

@@ -17,7 +17,7 @@ struct Network {
 double partners_of(const StageExchanges& exchanges, int recorded, int ranks);
 
 /// Seconds that the exchanges of a stage take on so many ranks, waiting for late ones not included; the model
-/// is in docs/scaling.md. `recorded` is the number of ranks of the record.
+/// is in docs/scaling_model.md. `recorded` is the number of ranks of the record.
 double exchange_seconds(const StageExchanges& exchanges, int recorded, int ranks, const Network& network);
 
 }  // namespace aeroloom::study

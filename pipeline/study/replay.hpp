@@ -1,5 +1,5 @@
 /// A run replayed on other numbers of ranks: the program's schedule on the recorded costs of its tasks,
-/// serial and repeated work as recorded, exchanges by latency and bandwidth (docs/scaling.md).
+/// serial and repeated work as recorded, exchanges by latency and bandwidth (docs/scaling_model.md).
 #pragma once
 
 #include "pipeline/study/costs.hpp"

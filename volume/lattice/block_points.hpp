@@ -17,11 +17,11 @@ namespace aeroloom::volume {
 
 struct LatticeOptions {
   /// Distance from the surface, in local sizes: fewest bad tetrahedra of seven values on two aircraft
-  /// (docs/volume_decomposition.md).
+  /// (benchmarks/results/volume_pieces.md).
   double clearance = 0.5;
   /// In mean edges of the lattice: enough for general position, and so little that no triangle of the core's
   /// border was missing in the mesh of the shell of nineteen aircraft and parts
-  /// (docs/volume_decomposition.md).
+  /// (benchmarks/results/volume_pieces.md).
   double perturbation = 0.005;
 };
 
