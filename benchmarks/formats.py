@@ -4,7 +4,7 @@ readers make of them.
 
 usage: formats.py PROGRAM [--case configs/acceptance/whole_transport.yaml] [--ranks 1 2 8] [--skip-checks]
 
-Prints the tables of docs/formats.md. Memory is the largest rank's own at the end of the stage before, and the most it had while
+Prints the table of benchmarks/results/formats.md. Memory is the largest rank's own at the end of the stage before, and the most it had while
 writing: the difference is what a format takes on top of a rank's share of the mesh.
 """
 import argparse

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table of docs/status.md: nine cases from CAD to improved mesh, on one rank.
+"""The first table of benchmarks/results/status.md: nine cases from CAD to improved mesh, on one rank.
 
 usage: status.py PROGRAM [--arbiter CHECKER] [--cases CASE ...]
 

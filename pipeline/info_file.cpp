@@ -122,9 +122,10 @@ void require_file(const Communicator& communicator, const std::string& file) {
       throw std::filesystem::filesystem_error("cannot read", file,
                                               std::make_error_code(std::errc::no_such_file_or_directory));
     if (std::filesystem::is_directory(status))
-      throw std::runtime_error(
-          fmt::format("'{}' is a folder; give a file: a mesh ({}), CAD (STEP, IGES, BREP) or a case (.yaml)",
-                      file, fmt::join(io::readable_extensions(), ", ")));
+      throw std::runtime_error(fmt::format(
+          "'{}' is a folder; give a file: a mesh ({}), CAD (STEP, IGES, BREP), triangles (STL, OBJ, OFF, "
+          "PLY, .poly, .smesh) or a case (.yaml)",
+          file, fmt::join(io::readable_extensions(), ", ")));
   });
 }
 

@@ -175,7 +175,7 @@ Format recognise(const Ends& ends) {
   }
   throw CadError(fmt::format(
       "'{}' is neither STEP, IGES nor BREP: it begins with \"{}\". Remedy: export the geometry as "
-      "STEP; triangles (STL, OBJ, OFF) are not read",
+      "STEP, or triangles as STL, OBJ, OFF, PLY, .poly or .smesh, with that ending of the name",
       file, excerpt(ends.head)));
 }
 

@@ -1,4 +1,4 @@
-/// A case: everything a run depends on, as plain options of the stages. Keys: docs/configuration.md.
+/// A case: everything a run depends on, as plain options of the stages. Keys: docs/configuration/.
 #pragma once
 
 #include "cad/domain/domain.hpp"

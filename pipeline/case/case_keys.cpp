@@ -20,11 +20,11 @@ void declare_bounds(KeyTable& keys, SizingRequest& sizing) {
                    "from the model", "0.01"})));
   keys.number("feature_minimum", sizing.feature_minimum, Range::above(0, length_unit),
               {"Smallest size at short CAD edges, in narrow faces (blunt trailing edges) and behind sharp "
-               "corners. From the model: as small as they are, within `feature_budget`, a thousandth of the "
-               "minimum at least in narrow faces, a twentieth elsewhere.",
+               "corners. From the model: as small as these are, within `feature_budget`; at least a "
+               "thousandth of the minimum in narrow faces, a twentieth elsewhere.",
                "from the model; a twentieth of `minimum` where that is given", "0.001"});
   keys.number("maximum", sizing.maximum, Range::above(0, length_unit),
-              common({"Largest size, reached in the far field.", "from the model", "10"}));
+              common({"Largest size, in the far field.", "from the model", "10"}));
   keys.number("surface_maximum", sizing.surface_maximum, Range::above(0, length_unit),
               common({"Largest size on faces that are not far field.",
                       "from the model; none where `minimum` and `maximum` are given", "0.5"}));
@@ -37,40 +37,34 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
   declare_bounds(keys, sizing);
   keys.number("curvature_angle", sizing.curvature_angle, Range::between(0.1, 90, "degrees per element"),
               sets("SizingOptions::curvature_angle",
-                   common({"How far an element may turn on curved faces and edges: less makes leading edges "
-                           "finer, and where a target is to be met, the rest coarser.",
+                   common({"Largest turn of an element on curved faces and edges. A smaller angle makes "
+                           "leading edges finer and, with a target, the rest coarser.",
                            "15 where sizes are chosen from the model, " + shortest(preset.curvature_angle) +
                                " where `minimum` and `maximum` are given",
                            shortest(preset.curvature_angle)})));
-  keys.number(
-      "chordal_deviation", sizing.chordal_deviation, Range::above(0, length_unit),
-      {"Distance of triangles from curved faces, at most. Sizes may fall to `feature_minimum` for it.", "any",
-       "0.0001"});
-  keys.number(
-      "growth", sizing.growth, Range::between(1.01, 3),
-      common({"Ratio of the sizes of neighbouring elements, at most. Nearer to 1 makes the mesh smoother "
-              "and larger.",
-              shortest(preset.growth), shortest(preset.growth)}));
-  keys.number(
-      "proximity", sizing.proximity, Range::between(0, 20, "elements"),
-      {"How many elements lie across a thin part of the body and across a gap, at least; 0: any number.",
-       shortest(preset.proximity), shortest(preset.proximity)});
+  keys.number("chordal_deviation", sizing.chordal_deviation, Range::above(0, length_unit),
+              {"Largest distance of triangles from curved faces. Sizes may fall to `feature_minimum` for it.",
+               "any", "0.0001"});
+  keys.number("growth", sizing.growth, Range::between(1.01, 3),
+              common({"Largest ratio of sizes of neighbouring elements. A ratio near 1 makes the mesh "
+                      "smoother and larger.",
+                      shortest(preset.growth), shortest(preset.growth)}));
+  keys.number("proximity", sizing.proximity, Range::between(0, 20, "elements"),
+              {"Least number of elements across a thin part of the body and across a gap; 0: no condition.",
+               shortest(preset.proximity), shortest(preset.proximity)});
   keys.number("gap_proximity", sizing.gap_proximity, Range::between(0, 20, "elements"),
-              {"The same across gaps alone, between walls with fluid between them: slat and wing, wing and "
-               "nacelle.",
+              {"The same across gaps alone: between walls with fluid between them, such as slat and wing.",
                "`proximity`", "4"});
-  keys.number(
-      "target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
-      common({"How many tetrahedra the sizes chosen from the model aim at, features finer than the "
-              "minimum left out unless their size is given. The first key to touch for a finer or "
-              "coarser mesh. Sizes that are given stay as they are, the others are chosen around them.",
-              shortest(default_target) + "; any where `minimum` and `maximum` are given",
-              shortest(default_target)}));
-  keys.number(
-      "feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
-      "Features finer than the minimum, and after them gaps between walls, come on top of the target, "
-      "up to this many times it in all. Beyond it strips get triangles longer than wide, and the log, "
-      "the report and `check` name them with what they would take.");
+  keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
+              common({"Number of tetrahedra that the chosen sizes aim at, without features finer than the "
+                      "minimum whose size is not given. The first key to change for a finer or coarser mesh. "
+                      "Given sizes stay; the others are chosen around them.",
+                      shortest(default_target) + "; any where `minimum` and `maximum` are given",
+                      shortest(default_target)}));
+  keys.number("feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
+              "Features finer than the minimum, then gaps between walls, come on top of the target, up to "
+              "this many times it in all. Beyond it, strips get long triangles; the log, the report and "
+              "`check` name them and what they would take.");
   declare_levels(keys, sizing);
   declare_expression(keys, sizing.expression);
   declare_sources(keys, draft.sources);
@@ -80,37 +74,33 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
 
 void declare_surface(KeyTable& keys, Case& result) {
   using surface::SurfaceDecomposition;
-  keys.integer(
-      "piece_triangles", result.surface.piece_triangles, Range::between(100, 1e9, "elements"),
-      sets("SurfaceOptions::piece_triangles",
-           "Wanted triangles of a piece of the surface; CAD faces heavier than one and a half pieces are "
-           "cut. Less helps many ranks on small meshes."));
+  keys.integer("piece_triangles", result.surface.piece_triangles, Range::between(100, 1e9, "elements"),
+               sets("SurfaceOptions::piece_triangles",
+                    "Wanted triangles of a piece of the surface. CAD faces heavier than one and a half "
+                    "pieces are cut. A smaller number helps many ranks on small meshes."));
   keys.choice<SurfaceDecomposition>(
       "decomposition", result.surface.decomposition,
       {{"faces", SurfaceDecomposition::faces}, {"pieces", SurfaceDecomposition::pieces}},
       "`pieces` cuts heavy CAD faces, `faces` keeps one piece per CAD face.");
-  keys.number(
-      "cut_angle", result.surface.cut_angle, Range::between(0, 60, "degrees"),
-      "Angle that cuts make with each other and with feature curves at least; 0: cuts as METIS leaves "
-      "them.");
+  keys.number("cut_angle", result.surface.cut_angle, Range::between(0, 60, "degrees"),
+              "Least angle of cuts with each other and with feature curves; 0: cuts as METIS leaves them.");
 }
 
 void declare_volume(KeyTable& keys, Case& result) {
-  keys.integer(
-      "piece_tets", result.volume.piece_tets, Range::between(100, 1e9, "elements"),
-      sets("VolumeOptions::piece_tets",
-           {"Wanted tetrahedra of a piece of the volume; a volume of more than one and a half pieces is "
-            "filled in [zones](volume_decomposition.md).",
-            "a sixty-fourth of all, 40,000 to 170,000", "200000"}));
+  keys.integer("piece_tets", result.volume.piece_tets, Range::between(100, 1e9, "elements"),
+               sets("VolumeOptions::piece_tets",
+                    {"Wanted tetrahedra of a piece of the volume. A volume of more than one and a half "
+                     "pieces is filled in [zones](volume_decomposition.md).",
+                     "a sixty-fourth of all, 40,000 to 170,000", "200000"}));
   keys.number("lattice_clearance", result.volume.lattice_clearance, Range::above(0, 2, "local sizes"),
               "Distance of lattice points from the boundary. The default suits nearly every mesh.");
   keys.number("perturbation", result.volume.perturbation,
               Range::between(0, 0.01, "mean edges of the lattice"),
-              "Perturbation of lattice points, which keeps them from lying on common spheres.");
+              "Perturbation of lattice points, so that they do not lie on common spheres.");
   keys.number("halo", result.volume.halo, Range::between(0.5, 5, "largest sizes nearby"),
               sets("VolumeOptions::halo",
-                   "Width of what a zone knows around it. Zones with narrower ones may disagree, wider ones "
-                   "cost time."));
+                   "Width of what a zone knows around it. Zones with a narrow halo may disagree; a wide halo "
+                   "costs time."));
 }
 
 }  // namespace
@@ -118,8 +108,11 @@ void declare_volume(KeyTable& keys, Case& result) {
 void declare_case_keys(KeyTable& root, CaseDraft& draft) {
   declare_geometry_keys(root, draft);
   declare_sizing(
-      root.section("sizing", common("How large elements are. What is left out is chosen from the model; the "
-                                    "smallest of all sizes that are asked for somewhere wins there.")),
+      root.section(
+          "sizing",
+          common(
+              "How large elements are. Sizes that are left out are chosen from the model. At each place the "
+              "smallest size wins ([Precedence of sizes](configuration/sizing.md#precedence-of-sizes)).")),
       draft);
   declare_surface(root.section("surface", "How the surface is cut into pieces of work."), draft.result);
   declare_layers(root, draft);
@@ -127,13 +120,12 @@ void declare_case_keys(KeyTable& root, CaseDraft& draft) {
                  draft.result);
   declare_result_keys(root, draft.result);
   root.section("parallel", "How the machine is used; it changes no result.")
-      .choice<parallel::Sandbox>("sandbox", draft.result.sandbox,
-                                 {{"process", parallel::Sandbox::process}, {"none", parallel::Sandbox::none}},
-                                 "Where the CAD library and TetGen run. `process`: in child processes, so "
-                                 "that a crash of theirs is a "
-                                 "message, or another try. `none`: in the ranks, for machines that forbid "
-                                 "child processes; a crash ends "
-                                 "the run then, and limits of time and memory do not hold.");
+      .choice<parallel::Sandbox>(
+          "sandbox", draft.result.sandbox,
+          {{"process", parallel::Sandbox::process}, {"none", parallel::Sandbox::none}},
+          "Where the CAD library and TetGen run. `process`: in child processes, so that a crash becomes a "
+          "message or another try. `none`: in the ranks, for machines that forbid child processes. A crash "
+          "then ends the run, and limits of time and memory do not hold.");
 }
 
 std::vector<KeyInfo> case_keys() {

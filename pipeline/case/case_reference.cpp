@@ -1,5 +1,6 @@
 #include "pipeline/case/case_reference.hpp"
 
+#include "pipeline/case/case_keys.hpp"
 #include "pipeline/case/key_text.hpp"
 
 #include <algorithm>
@@ -12,14 +13,29 @@ namespace aeroloom::cases {
 namespace {
 
 const std::string begin_mark =
-    "<!-- keys: made by `aeroloom schema --markdown --output docs/configuration.md`; edit the texts where "
-    "the "
-    "keys are declared, case/*_keys.cpp -->\n";
+    "<!-- keys: written by `aeroloom schema --markdown --output docs/configuration` -->\n";
 const std::string begin_of_mark = "<!-- keys:";
 const std::string end_mark = "<!-- end of keys -->\n";
 
 std::string in_code(const std::string& text) {
   return "`" + text + "`";
+}
+
+/// Links relative to docs/ as links relative to docs/configuration/.
+std::string with_links_from_pages(const std::string& markdown) {
+  const std::string start = "](", of_pages = "configuration/";
+  std::string text;
+  std::size_t from = 0;
+  for (std::size_t at = markdown.find(start); at != std::string::npos; at = markdown.find(start, from)) {
+    text += markdown.substr(from, at + start.size() - from);
+    from = at + start.size();
+    if (markdown.compare(from, of_pages.size(), of_pages) == 0) {
+      from += of_pages.size();
+    } else {
+      text += "../";
+    }
+  }
+  return text + markdown.substr(from);
 }
 
 std::string default_cell(const KeyInfo& key) {
@@ -35,7 +51,11 @@ std::string row(const KeyInfo& key) {
   } else if (key.kind == KeyKind::flag) {
     accepted = "`true`, `false`";
   }
-  return fmt::format("| {} | {} | {} | {} |\n", in_code(key.path), default_cell(key), accepted, key.doc.text);
+  const std::string in_full = length_unit, in_short = "(length)";  // as the list of sections explains
+  if (const std::size_t at = accepted.find(in_full); at != std::string::npos)
+    accepted.replace(at, in_full.size(), in_short);
+  return fmt::format("| {} | {} | {} | {} |\n", in_code(key.path), default_cell(key), accepted,
+                     with_links_from_pages(key.doc.text));
 }
 
 bool is_below(const KeyInfo& key, const KeyInfo& section) {
@@ -82,27 +102,61 @@ std::string table(const std::vector<SectionKeys>& sections, std::size_t which) {
   return text;
 }
 
-}  // namespace
+bool is_in(const KeyInfo& section, const KeyInfo& page) {
+  return section.path == page.path || section.path.starts_with(page.path + ".");
+}
 
-std::string case_reference(const std::vector<KeyInfo>& keys) {
-  const std::vector<SectionKeys> sections = sections_of(keys);
+std::string first_sentence(const std::string& text) {
+  return text.substr(0, text.find(". ")) + (text.find(". ") == std::string::npos ? "" : ".");
+}
+
+/// The list of sections.
+ReferencePage index_of(const std::vector<KeyInfo>& keys) {
+  std::string text = "\n| section | holds |\n|---|---|\n";
+  for (const KeyInfo& section : keys) {
+    if (section.path.find('.') != std::string::npos) continue;
+    text += fmt::format("| [{0}]({0}.md) | {1} |\n", section.path,
+                        with_links_from_pages(first_sentence(section.doc.text)));
+  }
+  return {"README.md", "Configuration", begin_mark + text + "\n" + end_mark};
+}
+
+/// A section of the first level with all sections in it.
+ReferencePage page_of(const std::vector<SectionKeys>& sections, const KeyInfo& page) {
   std::string text = begin_mark;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const KeyInfo& section = sections[i].section;
-    text += fmt::format("\n### {}\n\n{}\n", section.path, section.doc.text);
+    if (!is_in(section, page)) continue;
+    if (section.path != page.path) text += fmt::format("\n## {}\n", section.path);
+    text += "\n" + with_links_from_pages(section.doc.text) + "\n";
     if (!sections[i].keys.empty()) text += "\n" + table(sections, i);
   }
-  return text + "\n" + end_mark;
+  return {page.path + ".md", page.path, text + "\n" + end_mark};
 }
 
-std::string with_reference(const std::string& page, const std::string& reference) {
-  const std::size_t begin = page.find(begin_of_mark), end = page.find(end_mark);
+}  // namespace
+
+std::vector<ReferencePage> case_reference(const std::vector<KeyInfo>& keys) {
+  const std::vector<SectionKeys> sections = sections_of(keys);
+  std::vector<ReferencePage> pages{index_of(keys)};
+  for (const SectionKeys& each : sections) {
+    if (each.section.path.find('.') == std::string::npos) pages.push_back(page_of(sections, each.section));
+  }
+  return pages;
+}
+
+std::string new_page(const ReferencePage& page) {
+  return "# " + page.title + "\n\n" + page.keys;
+}
+
+std::string with_reference(const std::string& text, const std::string& keys) {
+  const std::size_t begin = text.find(begin_of_mark), end = text.find(end_mark);
   if (begin == std::string::npos || end == std::string::npos || end < begin) {
     throw std::invalid_argument(fmt::format(
         "there is no place for the keys; it begins with a line '{} ... -->' and ends with a line '{}'",
         begin_of_mark, end_mark.substr(0, end_mark.size() - 1)));
   }
-  return page.substr(0, begin) + reference + page.substr(end + end_mark.size());
+  return text.substr(0, begin) + keys + text.substr(end + end_mark.size());
 }
 
 }  // namespace aeroloom::cases

@@ -151,7 +151,7 @@ void add_keys(Json& schema, const std::vector<KeyInfo>& keys) {
 std::string case_schema(const std::vector<KeyInfo>& keys) {
   Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
                  {"title", schema_title},
-                 {"description", "What a run of Aeroloom depends on (docs/configuration.md)."},
+                 {"description", "What a run of Aeroloom depends on (docs/configuration)."},
                  {"type", "object"},
                  {"properties", Json::object()},
                  {"additionalProperties", false}};

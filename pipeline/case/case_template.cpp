@@ -43,7 +43,7 @@ std::string heading(const TemplateRequest& request) {
              std::string("A case of Aeroloom. A line such as `#extent: 10`, without a space, is a key at "
                          "its default: what is left out is so. Take the # away and change the value. Lines "
                          "that end in `# for example` have no default.") +
-                 which + " All keys: docs/configuration.md.",
+                 which + " All keys: docs/configuration.",
              "") +
          comment("Next: `aeroloom check CASE.yaml`, then `aeroloom run CASE.yaml`.", "");
 }

@@ -16,36 +16,33 @@ namespace {
 
 void declare_conditions(KeyTable& keys, FaceConditions& c) {
   keys.texts("faces", c.faces,
-             common({"List of patterns of faces' or patches' names: a name, `*` for any characters and `?` "
-                     "for one, or `re:` with a regular expression that is found in the name.",
+             common({"Patterns of names of faces or patches: a name, with `*` for any characters and `?` for "
+                     "one, or `re:` and a regular expression that occurs in the name.",
                      "any; of a group without any condition: its own name", "'re:^Wing.*'"}));
   keys.texts("part", c.parts,
-             {"List of patterns, as in `faces`, of the part (solid, product) of the CAD file.", "any",
-              "'nacelle*'"});
-  keys.texts("layer", c.layers, {"List of patterns of the layer in the CAD file.", "any", "inlet"});
-  keys.texts(
-      "color", c.colors,
-      {"List of colours in the CAD file, in quotes: `aeroloom info FILE` lists them.", "any", "'#ff0000'"});
+             {"Patterns of the part (solid, product) in the CAD file.", "any", "'nacelle*'"});
+  keys.texts("layer", c.layers, {"Patterns of the layer in the CAD file.", "any", "inlet"});
+  keys.texts("color", c.colors,
+             {"Colours in the CAD file, in quotes; `aeroloom info FILE` lists them.", "any", "'#ff0000'"});
   keys.box("box", c.box,
-           {"Box, by two opposite corners, in which the whole face lies.", "any", "[[0, 0, 0], [1, 1, 1]]"});
+           {"Box that holds the whole face, by two opposite corners.", "any", "[[0, 0, 0], [1, 1, 1]]"});
   keys.direction(
       "normal", c.normal,
       {"Mean normal of the face, out of the solid of the CAD file: away from a body, out of a fluid.", "any",
        "[1, 0, 0]"});
   keys.number("within", c.within, Range::above(0, 180, "degrees"),
-              {"How far the mean normal may turn from `normal`.", shortest(default_within),
+              {"Largest angle between the mean normal and `normal`.", shortest(default_within),
                shortest(default_within)});
   keys.interval("area", c.area, "(square of the length unit)",
                 {"Area of the face in the CAD: from, to.", "any", "[0, 0.1]"});
-  keys.texts("adjacent_to", c.adjacent_to,
-             {"List of groups, or of patterns as in `faces`: the face has an edge in common with one of "
-              "theirs and is not among them.",
-              "any", "wing"});
   keys.texts(
-      "ids", c.ids,
-      {"List of ids of CAD faces and of ranges of them: the number of the face in its file, from 0, as "
-       "in `face_12`; `check.json` and the report have them.",
-       "any", "[3, 17-20]"});
+      "adjacent_to", c.adjacent_to,
+      {"Groups, or patterns as in `faces`: the face shares an edge with one of theirs and is none of them.",
+       "any", "wing"});
+  keys.texts("ids", c.ids,
+             {"Numbers of faces in the file, from 0, and ranges of them; 12 is `face_12`. `check.json` and "
+              "the report list them.",
+              "any", "[3, 17-20]"});
 }
 
 const std::vector<KeyInfo>& infos_of_conditions() {
@@ -71,17 +68,16 @@ void declare_lists(KeyTable& keys, const char* name, std::deque<FaceConditions>&
 void declare_rule(KeyTable& keys, GroupRule& rule) {
   declare_conditions(keys, rule.all);
   declare_lists(keys, "any", rule.any,
-                {"List of selections with the keys above: faces that one of them selects, a union.", "any",
+                {"Selections with the keys above: the face must meet at least one.", "any",
                  "[{faces: 'wing_*'}, {color: '#ff0000'}]"});
   declare_lists(keys, "except", rule.except,
-                {"List of selections with the keys above: faces that one of them selects are left out.",
-                 "none", "[{faces: '*_tip'}]"});
-  keys.flag(
-      "optional", rule.optional,
-      "Whether the group may select nothing, as in a case for several geometries. Else that is an error.");
-  keys.number("size", rule.size, Range::above(0, length_unit),
-              common({"Largest size of elements on the faces of the group, as `patches.NAME.size`.",
-                      "that of `sizing`", "0.05"}));
+                {"Selections with the keys above: the face must meet none.", "none", "[{faces: '*_tip'}]"});
+  keys.flag("optional", rule.optional,
+            "Whether the group may select nothing, as in a case for several geometries. Otherwise this is an "
+            "error.");
+  keys.number(
+      "size", rule.size, Range::above(0, length_unit),
+      common({"Largest size of elements on the group, as `patches.NAME.size`.", "that of `sizing`", "0.05"}));
   declare_patch_type(keys, rule.type);
 }
 
@@ -93,24 +89,22 @@ void declare_patch_type(KeyTable& keys, std::optional<mesh::PatchType>& type) {
   for (const PatchType each : {PatchType::wall, PatchType::slip, PatchType::symmetry, PatchType::farfield,
                                PatchType::inlet, PatchType::outlet})
     types.emplace_back(mesh::name_of(each), each);
-  keys.choice("type", type, types,
-              common({"The condition that goes into solver files ([Formats](formats.md)).",
-                      "`farfield` for the far field that the program added, others by their names, or else "
-                      "`wall`",
-                      "wall"}));
+  keys.choice(
+      "type", type, types,
+      common({"Boundary condition in solver files ([Formats](formats.md)).",
+              "`farfield` for the far field of the program; of others what their name says, or else `wall`",
+              "wall"}));
 }
 
 void declare_groups(KeyTable& root, std::deque<GroupRule>& rules, bool& strict) {
   KeyTable& groups = root.named_sections(
       "groups",
-      common(
-          "Groups of CAD faces by name, colour, layer, place, direction, area or neighbours: each is a patch "
-          "of the mesh, with a size and a condition of its own "
-          "([Selection and groups](configuration.md#selection-and-groups))."),
-      common(
-          {"A group, of a name that you choose. A face is in it that meets all conditions given; the first "
-           "group of the list that selects a face has it, and groups come before `patches`.",
-           "", "nacelle"}),
+      common("Groups of CAD faces by name, colour, layer, place, direction, area or neighbours. Each is a "
+             "patch, with a size and a condition of its own ([Selection and "
+             "groups](configuration/groups.md#selection-and-groups))."),
+      common({"A group of a name that you choose. A face has to meet all its conditions. It belongs to the "
+              "first group that selects it; groups come before `patches`.",
+              "", "nacelle"}),
       [&rules](const std::string& name, KeyTable& keys) {
         const auto known = std::find_if(rules.begin(), rules.end(),
                                         [&](const GroupRule& rule) { return rule.name == name; });
@@ -119,8 +113,8 @@ void declare_groups(KeyTable& root, std::deque<GroupRule>& rules, bool& strict) 
         declare_rule(keys, rule);
       });
   groups.flag("strict", strict,
-              "Whether a face of the boundary that neither a group nor `patches` has is an error. What the "
-              "program added (far field, plane of symmetry) needs no group.");
+              "Whether every boundary face has to be in a group or in `patches`; others are then an error. "
+              "The far field and the plane of symmetry of the program need no group.");
 }
 
 void check_patterns(const KeyTable& keys, const std::string& path, const std::vector<std::string>& patterns) {

@@ -28,57 +28,51 @@ void declare_layer_rule(KeyTable& keys, LayerRule& rule) {
   keys.number("growth", rule.growth, Range::between(least_growth, most_growth),
               {"As `layers.growth`, on this patch.", "as for all walls", "1.3"});
   keys.integer("count", rule.count, Range::between(0, most_layers, "layers"),
-               {"As `layers.count`, on this patch; 0: it gets no layers.", "as for all walls", "0"});
+               {"As `layers.count`, on this patch; 0: no layers.", "as for all walls", "0"});
   keys.number("total", rule.total, Range::above(0, length_unit),
               {"As `layers.total`, on this patch.", "as for all walls", "0.01"});
 }
 
 void declare_first(KeyTable& keys, LayerRequest& request) {
-  keys.number_or(
-      "level", request.first_of_level, "first", request.first, Range::above(0, length_unit),
-      common({"Height of the layer at the wall. `level`: from the y+ of `sizing.level`, with `reynolds` "
-              "and `length`; so it is, too, where these are given alone.",
-              "from `y_plus`, `reynolds` and `length`", "1e-5"}));
-  keys.number(
-      "y_plus", request.y_plus, Range::between(1e-3, 1000),
-      {"The wall distance of the first node (of the first cell's centre with `sizing.solver: cell`) "
-       "in units of the flow: the height is 0.80 y+ L / (Re sqrt(cf / 2)) with cf = 0.026 / Re^(1/7), "
-       "a flat plate's.",
-       "that of `sizing.level`", "1"});
+  keys.number_or("level", request.first_of_level, "first", request.first, Range::above(0, length_unit),
+                 common({"Height of the layer at the wall. `level`: from the y+ of `sizing.level`, with "
+                         "`reynolds` and `length`; these two alone mean the same.",
+                         "from `y_plus`, `reynolds` and `length`", "1e-5"}));
+  keys.number("y_plus", request.y_plus, Range::between(1e-3, 1000),
+              {"Wall distance of the first node in units of the flow; with `sizing.solver: cell`, of the "
+               "centre of the first cell. The height is 0.80 y+ L / (Re sqrt(cf / 2)) with cf = 0.026 / "
+               "Re^(1/7), as on a flat plate.",
+               "that of `sizing.level`", "1"});
   keys.number("reynolds", request.reynolds, Range::between(1, 1e12),
-              {"Reynolds number of the flow, of `length`.", "needed with `y_plus`", "5e6"});
+              {"Reynolds number of the flow over `length`.", "needed with `y_plus`", "5e6"});
   keys.number("length", request.length, Range::above(0, length_unit),
-              {"The length that `reynolds` is meant for.", "needed with `y_plus`", "7"});
+              {"Length to which `reynolds` refers.", "needed with `y_plus`", "7"});
 }
 
 void declare_stops(KeyTable& keys, LayerRequest& request) {
   keys.integer(
       "constant", request.constant, Range::between(1, most_layers, "layers"),
-      {"How many layers at the wall are as high as the first.", "that of `sizing.level`, or 2", "2"});
-  keys.number(
-      "growth", request.growth, Range::between(least_growth, most_growth),
-      common({"Ratio of the heights of layers, from one to the next. Where there is little room it is "
-              "less.",
-              "that of `sizing.level`, or 1.2", "1.2"}));
+      {"Number of layers at the wall that are as high as the first.", "that of `sizing.level`, or 2", "2"});
+  keys.number("growth", request.growth, Range::between(least_growth, most_growth),
+              common({"Ratio of the heights of successive layers. It is less where there is little room.",
+                      "that of `sizing.level`, or 1.2", "1.2"}));
   keys.integer("count", request.count, Range::between(1, most_layers, "layers"),
-               {"How many layers there are, at most.", "as many as `until` takes", "40"});
+               {"Largest number of layers.", "as many as `until` takes", "40"});
   keys.number("total", request.total, Range::above(0, length_unit),
-              {"Height of all layers together, at most.", "as high as `until` takes", "0.02"});
-  keys.choice<LayerEnd>(
-      "until", request.until, {{"isotropic", LayerEnd::isotropic}},
-      "Where layers stop that neither `count` nor `total` stops: `isotropic`, once the last "
-      "is 0.7 times as high as the triangles there are wide.");
+              {"Largest height of all layers together.", "as high as `until` takes", "0.02"});
+  keys.choice<LayerEnd>("until", request.until, {{"isotropic", LayerEnd::isotropic}},
+                        "Where layers stop without `count` and `total`. `isotropic`: once the last is 0.7 "
+                        "times as high as the triangles there are wide.");
   using layers::LayerElements;
-  keys.choice<LayerElements>(
-      "elements", request.elements, {{"prisms", LayerElements::prisms}, {"tets", LayerElements::tets}},
-      "The cells of layers: `prisms`, with pyramids and tetrahedra where neighbours have different numbers "
-      "of layers, or `tets`: each of those cut into tetrahedra.");
+  keys.choice<LayerElements>("elements", request.elements,
+                             {{"prisms", LayerElements::prisms}, {"tets", LayerElements::tets}},
+                             "Cells of the layers. `prisms`: also pyramids and tetrahedra where neighbours "
+                             "have different numbers of layers. `tets`: all of these cut into tetrahedra.");
 }
 
 void declare_layer_gate(KeyTable& keys, LayerGate& gate) {
   keys.number("full_area", gate.full_area, Range::between(0, 1),
-              {"The part of the area of walls with layers whose columns have all layers asked for, at least.",
-               "none", "0.95"});
+              {"Least part of the area of walls with layers that has all layers asked for.", "none", "0.95"});
 }
 
 /// The rule has a height, its own or that of all.
@@ -95,8 +89,8 @@ void declare_layers(KeyTable& root, CaseDraft& draft) {
   LayerRequest& request = draft.result.layers;
   KeyTable& keys = root.section(
       "layers",
-      common("Boundary layers: prisms on walls, for viscous flow ([Boundary layers](configuration.md#"
-             "boundary-layers)). Without the section there are none."),
+      common("Boundary layers: prisms on walls, for viscous flow ([how to make "
+             "them](how_to_boundary_layers.md)). Layers are made only if the case has this section."),
       &request.given);
   keys.choice<LayeredWalls>(
       "walls", request.walls, {{"auto", LayeredWalls::all}, {"none", LayeredWalls::none}},
@@ -104,12 +98,12 @@ void declare_layers(KeyTable& root, CaseDraft& draft) {
   declare_first(keys, request);
   declare_stops(keys, request);
   declare_layer_gate(
-      keys.section("gate",
-                   "Limits that the layers have to meet. Where one is missed the run ends with "
-                   "exit code 6, the mesh written.",
-                   &request.gate.given),
+      keys.section(
+          "gate",
+          "Limits for the layers. If one is missed, the run ends with exit code 6 after writing the mesh.",
+          &request.gate.given),
       request.gate);
-  keys.named_sections("patches", "Layers of single patches that differ from those of the others.",
+  keys.named_sections("patches", "Layers of single patches that differ from the others.",
                       {"A patch of type `wall`, by its name.", "", "nacelle"},
                       [&rules = draft.layer_rules](const std::string& name, KeyTable& table) {
                         declare_layer_rule(table, layer_rule_of(rules, name));

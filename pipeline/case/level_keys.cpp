@@ -20,33 +20,28 @@ void declare_levels(KeyTable& keys, SizingRequest& request) {
   for (const Level first : {Level::a, Level::coarse}) {
     for (const Level level : sizing::levels_like(first)) levels.emplace_back(sizing::name_of(level), level);
   }
-  keys.choice(
-      "level", request.level, levels,
-      common({"Sizes from the guidelines of the prediction workshops ([Levels](configuration.md#levels)"
-              "): spacing at leading and trailing edges, roots and tips, on bodies and in wakes, growth, "
-              "far field. `A` to `F` and `coarse` to `extra` are finer and finer. Other keys of sizes "
-              "that are given hold in place of what the level has.",
-              "none", "B"}));
-  keys.number(
-      "budget", request.budget, Range::between(100, 1e11, "tetrahedra"),
-      {"Takes the finest level up to `level` whose forecast has no more tetrahedra. Where even the coarsest "
-       "has more, an error tells how many.",
-       "none", "5e7"});
+  keys.choice("level", request.level, levels,
+              common({"Sizes from the guidelines of the prediction workshops "
+                      "([Levels](configuration/sizing.md#levels)), finer from `A` to `F` and from `coarse` "
+                      "to `extra`. Sizes that the case gives replace those of the level.",
+                      "none", "B"}));
+  keys.number("budget", request.budget, Range::between(100, 1e11, "tetrahedra"),
+              {"Takes the finest level up to `level` whose forecast has at most this many tetrahedra. If the "
+               "coarsest has more, an error tells how many.",
+               "none", "5e7"});
   keys.choice<std::optional<LevelFamily>>("family", request.family,
                                           {{"hlpw", std::nullopt}, {"dpw", LevelFamily::dpw}},
-                                          "Whose `coarse` to `extra` are meant: those of the high-lift "
-                                          "workshop or of the drag workshop. Letters are "
-                                          "of `hlpw`.");
+                                          "Whose levels `coarse` to `extra` are: `hlpw`, the high-lift "
+                                          "workshop, or `dpw`, the drag workshop. Letters belong to `hlpw`.");
   keys.choice<SolverPoints>("solver", request.solver,
                             {{"vertex", SolverPoints::vertex}, {"cell", SolverPoints::cell}},
-                            "Where the solver has its unknowns: between those the spacings of a level are "
-                            "meant. With `cell` sizes are 1.41 times as large.");
+                            "Where the solver has its unknowns, to which the spacings of a level refer. With "
+                            "`cell` sizes are 1.41 times as large.");
   keys.point("flow", request.flow,
-             {"Direction of the flow, of any length: leading edges lie against it, wakes along it.",
+             {"Direction of the flow, of any length. Leading edges lie against it, wakes along it.",
               "along x: [1, 0, 0]", "[0, 0, 1]"});
   keys.texts("lifting", request.lifting,
-             {"Patterns of faces' or patches' names: a level looks for trailing edges on these alone. Name "
-              "wings, tails and nacelles where it takes other edges for trailing edges.",
+             {"Patterns of names of faces or patches: a level looks for trailing edges on these alone.",
               "all faces", "['wing_*', 'tail*']"});
 }
 

@@ -53,32 +53,28 @@ std::vector<std::pair<std::string_view, bool>> given_keys(const SourceRule& rule
 void declare_wake(SourceRule& rule, KeyTable& keys) {
   keys.texts(
       "behind", rule.behind,
-      {"List of patterns of faces' or patches' names: the wake begins at their trailing edges, sharp or "
-       "blunt, where the body ends along `direction`.",
+      {"Patterns of names of faces or patches: the wake begins at their trailing edges, sharp or blunt.",
        "a `wake` begins at the line from `from` to `to`, others have none", "['wing_*']"});
   keys.point("direction", rule.direction,
-             {"Where the wake goes; its length is of no matter.", "needed by `wake`, others have none",
-              "[1, 0, 0.05]"});
+             {"Direction of the wake, of any length.", "needed by `wake`, others have none", "[1, 0, 0.05]"});
   keys.number("length", rule.length, Range::above(0, length_unit),
               {"Length of the wake.", "needed by `wake`, others have none", "10"});
   keys.number("end_size", rule.end_size, Range::above(0, length_unit),
-              {"Largest size where the wake ends; between, sizes go linearly.",
+              {"Largest size at the end of the wake; sizes change linearly along it.",
                "as `size`; shapes other than `wake` have none", "0.4"});
 }
 
 void declare_rule(SourceRule& rule, KeyTable& keys) {
   std::vector<std::pair<std::string, std::optional<SourceShape>>> names;
   for (const ShapeKeys& each : shapes()) names.emplace_back(each.name, each.shape);
-  keys.choice(
-      "shape", rule.shape, names,
-      common({"Shape of the region. A `cylinder` has plane ends; a `cone` has another radius at its other "
-              "end; a `wake` is the sheet that a line leaves behind.",
-              "needed", "box"}));
-  keys.number(
-      "size", rule.size, Range::above(0, length_unit),
-      common({"Largest size of elements in the region. Away from it sizes grow by `sizing.growth`. No other "
-              "bound holds there but smaller sizes.",
-              "needed", "0.05"}));
+  keys.choice("shape", rule.shape, names,
+              common({"Shape of the region. A `cylinder` has plane ends; a `cone` has a second radius at "
+                      "`to`; a `wake` is the sheet that a line leaves behind.",
+                      "needed", "box"}));
+  keys.number("size", rule.size, Range::above(0, length_unit),
+              common({"Largest size of elements in the region. Beyond it sizes grow by `sizing.growth`. Only "
+                      "smaller sizes replace it.",
+                      "needed", "0.05"}));
   const auto point = [&](const char* name, std::optional<geometry::Vec3>& target, const char* text,
                          const char* left_out) {
     keys.point(name, target, {text, left_out, "[0, 0, 0]"});
@@ -87,7 +83,7 @@ void declare_rule(SourceRule& rule, KeyTable& keys) {
   point("low", rule.low, "A corner of the box.", "needed by `box`, others have none");
   point("high", rule.high, "The opposite corner.", "needed by `box`, others have none");
   const char* with_axis = "needed by `line`, `cylinder`, `cone` and `wake` (or `behind`), others have none";
-  point("from", rule.from, "One end of the axis; of a wake: of the line where it begins.", with_axis);
+  point("from", rule.from, "One end of the axis, or of the line where a wake begins.", with_axis);
   point("to", rule.to, "The other end.", with_axis);
   keys.number(
       "radius", rule.radius, Range::above(0, length_unit),
@@ -100,19 +96,18 @@ void declare_rule(SourceRule& rule, KeyTable& keys) {
 }  // namespace
 
 void declare_reference_length(KeyTable& sizing, std::optional<double>& length) {
-  sizing.number(
-      "reference_length", length, Range::above(0, length_unit),
-      {"What 1 stands for below `sizing`, in `groups.NAME.size` and in `patches.NAME.size`: all sizes, "
-       "lengths and places there are multiples of it, such as of the mean chord ([Reference "
-       "length](configuration.md#reference-length)).",
-       "the length unit of the geometry", "4.2"});
+  sizing.number("reference_length", length, Range::above(0, length_unit),
+                {"Unit of all sizes, lengths and places below `sizing`, of `groups.NAME.size` and of "
+                 "`patches.NAME.size`, such as the mean chord ([Reference "
+                 "length](configuration/sizing.md#reference-length)).",
+                 "the length unit of the geometry", "4.2"});
 }
 
 void declare_expression(KeyTable& sizing, std::string& expression) {
   sizing.text("expression", expression,
-              {"Largest size of elements as a formula of `x`, `y` and `z`, all in the length unit of the "
-               "geometry, or in reference lengths where `reference_length` is given "
-               "([Expression](configuration.md#expression)). Bounded below by `minimum` where that is given.",
+              {"Largest size as a formula of `x`, `y` and `z`, all in the length unit of the geometry or in "
+               "reference lengths ([Expression](configuration/sizing.md#expression)). At least `minimum`, if "
+               "that is given.",
                "none", "max(0.05, 0.1*sqrt(x^2 + y^2 + z^2))"});
 }
 
@@ -127,18 +122,17 @@ void check_expression(const KeyTable& keys, const std::string& expression) {
 }
 
 void declare_sources(KeyTable& sizing, std::deque<SourceRule>& rules) {
-  sizing.named_sections("sources",
-                        common("Regions with small elements: wakes, places behind a flap, the way of a shock "
-                               "([Sources](configuration.md#sources))."),
-                        common({"A region, of a name that you choose.", "", "wake"}),
-                        [&rules](const std::string& name, KeyTable& keys) {
-                          const auto known =
-                              std::find_if(rules.begin(), rules.end(),
-                                           [&](const SourceRule& rule) { return rule.name == name; });
-                          SourceRule& rule = known != rules.end() ? *known : rules.emplace_back();
-                          rule.name = name;
-                          declare_rule(rule, keys);
-                        });
+  sizing.named_sections(
+      "sources",
+      common("Regions with small elements, such as wakes ([Sources](configuration/sizing.md#sources))."),
+      common({"A region of a name that you choose.", "", "wake"}),
+      [&rules](const std::string& name, KeyTable& keys) {
+        const auto known = std::find_if(rules.begin(), rules.end(),
+                                        [&](const SourceRule& rule) { return rule.name == name; });
+        SourceRule& rule = known != rules.end() ? *known : rules.emplace_back();
+        rule.name = name;
+        declare_rule(rule, keys);
+      });
 }
 
 void check_sources(const KeyTable& keys, const std::deque<SourceRule>& rules) {

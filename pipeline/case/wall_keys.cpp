@@ -23,32 +23,31 @@ Rule& rule_of(std::deque<Rule>& rules, const std::string& name) {
 }
 
 void declare_wall(WallRule& rule, KeyTable& keys) {
-  keys.texts("faces", rule.faces,
-             {"List of patterns of faces' or patches' names (`*` any characters, `?` one).", "all walls",
-              "['wing_*']"});
+  keys.texts(
+      "faces", rule.faces,
+      {"Patterns of names of faces or patches (`*` any characters, `?` one).", "all walls", "['wing_*']"});
   keys.number("size", rule.size, Range::above(0, length_unit),
-              {"Largest size of elements at these walls and up to `distance` off them. No other bound holds "
-               "there but smaller sizes.",
+              {"Largest size of elements at these walls and up to `distance` from them. Only smaller sizes "
+               "replace it.",
                "needed", "0.05"});
   keys.number(
       "distance", rule.distance, Range::between(0, std::numeric_limits<double>::infinity(), length_unit),
-      {"How far off the walls the size is held; beyond it sizes grow by `sizing.growth`.", "needed", "0.5"});
+      {"Distance up to which the size holds; beyond it sizes grow by `sizing.growth`.", "needed", "0.5"});
 }
 
 void declare_edge(EdgeRule& rule, KeyTable& keys) {
-  keys.texts(
-      "between", rule.between,
-      {"Patterns of faces' or patches' names: one, whose edges are taken, or two, whose common edges are "
-       "taken.",
-       "all edges in the box", "['wing_*', 'fuselage*']"});
+  keys.texts("between", rule.between,
+             {"Patterns of names of faces or patches: one for the edges of its faces, two for the edges "
+              "common to both.",
+              "all edges in the box", "['wing_*', 'fuselage*']"});
   keys.point("low", rule.low,
-             {"A corner of a box: only parts of edges inside it are taken; a small box around a vertex sizes "
-              "the vertex.",
+             {"A corner of a box: only parts of edges inside it count. A small box around a vertex gives a "
+              "size to the vertex.",
               "no box; needs `between` then", "[0, 0, 0]"});
   keys.point("high", rule.high, {"The opposite corner.", "no box", "[1, 1, 1]"});
-  keys.number("size", rule.size, Range::above(0, length_unit),
-              {"Largest size of elements along these edges. No other bound holds there but smaller sizes.",
-               "needed", "0.02"});
+  keys.number(
+      "size", rule.size, Range::above(0, length_unit),
+      {"Largest size of elements along these edges. Only smaller sizes replace it.", "needed", "0.02"});
 }
 
 void require(const KeyTable& keys, const std::string& path, bool holds, const char* what) {
@@ -60,18 +59,17 @@ void require(const KeyTable& keys, const std::string& path, bool holds, const ch
 void declare_walls(KeyTable& sizing, std::deque<WallRule>& rules) {
   sizing.named_sections(
       "walls",
-      "Bands of small elements off walls ([Walls, wakes and "
-      "edges](configuration.md#walls-wakes-and-edges)).",
-      {"A band, of a name that you choose.", "", "near_wing"},
+      "Bands of small elements along walls ([Walls, wakes and "
+      "edges](configuration/sizing.md#walls-wakes-and-edges)).",
+      {"A band of a name that you choose.", "", "near_wing"},
       [&rules](const std::string& name, KeyTable& keys) { declare_wall(rule_of(rules, name), keys); });
 }
 
 void declare_edges(KeyTable& sizing, std::deque<EdgeRule>& rules) {
   sizing.named_sections(
       "edges",
-      "Sizes along CAD edges ([Walls, wakes and "
-      "edges](configuration.md#walls-wakes-and-edges)).",
-      {"Some edges, of a name that you choose.", "", "wing_root"},
+      "Sizes along CAD edges ([Walls, wakes and edges](configuration/sizing.md#walls-wakes-and-edges)).",
+      {"Edges of a name that you choose.", "", "wing_root"},
       [&rules](const std::string& name, KeyTable& keys) { declare_edge(rule_of(rules, name), keys); });
 }
 

@@ -32,7 +32,7 @@ std::function<std::string(const std::string&)> is_no_empty_name() {
 }  // namespace
 
 void add_case_file(CLI::App& command, CaseArguments& arguments) {
-  command.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
+  command.add_option("case", arguments.file, "the case, a YAML file (docs/configuration)")
       ->required()
       ->check(is_no_empty_name())
       ->type_name(file_kind::of_case);

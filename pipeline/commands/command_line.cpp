@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* program_description =
     "Aeroloom: from aircraft CAD to a distributed tetrahedral mesh.\n"
-    "There are no boundary layers: all elements are isotropic tetrahedra.";
+    "Boundary layers of prisms stand on walls where the case asks for them.";
 
 /// Before the name of the command or after it.
 void add_loudness(CLI::App& app, Loudness& loudness) {

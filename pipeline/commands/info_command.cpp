@@ -9,10 +9,10 @@
 namespace aeroloom::pipeline {
 
 Command add_info(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("info", "tell what a file holds: a mesh, CAD, or a case");
+  CLI::App* app = program.add_subcommand("info", "tell what a file holds: a mesh, CAD, triangles, or a case");
   const auto request = std::make_shared<InfoRequest>();
   app->add_option("file", request->file,
-                  "a mesh in any format that is read (docs/formats.md), STEP, IGES, BREP, or a case")
+                  "a mesh in any format that is read (docs/formats.md), CAD, triangles, or a case")
       ->required()
       ->type_name(file_kind::any);
   app->add_flag("--json", request->print_json, "print JSON (docs/usage.md)")->group(option_group::output);

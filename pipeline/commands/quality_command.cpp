@@ -28,7 +28,7 @@ Command add_quality(CLI::App& program) {
            [gate = arguments.get(), key](const std::string& value) {
              gate->overrides.push_back(fmt::format("improve.gate.{}={}", key, value));
            },
-           fmt::format("as improve.gate.{} (docs/configuration.md)", key))
+           fmt::format("as improve.gate.{} (docs/configuration/improve.md)", key))
         ->check(CLI::Number)
         ->type_name("LIMIT")
         ->group(option_group::limits);

@@ -203,7 +203,7 @@ report::ExitCode compare_studies(const ScalingArguments& arguments) {
 }
 
 void add_options(CLI::App& app, ScalingArguments& arguments) {
-  app.add_option("case", arguments.file, "the case, a YAML file (docs/configuration.md)")
+  app.add_option("case", arguments.file, "the case, a YAML file (docs/configuration)")
       ->type_name(file_kind::of_case);
   add_overrides(app, arguments);
   app.add_option("--ranks", arguments.ranks, "numbers of ranks, as 1,2,4,8; 1,2 by default")

@@ -11,7 +11,7 @@ namespace {
 const char* remedy(int code) {
   switch (static_cast<ExitCode>(code)) {
     case ExitCode::usage:
-      return "Correct the case as the message says (docs/configuration.md). <code>aeroloom check</code> "
+      return "Correct the case as the message says (docs/configuration). <code>aeroloom check</code> "
              "tries a case "
              "without meshing.";
     case ExitCode::cad:

@@ -123,14 +123,28 @@ def check_template_meshes_nothing_new(program):
 
 
 def check_reference(program):
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
-    page = folder / "page.md"
-    page.write_text((SOURCE / "docs" / "configuration.md").read_text())
-    assert run(program, "schema", "--markdown", "--output", page)[0] == 0
-    assert page.read_text() == (SOURCE / "docs" / "configuration.md").read_text()
-    page.write_text("no marks\n")
-    code, _, said = run(program, "schema", "--markdown", "--output", page)
-    assert code == 2 and "page.md" in said and page.read_text() == "no marks\n", said
+    """Pages are written into a folder; of those that exist the keys alone are renewed."""
+    docs = SOURCE / "docs" / "configuration"
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_")) / "pages"
+    assert run(program, "schema", "--markdown", "--output", folder)[0] == 0
+    assert sorted(page.name for page in folder.iterdir()) == sorted(page.name for page in docs.iterdir())
+    for page in folder.iterdir():
+        text = (docs / page.name).read_text()
+        keys = page.read_text().split("\n", 2)[2]
+        assert keys in text, page.name
+        page.write_text(text.replace(keys, "<!-- keys: old -->\n<!-- end of keys -->\n"))
+    assert run(program, "schema", "--markdown", "--output", folder)[0] == 0
+    for page in docs.iterdir():
+        assert (folder / page.name).read_text() == page.read_text(), page.name
+    (folder / "sizing.md").write_text("no marks\n")
+    (folder / "volume.md").write_text("<!-- keys: old -->\n<!-- end of keys -->\n")
+    code, _, said = run(program, "schema", "--markdown", "--output", folder)
+    assert code == 2 and "sizing.md" in said and (folder / "sizing.md").read_text() == "no marks\n", said
+    assert "old" in (folder / "volume.md").read_text(), "written before the refusal"
+    code, _, said = run(program, "schema", "--markdown", "--output", folder / "sizing.md")
+    assert code == 2 and "is a file" in said, said
+    code, said, _ = run(program, "schema", "--markdown")
+    assert code == 0 and all(f"# {page.stem}\n" in said for page in docs.iterdir() if page.stem != "README"), said[:300]
 
 
 def main():

@@ -1,6 +1,7 @@
 /// What is made of the table of keys: the template and the reference.
 #include "pipeline/case/case_template.hpp"
 
+#include "pipeline/case/case_keys.hpp"
 #include "pipeline/case/case_reference.hpp"
 #include "pipeline/case/key_text.hpp"
 #include "pipeline/report/text_file.hpp"
@@ -8,8 +9,12 @@
 #include "tests/pipeline/case/case_fixture.hpp"
 #include "tests/source_tree.hpp"
 
+#include <filesystem>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace aeroloom::cases {
 namespace {
@@ -86,20 +91,57 @@ TEST_F(CaseTest, TheTemplateHasTheKeys) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110U) << line;
 }
 
-TEST(CaseReference, ThePageIsUpToDate) {
-  const std::string page = report::read_text(source_tree() / "docs/configuration.md");
-  EXPECT_TRUE(page == with_reference(page, case_reference(case_keys())))
-      << "docs/configuration.md is stale; renew it: aeroloom schema --markdown --output "
-         "docs/configuration.md";
+TEST(CaseReference, ThePagesAreUpToDate) {
+  const std::filesystem::path folder = source_tree() / "docs/configuration";
+  std::set<std::string> made;
+  for (const ReferencePage& page : case_reference(case_keys())) {
+    const std::string text = report::read_text((folder / page.file).string());
+    EXPECT_TRUE(text == with_reference(text, page.keys))
+        << page.file << " is stale; renew it: aeroloom schema --markdown --output docs/configuration";
+    made.insert(page.file);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    EXPECT_EQ(made.count(entry.path().filename().string()), 1U) << entry.path() << " is of no section";
 }
 
 TEST(CaseReference, NamesEveryKey) {
-  const std::string text = case_reference(case_keys());
+  std::string text;
+  for (const ReferencePage& page : case_reference(case_keys())) text += page.keys;
   for (const KeyInfo& key : case_keys()) {
     const bool as_wing = key.path.find("tail.") != std::string::npos;
-    const std::string shown = as_wing ? "`" + key.name() + ": " + key.default_value + "`" : key.path;
+    const bool top = key.path.find('.') == std::string::npos;
+    const std::string own = top ? "[" + key.path + "](" + key.path + ".md)" : key.path;
+    const std::string shown = as_wing ? "`" + key.name() + ": " + key.default_value + "`" : own;
     EXPECT_NE(text.find(shown), std::string::npos) << key.path;
   }
+}
+
+TEST(CaseReference, HasAPageForEachSectionOfTheFirstLevel) {
+  KeyInfo section{"far"}, below{"far.off"}, named{"far.off.NAME"}, other{"farther"};
+  section.doc = "Text ([Head](configuration/far.md#head), [page](page.md)). More.";
+  below.doc = named.doc = other.doc = "Text.";
+  const std::vector<ReferencePage> pages = case_reference({section, below, named, other});
+  ASSERT_EQ(pages.size(), 3U);
+  EXPECT_EQ(pages[0].file, "README.md");
+  EXPECT_EQ(pages[1].file, "far.md");
+  EXPECT_EQ(pages[2].file, "farther.md");
+  for (const std::size_t i : {0U, 1U})
+    EXPECT_NE(pages[i].keys.find("Text ([Head](far.md#head), [page](../page.md))."), std::string::npos)
+        << pages[i].keys;
+  EXPECT_EQ(pages[0].keys.find("More."), std::string::npos) << pages[0].keys;
+  EXPECT_NE(pages[1].keys.find("More."), std::string::npos) << pages[1].keys;
+  EXPECT_NE(pages[1].keys.find("\n## far.off\n"), std::string::npos) << pages[1].keys;
+  EXPECT_NE(pages[1].keys.find("\n## far.off.NAME\n"), std::string::npos) << pages[1].keys;
+  EXPECT_EQ(pages[1].keys.find("farther"), std::string::npos) << pages[1].keys;
+  EXPECT_EQ(with_reference(new_page(pages[1]), pages[1].keys), new_page(pages[1]));
+}
+
+TEST(CaseReference, LengthsAreMarkedInShort) {
+  KeyInfo section{"far"}, key{"far.off", KeyKind::number};
+  key.range = Range::above(0, length_unit);
+  EXPECT_NE(accepted_values(key).find(length_unit), std::string::npos);
+  const std::string page = case_reference({section, key}).back().keys;
+  EXPECT_NE(page.find("| `far.off` | – | number above 0 (length) |"), std::string::npos) << page;
 }
 
 TEST(CaseReference, ReplacesItsPlaceAlone) {
@@ -113,6 +155,8 @@ TEST(KeyText, LinksBecomePages) {
   EXPECT_EQ(without_links("smoothly ([Narrow faces](real_cad.md#narrow-faces)), [zones](a.md)."),
             "smoothly (docs/real_cad.md: Narrow faces), zones (docs/a.md).");
   EXPECT_EQ(without_links("Files ([Formats](formats.md))."), "Files (docs/formats.md).");
+  EXPECT_EQ(without_links("Sizes ([Levels](configuration/sizing.md#levels))."),
+            "Sizes (docs/configuration/sizing.md: Levels).");
 }
 
 TEST(KeyText, LinesAreBrokenAtSpaces) {
