@@ -17,12 +17,11 @@ struct CaseSurface {
 
 /// Collective.
 inline CaseSurface mesh_surface(const parallel::Communicator& communicator, const cases::Case& input) {
-  parallel::StageClock clock;
   cad::DomainReport domain;
-  const cad::Model model = domain::load_domain(communicator, input.domain, clock, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
   const domain::SizedDomain sized =
-      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock);
-  CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface, clock), {}};
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
+  CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface), {}};
   result.numbering = mesh::number_mesh(communicator, result.surface.mesh);
   return result;
 }

@@ -43,9 +43,8 @@ Angles measure_angles(const mesh::DistributedMesh& filled) {
 mesh::DistributedMesh fill(const Communicator& communicator, const benchmarks::CaseSurface& from,
                            const volume::VolumeOptions& options) {
   const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, options};
-  parallel::StageClock clock;
   volume::VolumeReport report;
-  return volume::fill_zones(communicator, task, volume::decompose(communicator, task, clock), clock, report);
+  return volume::fill_zones(communicator, task, volume::decompose(communicator, task), report);
 }
 
 void run(const Communicator& communicator, const cases::Case& input) {

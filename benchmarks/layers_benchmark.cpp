@@ -97,7 +97,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   const layers::LayerOptions options = options_for(communicator, wall.mesh, first, patch);
   parallel::StageClock clock;
   clock.begin("layers");
-  const layers::Layers layers = layers::build_layers(communicator, wall, options, clock);
+  const layers::Layers layers = layers::build_layers(communicator, wall, options);
   clock.end();
   const parallel::StageSummary stage = clock.summarise(communicator).back();
   const double cpu_used = stage.cpu_seconds_mean * communicator.size();

@@ -37,11 +37,11 @@ void run(const Communicator& communicator, const char* file) {
   parallel::StageClock clock;
   cad::DomainReport domain;
   clock.begin("geometry");
-  const cad::Model model = domain::load_domain(communicator, input.domain, clock, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
   clock.end();
   clock.begin("sizing");
   const domain::SizedDomain sized =
-      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock);
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   if (!communicator.is_root()) return;

@@ -222,15 +222,15 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
   parallel::StageClock clock;
   cad::DomainReport domain;
   clock.begin("geometry");
-  const cad::Model model = domain::load_domain(communicator, input.domain, clock, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
   clock.end();
   clock.begin("sizing");
   const domain::SizedDomain sized =
-      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input), clock);
+      domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
   clock.end();
   clock.begin("surface");
   const surface::SurfaceMesh surface =
-      surface::mesh_surface(communicator, sized.model, sized.field, input.surface, clock);
+      surface::mesh_surface(communicator, sized.model, sized.field, input.surface);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   const parallel::StageSummary& stage = stages.back();

@@ -21,13 +21,13 @@ void run(const Communicator& communicator, const cases::Case& input) {
   const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, input.volume};
   parallel::StageClock clock;
   clock.begin("decompose");
-  volume::Decomposition decomposition = volume::decompose(communicator, task, clock);
+  volume::Decomposition decomposition = volume::decompose(communicator, task);
   clock.end();
   const volume::DecompositionReport parts = decomposition.report();
   volume::VolumeReport report;
   clock.begin("volume");
   const mesh::DistributedMesh filled =
-      volume::fill_zones(communicator, task, std::move(decomposition), clock, report);
+      volume::fill_zones(communicator, task, std::move(decomposition), report);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   const mesh::Numbering numbering = mesh::number_mesh(communicator, filled);

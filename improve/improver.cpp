@@ -148,10 +148,9 @@ int affordable_trials(const parallel::Communicator& communicator, const mesh::Di
 
 /// The rounds in which borders of pieces are inside of cavities.
 void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                    const ImproveOptions& options, const MeshSource& source, ImproveReport& total,
-                    parallel::StageClock& clock) {
+                    const ImproveOptions& options, const MeshSource& source, ImproveReport& total) {
   if (!options.enabled) return;
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const mesh::TetQuality measure(options.target_angle);
   mesh::SharedVertices shared(communicator, mesh);
   const std::int64_t border_moves = smooth_borders(communicator, mesh, shared, measure, options.relaxation);
@@ -163,17 +162,17 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   cavities::CavityClaims claims;
   CavityImprover improver(mesh, options, source);
   const auto refill = [&](cavities::CavityExtent extent, int trials, int shift) {
-    clock.begin_round();
+    parallel::begin_round();
     const auto improve = [&](const cavities::Cavity& cavity) {
       const double begin = parallel::cpu_seconds();
       auto refilling = trials > 0 ? improver.improve_by_trials(cavity, trials, shift, total)
                                   : improver.improve(cavity, total);
-      clock.note_task({"cavity", static_cast<std::int64_t>(cavity.id),
-                       static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
-                       static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
+      parallel::note_task({"cavity", static_cast<std::int64_t>(cavity.id),
+                           static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
+                           static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
       return refilling;
     };
-    bad.update(mesh, cavities::refill_cavities(communicator, mesh, shared, {claims, extent, improve}, clock));
+    bad.update(mesh, cavities::refill_cavities(communicator, mesh, shared, {claims, extent, improve}));
     shared = mesh::SharedVertices(communicator, mesh);
     shared.drop_unshared(mesh);  // cavities name more than borders
   };
@@ -220,9 +219,9 @@ ImproveReport improve_or_find(mesh::Piece& piece, const ImproveOptions& options,
 
 /// For one target.
 ImproveReport improve_for_target(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                                 const ImproveOptions& options, parallel::StageClock& clock,
-                                 const MeshSource& source, parallel::TaskStore* tasks) {
-  clock.begin_round();
+                                 const ImproveOptions& options, const MeshSource& source,
+                                 parallel::TaskStore* tasks) {
+  parallel::begin_round();
   ImproveReport total;
   total.min_angle_before = total.min_angle_after = 180;
   std::vector<double> work;
@@ -230,13 +229,13 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
     if (mesh.kind != mesh::CellKind::tetrahedron)
       throw std::logic_error("improve: the mesh has no tetrahedra");
     if (!options.enabled || communicator.size() < 2) return;
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (const mesh::Piece& piece : mesh.pieces) work.push_back(expected_work(piece, options));
   });
   if (options.enabled) mesh::SharedVertices(communicator, mesh).drop_unshared(mesh);
   if (options.enabled && communicator.size() > 1) balance_pieces(communicator, mesh, work);
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     parallel::Progress progress("improve", static_cast<std::int64_t>(mesh.pieces.size()), "tetrahedra");
     for (mesh::Piece& piece : mesh.pieces) {
       const double begin = parallel::cpu_seconds();
@@ -244,18 +243,18 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
       const ImproveReport mine = improve_or_find(piece, options, source, tasks);
       const double load = mine.is_lattice ? work_per_lattice_cell * cells
                                           : expected_work(cells, static_cast<double>(mine.bad_before));
-      clock.note_task(
+      parallel::note_task(
           {"improved piece", piece.id, load, parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
       total.bad_before += mine.bad_before;
       total.bad_after += mine.bad_after;
       total.add_changes(mine);
       total.min_angle_before = std::min(total.min_angle_before, mine.min_angle_before);
       total.min_angle_after = std::min(total.min_angle_after, mine.min_angle_after);
-      clock.add_pieces(1);
+      parallel::add_pieces(1);
       progress.advance(1, piece.cell_count());
     }
   });
-  improve_across(communicator, mesh, options, source, total, clock);
+  improve_across(communicator, mesh, options, source, total);
   for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.slid,
                               &total.replaced, &total.changed_triangles}) {
     *count = communicator.sum(*count);
@@ -299,11 +298,11 @@ void examine_again(const parallel::Communicator& communicator, const mesh::Distr
 }  // namespace
 
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const ImproveOptions& options, parallel::StageClock& clock,
-                           const MeshSource& source, parallel::TaskStore* tasks) {
+                           const ImproveOptions& options, const MeshSource& source,
+                           parallel::TaskStore* tasks) {
   constexpr double largest_target =
       50;  // degrees; a regular tetrahedron has 70.5, those of the lattice 60 and 90; chosen
-  ImproveReport total = improve_for_target(communicator, mesh, options, clock, source, tasks);
+  ImproveReport total = improve_for_target(communicator, mesh, options, source, tasks);
   if (!options.enabled || options.percentiles.empty()) return total;
   std::vector<PercentileTarget> targets = options.percentiles;
   std::sort(targets.begin(), targets.end(),
@@ -312,7 +311,7 @@ ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::Dis
     if (fraction_below(communicator, mesh, target.angle) <= target.fraction) continue;
     ImproveOptions more = options;
     more.target_angle = std::min(target.angle, largest_target);
-    total.add_changes(improve_for_target(communicator, mesh, more, clock, source, tasks));
+    total.add_changes(improve_for_target(communicator, mesh, more, source, tasks));
   }
   examine_again(communicator, mesh, mesh::TetQuality(options.target_angle), total);
   return total;

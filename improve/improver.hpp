@@ -34,7 +34,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 /// Pieces found in `tasks`, whose context stands for the source and the options, are not improved again on
 /// their own; those improved are kept there. Collective. Throws CollectiveError.
 ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const ImproveOptions& options, parallel::StageClock& clock,
-                           const MeshSource& source = {}, parallel::TaskStore* tasks = nullptr);
+                           const ImproveOptions& options, const MeshSource& source = {},
+                           parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::improve

@@ -45,10 +45,9 @@ void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& 
 }  // namespace
 
 Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, parallel::StageClock& clock,
-                    const PlaneRemesher& remesh_planes) {
-  const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
-  clock.add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
+                    const LayerOptions& options, const PlaneRemesher& remesh_planes) {
+  const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
   const WallShare walls(communicator, wall.mesh, options);
   const Fans fans = gather_fans(communicator, walls);
   const Directions directions = find_directions(walls, fans);
@@ -58,8 +57,7 @@ Layers build_layers(const parallel::Communicator& communicator, const mesh::Numb
   limits.converge(communicator);
   Layers layers;
   layers.report.validity_rounds = shrink_to_good(communicator, walls, directions, limits);
-  layers.front =
-      FrontClearing(communicator, walls, directions, remesh_planes).run(limits, layers.report, clock);
+  layers.front = FrontClearing(communicator, walls, directions, remesh_planes).run(limits, layers.report);
   layers.columns = make_columns(walls, directions, limits);
   layers.report.patches = report_patches(communicator, walls, limits, options.elements);
   return layers;

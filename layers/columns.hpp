@@ -138,7 +138,6 @@ constexpr mesh::LocalIndex wall_piece_triangles = 1'000;
 /// mesh. `remesh_planes` is called, maybe several times, where layers end on planes; their pieces have no
 /// triangles of other faces then. Collective. Throws CollectiveError where options do not fit the mesh.
 Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, parallel::StageClock& clock,
-                    const PlaneRemesher& remesh_planes = {});
+                    const LayerOptions& options, const PlaneRemesher& remesh_planes = {});
 
 }  // namespace aeroloom::layers

@@ -137,8 +137,7 @@ void FrontClearing::lower_around_parts(const mesh::DistributedMesh& front, Lower
   report.swallowing += _communicator.sum(static_cast<std::int64_t>(swallowing.size()));
 }
 
-bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report,
-                             parallel::StageClock& clock) const {
+bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report) const {
   const bool has_planes = static_cast<mesh::PieceId>(_kept.size()) < _wall.mesh.piece_count;
   std::vector<mesh::SharedVertexKey> at_fault;
   if (has_planes) at_fault = _remesh_planes(front);
@@ -147,7 +146,7 @@ bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower,
     lower_on_planes(at_fault, lower);
     return false;
   }
-  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(_communicator, front, clock);
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(_communicator, front);
   const auto add = [&](mesh::PieceId piece, mesh::LocalIndex cell) {
     if (static_cast<std::size_t>(piece) < _kept.size()) lower.add(_kept[piece], cell);
   };
@@ -161,12 +160,11 @@ bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower,
   return false;
 }
 
-mesh::DistributedMesh FrontClearing::run(ColumnLimits& limits, LayerReport& report,
-                                         parallel::StageClock& clock) const {
+mesh::DistributedMesh FrontClearing::run(ColumnLimits& limits, LayerReport& report) const {
   for (int round = 1;; ++round) {
     mesh::DistributedMesh front = make_front(_wall.mesh, make_columns(_wall, _directions, limits));
     LoweredCounts lower(_wall, limits, round);
-    if (is_clear(front, lower, report, clock)) return front;
+    if (is_clear(front, lower, report)) return front;
     report.crossing_rounds = round;
     if (round > rounds_of_thirds) report.zeroed_by_force += _communicator.sum(lower.lowered_here());
     limits.limit_counts(lower.take(), LayerLimit::crossing);

@@ -24,7 +24,7 @@ public:
   /// their columns fall by a third, neighbours follow, cells are made good again, until no triangles meet.
   /// After some rounds columns whose triangles still meet are emptied. What a wall has of intersections
   /// itself stays. Writes rounds and counts to the report, and returns the front. Collective.
-  mesh::DistributedMesh run(ColumnLimits& limits, LayerReport& report, parallel::StageClock& clock) const;
+  mesh::DistributedMesh run(ColumnLimits& limits, LayerReport& report) const;
 
 private:
   class LoweredCounts;
@@ -34,8 +34,7 @@ private:
   void lower_around_parts(const mesh::DistributedMesh& front, LoweredCounts& lower,
                           LayerReport& report) const;
   /// Lowers what is in the way of a front; returns whether that is nothing.
-  bool is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report,
-                parallel::StageClock& clock) const;
+  bool is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report) const;
 
   const parallel::Communicator& _communicator;
   const WallShare& _wall;

@@ -59,7 +59,7 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cases
   const double begin = parallel::cpu_seconds();
   clock.begin("sizing");
   const domain::SizedDomain sized =
-      domain::size_domain(communicator, patches.model, input.sizing, domain::Simplification::of(input), clock,
+      domain::size_domain(communicator, patches.model, input.sizing, domain::Simplification::of(input),
                           sizing::FieldFor::forecast);
   parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
@@ -304,15 +304,15 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   parallel::Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    record.diagnosis = domain::diagnose_sandboxed(input.domain, clock);
+    record.diagnosis = domain::diagnose_sandboxed(input.domain);
     record.diagnosis.failure = cases::with_keys(std::move(record.diagnosis.failure));
     if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
   });
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (!meshable) clock.end();
   if (meshable) {
-    cases::TypedPatches patches = domain::find_patches(
-        communicator, domain::share_model(communicator, std::move(bytes), clock), input, clock);
+    cases::TypedPatches patches =
+        domain::find_patches(communicator, domain::share_model(communicator, std::move(bytes)), input);
     clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;

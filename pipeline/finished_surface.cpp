@@ -76,7 +76,7 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 void inspect_surface(const Communicator& communicator, const cad::Model& model, const std::string& what,
                      const mesh::NumberedMesh& surface, report::RunRecord& record) {
-  const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
+  const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
   record.face_table = table_of_faces(communicator, model, surface.mesh);

@@ -66,14 +66,14 @@ void improve_volume(const Communicator& communicator, const cases::Case& input,
   if (!input.improve.enabled) return;
   improve::ImproveOptions options = input.improve;
   options.percentiles = cases::percentile_targets(input.gate);
-  record.improve = improve::improve_mesh(communicator, volume, options, record.clock, source, tasks);
+  record.improve = improve::improve_mesh(communicator, volume, options, source, tasks);
   log_improve(record);
 }
 
 void inspect_volume(const Communicator& communicator, const cases::Case& input,
                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
                     const mesh::DistributedMesh* surface, report::RunRecord& record) {
-  const parallel::ScopedCpu check(record.clock, parallel::ScopedCpu::As::check);
+  const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   const mesh::ValidityReport validity = mesh::check_volume_mesh(communicator, volume, numbering, surface);
   require_valid("the volume mesh", validity);
   record.mesh_volume = validity.volume;

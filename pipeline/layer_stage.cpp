@@ -57,10 +57,10 @@ std::vector<FrontEnd> ends_of_columns(const mesh::Piece& wall, const layers::Pie
 /// Sources are thinned as if they asked for twice their size, each piece by itself, for pieces do not depend
 /// on ranks: in between the field grows by less than what counts as well above.
 std::vector<sizing::SizeSource> sizes_of_front(const mesh::DistributedMesh& wall,
-                                               const layers::Columns& columns, const sizing::SizeField& field,
-                                               parallel::StageClock& clock) {
+                                               const layers::Columns& columns,
+                                               const sizing::SizeField& field) {
   constexpr double well_above = 1.3, thinning = 2;
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const sizing::RootCube root(field.domain());
   std::vector<sizing::SizeSource> all;
   for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
@@ -98,16 +98,15 @@ LayeredSurface build_layers(const parallel::Communicator& communicator, const ca
       mesh::split_pieces(communicator, surface.mesh, layers::wall_piece_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
     surface::PlaneConflicts conflicts =
-        surface::remesh_planes(communicator, model, surface.field, planes, front, record.clock);
+        surface::remesh_planes(communicator, model, surface.field, planes, front);
     return std::move(conflicts.vertices);
   };
-  layers::Layers made = layers::build_layers(communicator, surface, options, record.clock, remesh);
+  layers::Layers made = layers::build_layers(communicator, surface, options, remesh);
   record.layers.emplace(report::LayerRecord{options, std::move(made.report), !planes.faces.empty()});
   log_layers(record);
-  const std::vector<sizing::SizeSource> sizes =
-      sizes_of_front(surface.mesh, made.columns, surface.field, record.clock);
+  const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
   sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
-                                ? surface.field.refined(communicator, sizes, record.clock)
+                                ? surface.field.refined(communicator, sizes)
                                 : surface.field;
   return {std::move(made.columns), layers::name_front(communicator, std::move(made.front)), std::move(field)};
 }
@@ -116,7 +115,7 @@ void append_layers(const parallel::Communicator& communicator, const cases::Case
                    const mesh::NumberedMesh& surface, const LayeredSurface& layered,
                    mesh::DistributedMesh& volume, report::RunRecord& record) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
-  const parallel::ScopedCpu task(record.clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   layers::append_layers(communicator, surface, layered.columns, layered.front,
                         {input.volume.piece_tets.value_or(most_cells), input.layers.elements}, volume);
 }

@@ -89,8 +89,7 @@ private:
                                      parts > 0 ? fmt::format(" and {} parts", parts) : "", _identity.bytes,
                                      _record.input_hash));
     }
-    cases::TypedPatches patches =
-        domain::find_patches(_communicator, find_or_load_domain(), _input, _record.clock);
+    cases::TypedPatches patches = domain::find_patches(_communicator, find_or_load_domain(), _input);
     for (std::size_t p = 0; p < patches.types.size(); ++p)
       _record.type_of_patch[patches.model.patches()[p]] = patches.types[p];
     if (_communicator.is_root())
@@ -109,13 +108,13 @@ private:
     if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
       std::optional<cad::Domain> domain;
       parallel::agree(_communicator, [&] {
-        const parallel::ScopedCpu cpu(_record.clock, parallel::ScopedCpu::As::repeated);
+        const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
         domain = unpack_domain_product(std::move(*found));
       });
       if (_communicator.is_root()) _record.domain = std::move(domain->report);
       return std::move(domain->model);
     }
-    cad::Model model = domain::load_domain(_communicator, _input.domain, _record.clock, _record.domain);
+    cad::Model model = domain::load_domain(_communicator, _input.domain, _record.domain);
     require_same_file(_communicator, _identity, _input);
     _checkpoints->keep(SavedStage::geometry, [&] {
       return _communicator.is_root() ? pack_domain_product({model, _record.domain}) : io::CheckpointDraft();
@@ -148,8 +147,7 @@ private:
   }
 
   domain::SizedDomain build_sizes(const cad::Model& domain, const domain::Simplification& simplification) {
-    domain::SizedDomain sized =
-        domain::size_domain(_communicator, domain, _input.sizing, simplification, _record.clock);
+    domain::SizedDomain sized = domain::size_domain(_communicator, domain, _input.sizing, simplification);
     note_sizes(sized);
     return sized;
   }
@@ -181,7 +179,7 @@ private:
         if (sized.joined.changes.size() != joined_before.size() ||
             domain::has_closed(sized.edges) != closed_before)
           note_sizes(sized);
-        _record.clock.add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
+        parallel::add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
         return finish_surface(sized.model, std::move(*known));
       }
       _record.resumed.pop_back();
@@ -212,7 +210,7 @@ private:
   }
 
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized) {
-    return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface, _record.clock,
+    return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface,
                                  _checkpoints->tasks(SavedStage::surface));
   }
 
@@ -277,7 +275,7 @@ private:
     inspect_volume(_communicator, _input, volume, numbering, is_of_surface ? &surface.mesh : nullptr,
                    _record);
     add_cad_volumes(model, _record.regions_filled);
-    const parallel::ScopedCpu check(_record.clock, parallel::ScopedCpu::As::check);
+    const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
     _record.conformity = attribution::measure_conformity(_communicator, volume, surface.field);
     return numbering;
   }
@@ -287,7 +285,7 @@ private:
     const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
     const SurfaceView view{surface.mesh, surface.numbering, is_of_surface};
     {
-      const parallel::ScopedCpu task(_record.clock, parallel::ScopedCpu::As::task);
+      const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
       write_outputs(_communicator, volume, numbering, &view, _input.output);
     }
     if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files();
@@ -305,10 +303,10 @@ private:
     const std::int64_t of_file = io::cells_per_vtk_file(_record.counts.cells);
     const std::int64_t files = (_record.counts.cells + of_file - 1) / of_file;
     for (std::int64_t i = 0; _communicator.is_root() && i < files; ++i)
-      _record.clock.note_task({.kind = "file",
-                               .number = i,
-                               .predicted = static_cast<double>(of_file),
-                               .cpu_seconds = seconds / static_cast<double>(files)});
+      parallel::note_task({.kind = "file",
+                           .number = i,
+                           .predicted = static_cast<double>(of_file),
+                           .cpu_seconds = seconds / static_cast<double>(files)});
   }
 
   const Communicator& _communicator;

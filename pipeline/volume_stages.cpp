@@ -80,7 +80,7 @@ mesh::DistributedMesh VolumeStages::adopt(io::CheckpointContent content) {
   _record.decomposition = product.decomposition;
   _record.volume = std::move(product.volume);
   _record.improve = product.improve;
-  _record.clock.add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
+  parallel::add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
   log_decompose(_record);
   log_volume(_record);
   return std::move(product.mesh);
@@ -97,7 +97,7 @@ volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
 }
 
 volume::Decomposition VolumeStages::decompose(const VolumeBoundary& boundary) {
-  volume::Decomposition decomposition = volume::decompose(_communicator, input_of(boundary), _record.clock);
+  volume::Decomposition decomposition = volume::decompose(_communicator, input_of(boundary));
   _record.decomposition = decomposition.report();
   log_decompose(_record);
   if (_communicator.is_root()) warn_of_count(_record);
@@ -107,8 +107,7 @@ volume::Decomposition VolumeStages::decompose(const VolumeBoundary& boundary) {
 mesh::DistributedMesh VolumeStages::fill(const VolumeBoundary& boundary,
                                          volume::Decomposition decomposition) {
   try {
-    return volume::fill_zones(_communicator, input_of(boundary), std::move(decomposition), _record.clock,
-                              _record.volume);
+    return volume::fill_zones(_communicator, input_of(boundary), std::move(decomposition), _record.volume);
   } catch (const volume::VolumeFailure& failure) {
     point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
   }

@@ -34,13 +34,12 @@ std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece&
 }  // namespace
 
 PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Model& model,
-                     const CutOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
+                     const CutOptions& options, parallel::TaskStore* tasks)
     : _communicator(communicator),
       _model(model),
       _options(options),
-      _clock(clock),
       _tasks(tasks),
-      _dealer(communicator, model, options, clock),
+      _dealer(communicator, model, options),
       _parts(model.face_count(), 0) {}
 
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
@@ -75,7 +74,7 @@ std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const Size
   }
   std::vector<std::int32_t> kept(_model.face_count(), 0);
   {
-    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     for (const auto& [key, meshed] : _meshed) {
       kept[key[0]] += is_unchanged(curves, field, key[0], meshed) ? 1 : 0;
     }
@@ -98,7 +97,7 @@ double PiecePool::seconds_per_triangle() const {
   constexpr double usual = 3e-6, of_curve = 0.8;  // the latter over what a unit of a curve's load takes;
                                                   // chosen, not measured; no result depends on it
   double load = 0, seconds = 0;
-  for (const parallel::TaskRecord& task : _clock.tasks()) {
+  for (const parallel::TaskRecord& task : parallel::noted_tasks()) {
     if (task.kind == "curve") load += task.predicted, seconds += task.cpu_seconds;
   }
   load = _communicator.sum(load);
@@ -114,7 +113,7 @@ Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const 
   _costs.clear();
   const double of_triangle = seconds_per_triangle();
   parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     std::vector<double> loads;
     for (const FaceId face : faces) {
       const auto counts = edge_vertices(curves, face);
@@ -127,11 +126,11 @@ Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const 
       subfaces.emplace(key, subface_of_face(_model, faces[task], curves, field, _options));
       const double seconds = parallel::cpu_seconds() - begin;
       _costs[key] = seconds / of_triangle;
-      _clock.note_task({.kind = "face",
-                        .number = faces[task],
-                        .predicted = loads[task],
-                        .cpu_seconds = seconds,
-                        .burden = _costs[key]});
+      parallel::note_task({.kind = "face",
+                           .number = faces[task],
+                           .predicted = loads[task],
+                           .cpu_seconds = seconds,
+                           .burden = _costs[key]});
     }
   });
   return subfaces;
@@ -145,7 +144,7 @@ void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
 double PiecePool::predict(const Subfaces& subfaces, const SizeField& field) const {
   // Whole numbers: their sum does not depend on who has which.
   std::int64_t triangles = 0;
-  const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+  const ScopedCpu cpu(ScopedCpu::As::task);
   for (const auto& [key, subface] : subfaces)
     triangles += std::llround(integrate_triangles(subface.support, field));
   for (const auto& [key, meshed] : _meshed) triangles += meshed.piece.cell_count();
@@ -177,7 +176,7 @@ void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curve
   const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
   parallel::Progress progress("surface", static_cast<std::int64_t>(dealt.subfaces.size()), "triangles");
   for (const auto& [key, subface] : dealt.subfaces) {
-    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
     try {
       Meshed meshed{mesh_or_find(subface, field, of_field),
@@ -186,9 +185,9 @@ void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curve
                     subface.load,
                     dealt.places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
-      _clock.note_task({"surface piece", key[0],
-                        load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
-                        parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
+      parallel::note_task({"surface piece", key[0],
+                           load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
+                           parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
       if (conflicts.complaint.empty()) conflicts.complaint = conflict.what();

@@ -26,7 +26,7 @@ struct Conflicts {
 class PiecePool {
 public:
   PiecePool(const parallel::Communicator& communicator, const cad::Model& model, const CutOptions& options,
-            parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
+            parallel::TaskStore* tasks = nullptr);
 
   /// Meshes every face whose curves or sizes are not those of the round before, unless the whole surface is
   /// predicted to have more triangles than rounds may come to (SurfaceOptions::most_growth). Collective.
@@ -74,7 +74,6 @@ private:
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
-  parallel::StageClock& _clock;
   parallel::TaskStore* _tasks;  // may be null
   SubfaceDealer _dealer;
   bool _started = false;

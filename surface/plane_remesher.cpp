@@ -29,20 +29,19 @@ void make_unique(std::vector<mesh::SharedVertexKey>& keys) {
 class PlaneRemesher {
 public:
   PlaneRemesher(const parallel::Communicator& communicator, const cad::Model& model,
-                const sizing::SizeField& field, const PlanesToRemesh& planes, parallel::StageClock& clock)
+                const sizing::SizeField& field, const PlanesToRemesh& planes)
       : _communicator(communicator),
         _model(model),
         _field(field),
         _faces(planes.faces),
         _options{planes.options},
-        _clock(clock),
-        _dealer(communicator, model, _options, clock) {}
+        _dealer(communicator, model, _options) {}
 
   /// Pieces of all faces, unless there are conflicts.
   PlaneConflicts mesh(const mesh::DistributedMesh& surface) {
     _loops = gather_loops(_communicator, surface, _faces);
     parallel::agree(_communicator, [&] {
-      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      const ScopedCpu cpu(ScopedCpu::As::task);
       for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
     });
     for (std::vector<FaceId> faces = _faces; !faces.empty();) {
@@ -81,7 +80,7 @@ private:
     Subfaces subfaces;
     _costs.clear();
     parallel::agree(_communicator, [&] {
-      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      const ScopedCpu cpu(ScopedCpu::As::task);
       for (const auto& [face, loops] : _loops) {
         if (!std::binary_search(faces.begin(), faces.end(), face)) continue;
         const double begin = parallel::cpu_seconds();
@@ -99,14 +98,15 @@ private:
 
   void mesh_subfaces(const DealtSubfaces& dealt) {
     for (const auto& [key, subface] : dealt.subfaces) {
-      const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+      const ScopedCpu cpu(ScopedCpu::As::task);
       const double begin = parallel::cpu_seconds();
       const FaceId face = key[0];
       try {
         mesh::Piece piece = mesh_piece(_model, subface, _field, _options);
-        _clock.note_task({"surface piece", face,
-                          load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
-                          parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
+        parallel::note_task(
+            {"surface piece", face,
+             load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
+             parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
         _pieces.insert_or_assign({face, dealt.places.at(key)}, std::move(piece));
       } catch (const FaceConflict& conflict) {
         reject(face, subface, conflict.vertices(), conflict.what());
@@ -201,7 +201,6 @@ private:
   const sizing::SizeField& _field;
   const std::vector<FaceId>& _faces;
   CutOptions _options;
-  parallel::StageClock& _clock;
   SubfaceDealer _dealer;
   std::map<FaceId, FaceLoops> _loops;     // on this rank
   std::map<SubfaceKey, double> _costs;    // of the subfaces made here, in triangles to mesh
@@ -215,9 +214,9 @@ private:
 
 PlaneConflicts remesh_planes(const parallel::Communicator& communicator, const cad::Model& model,
                              const sizing::SizeField& field, const PlanesToRemesh& planes,
-                             mesh::DistributedMesh& surface, parallel::StageClock& clock) {
+                             mesh::DistributedMesh& surface) {
   if (planes.faces.empty()) return {};
-  PlaneRemesher remesher(communicator, model, field, planes, clock);
+  PlaneRemesher remesher(communicator, model, field, planes);
   PlaneConflicts conflicts = remesher.mesh(surface);
   if (conflicts.empty()) remesher.replace(surface);
   return conflicts;

@@ -40,6 +40,6 @@ struct PlaneConflicts {
 /// Collective. Throws SurfaceError or CollectiveError, the same on all ranks.
 PlaneConflicts remesh_planes(const parallel::Communicator& communicator, const cad::Model& model,
                              const sizing::SizeField& field, const PlanesToRemesh& planes,
-                             mesh::DistributedMesh& surface, parallel::StageClock& clock);
+                             mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::surface

@@ -96,10 +96,10 @@ std::string complain(const cad::Model& model, const SizeField& field,
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
 /// pieces make intersect is left whole. Collective, the same on every rank.
 Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::Model& model,
-                         const SizeField& field, const mesh::DistributedMesh& surface, const PiecePool& pool,
-                         parallel::StageClock& clock) {
+                         const SizeField& field, const mesh::DistributedMesh& surface,
+                         const PiecePool& pool) {
   Conflicts conflicts;
-  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(communicator, surface, clock);
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(communicator, surface);
   if (hits.empty()) return conflicts;
   const std::vector<cad::FaceId> faces = faces_of_pieces(communicator, surface);
   for (const mesh::TriangleHit& hit : hits) {
@@ -154,12 +154,11 @@ std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh&
 class SurfaceRounds {
 public:
   SurfaceRounds(const parallel::Communicator& communicator, const cad::Model& model, const SizeField& field,
-                const CutOptions& options, parallel::StageClock& clock, parallel::TaskStore* tasks)
+                const CutOptions& options, parallel::TaskStore* tasks)
       : _communicator(communicator),
         _model(model),
         _options(options),
-        _clock(clock),
-        _pool(communicator, model, options, clock, tasks),
+        _pool(communicator, model, options, tasks),
         _field(field) {}
 
   SurfaceMesh run() {
@@ -176,16 +175,16 @@ public:
 private:
   /// Whether this was the last round.
   bool mesh_once() {
-    _clock.begin_round();
-    const CurveMesh curves = discretise_curves(_communicator, _model, _field, _clock, _short_legs);
+    parallel::begin_round();
+    const CurveMesh curves = discretise_curves(_communicator, _model, _field, _short_legs);
     Conflicts conflicts = gather_conflicts(_communicator, _pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
     mesh::DistributedMesh surface;
     if (conflicts.complaint.empty()) {
       surface = _pool.assemble();
-      _closed_tips = close_cusp_tips(_communicator, _model, curves, sizing::closing_gap(_field.options()),
-                                     surface, _clock);
-      conflicts = find_conflicts(_communicator, _model, _field, surface, _pool, _clock);
+      _closed_tips =
+          close_cusp_tips(_communicator, _model, curves, sizing::closing_gap(_field.options()), surface);
+      conflicts = find_conflicts(_communicator, _model, _field, surface, _pool);
     }
     if (!conflicts.complaint.empty()) return !mend(conflicts);
     const NeedleRemedies remedies = accept(curves, std::move(surface));
@@ -202,7 +201,7 @@ private:
   void lower_sizes(std::span<const sizing::SizeSource> sources) {
     if (sources.empty()) return;
     const auto own = _communicator.is_root() ? sources : std::span<const sizing::SizeSource>();
-    _field = _field.refined(_communicator, own, _clock);
+    _field = _field.refined(_communicator, own);
   }
 
   /// Nothing was meshed: sizes have fallen so far that it would be too much.
@@ -239,7 +238,7 @@ private:
   NeedleRemedies accept(const CurveMesh& curves, mesh::DistributedMesh surface) {
     std::vector<Needle> needles;
     {
-      const parallel::ScopedCpu check(_clock, parallel::ScopedCpu::As::check);
+      const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
       needles = find_needles(_model, curves, surface);
     }
     std::vector<NeedleGroup> groups = group_needles(_communicator, surface, needles);
@@ -276,7 +275,6 @@ private:
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
-  parallel::StageClock& _clock;
   PiecePool _pool;
   SizeField _field;
   std::vector<cad::VertexId> _short_legs;  // ascending
@@ -289,16 +287,15 @@ private:
 }  // namespace
 
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                         const SizeField& field, const SurfaceOptions& options, parallel::StageClock& clock,
-                         parallel::TaskStore* tasks) {
-  return mesh_surface_with_cuts(communicator, model, field, {options}, clock, tasks);
+                         const SizeField& field, const SurfaceOptions& options, parallel::TaskStore* tasks) {
+  return mesh_surface_with_cuts(communicator, model, field, {options}, tasks);
 }
 
 SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, const cad::Model& model,
                                    const SizeField& field, const CutOptions& options,
-                                   parallel::StageClock& clock, parallel::TaskStore* tasks) {
-  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, clock, tasks).run();
-  clock.add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
+                                   parallel::TaskStore* tasks) {
+  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, tasks).run();
+  parallel::add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
   return result;
 }
 

@@ -22,11 +22,10 @@ struct SurfaceMesh {
 };
 
 /// Meshes the surface of the model. Collective. Throws SurfaceError or CollectiveError, the same on all
-/// ranks. Where no stage of the clock is open nothing is counted, here and in the other stages. Pieces found
-/// in `tasks`, whose context stands for the model and the options, are not meshed again; those meshed are
-/// kept there.
+/// ranks. Pieces found in `tasks`, whose context stands for the model and the options, are not meshed again;
+/// those meshed are kept there.
 SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
                          const sizing::SizeField& field, const SurfaceOptions& options,
-                         parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
+                         parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::surface

@@ -47,33 +47,31 @@ std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::Distri
 
 /// The surface near each rank's blocks.
 void fetch_surface(const parallel::Communicator& communicator, const VolumeInput& input,
-                   Decomposition::Data& data, parallel::StageClock& clock) {
-  data.triangles =
-      deliver_surface(communicator, *data.frame, *data.tree, input.surface, input.numbering, clock);
+                   Decomposition::Data& data) {
+  data.triangles = deliver_surface(communicator, *data.frame, *data.tree, input.surface, input.numbering);
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     data.table = tabulate_surface(*data.frame, *data.tree, data.triangles);
   }
-  learn_what_touches(communicator, data.known(), data.triangles, clock);
+  learn_what_touches(communicator, data.known(), data.triangles);
   data.changes.assign(data.tree->block_count(), {});
-  learn_what_is_far_finer(communicator, data.known(), data.source(input), clock);
+  learn_what_is_far_finer(communicator, data.known(), data.source(input));
   data.changes.assign(data.tree->block_count(), {});
   // One rank has the whole surface at hand. Which triangles are looked at decides no region: any of them that
   // is seen first tells the same.
   if (communicator.size() > 1) {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     data.radii = search_radii_of_blocks(data.source(input), data.tree->first(), data.tree->last());
   }
   data.triangles =
-      add_those_near(communicator, *data.frame, *data.tree, data.radii, std::move(data.triangles), clock);
-  const ScopedCpu task(clock, ScopedCpu::As::task);
+      add_those_near(communicator, *data.frame, *data.tree, data.radii, std::move(data.triangles));
+  const ScopedCpu task(ScopedCpu::As::task);
   data.surface = std::make_unique<NearSurface>(data.triangles);
 }
 
 /// Once there are points, the triangles that do not meet this rank's blocks have served.
-void keep_own_triangles(const parallel::Communicator& communicator, Decomposition::Data& data,
-                        parallel::StageClock& clock) {
-  const ScopedCpu task(clock, ScopedCpu::As::task);
+void keep_own_triangles(const parallel::Communicator& communicator, Decomposition::Data& data) {
+  const ScopedCpu task(ScopedCpu::As::task);
   std::vector<SurfaceTriangle> own;
   if (communicator.size() > 1) {
     for (const SurfaceTriangle& triangle : data.triangles) {
@@ -87,8 +85,7 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
 }
 
 /// Zones of equal expected size.
-void divide(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
-            parallel::StageClock& clock) {
+void divide(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data) {
   const ShellShare& shell = data.shell;
   std::vector<Load> loads;
   for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
@@ -105,12 +102,12 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
       coarsen(communicator, *data.tree, loads, all / (ZoneCuts::cells_per_zone * count));
   std::optional<ZoneCuts> cuts;
   {
-    const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
+    const ScopedCpu repeated(ScopedCpu::As::repeated);
     cuts.emplace(cells, count);
   }
   const double widest =
       input.options.halo * std::pow(wider, std::min<int>(input.options.retries, std::size(ladder)));
-  learn_what_is_cut(communicator, data.known(), *cuts, widest, clock);
+  learn_what_is_cut(communicator, data.known(), *cuts, widest);
   data.changes.assign(data.tree->block_count(), {});
   data.shell.points.first = data.shell.borders.first = data.tree->first();
   data.core->follow(*data.tree);
@@ -124,12 +121,12 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
 }
 
 /// Decides what zones know, and who fills them.
-void plan_all(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
-              parallel::StageClock& clock) {
+void plan_all(const parallel::Communicator& communicator, const VolumeInput& input,
+              Decomposition::Data& data) {
   std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<double> widths(all.size(), input.options.halo);
-  data.plan = plan_zones(communicator, data.store(input), all, widths, clock);
+  data.plan = plan_zones(communicator, data.store(input), all, widths);
   double work = 0, heaviest = 0;
   for (const ZoneLoad& load : data.plan.loads) {
     work += load.work();
@@ -150,24 +147,24 @@ const DecompositionReport& Decomposition::report() const {
 }
 
 std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                                        Decomposition::Data& data, parallel::StageClock& clock) {
+                                        Decomposition::Data& data) {
   const BlockIndex first = data.tree->first(), last = data.tree->last();
   BlockPoints points;
   std::vector<SurfaceTriangle> again;
   if (!data.surface)
-    again = add_those_near(communicator, *data.frame, *data.tree, data.radii, data.triangles, clock);
+    again = add_those_near(communicator, *data.frame, *data.tree, data.radii, data.triangles);
   parallel::agree(communicator, [&] {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     if (!data.surface) data.surface = std::make_unique<NearSurface>(again);
     points = make_points(data.source(input), first, last, *data.surface, data.radii);
     data.surface.reset();
   });
   data.report.lattice_points = communicator.sum(static_cast<std::int64_t>(points.points.size()));
   const std::unique_ptr<CoreLeaves> before =
-      std::exchange(data.core, std::make_unique<CoreLeaves>(communicator, data.source(input), points, clock));
+      std::exchange(data.core, std::make_unique<CoreLeaves>(communicator, data.source(input), points));
   std::vector<BlockIndex> changed;
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     data.shell = find_shell(*data.tree, *data.core, *data.squares, std::move(points));
     for (BlockIndex b = first; b < last; ++b) {
       if (before && before->of(b) != data.core->of(b)) changed.push_back(b);
@@ -178,25 +175,24 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
   return changed;
 }
 
-Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input,
-                        parallel::StageClock& clock) {
+Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input) {
   auto data = std::make_unique<Decomposition::Data>();
   const geometry::Box box = box_of(communicator, input.surface);
   data->frame = std::make_unique<LatticeFrame>(input.field, box);
-  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field, box, clock,
+  data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field, box,
                                              keys_of(*data->frame, input.surface));
   data->squares = std::make_unique<CoreSquares>(*data->frame);
   data->report.blocks = data->tree->total();
-  fetch_surface(communicator, input, *data, clock);
+  fetch_surface(communicator, input, *data);
   BlockRegions regions =
-      find_block_regions(communicator, data->known(), {data->triangles, *data->surface, data->radii}, clock);
+      find_block_regions(communicator, data->known(), {data->triangles, *data->surface, data->radii});
   if (regions.contradiction)
     refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);
-  make_all_points(communicator, input, *data, clock);
-  keep_own_triangles(communicator, *data, clock);
-  divide(communicator, input, *data, clock);
-  plan_all(communicator, input, *data, clock);
+  make_all_points(communicator, input, *data);
+  keep_own_triangles(communicator, *data);
+  divide(communicator, input, *data);
+  plan_all(communicator, input, *data);
   return Decomposition(std::move(data));
 }
 

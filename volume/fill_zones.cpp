@@ -25,13 +25,12 @@ using parallel::ScopedCpu;
 class ZoneFiller {
 public:
   ZoneFiller(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
-             parallel::StageClock& clock, VolumeReport& report)
+             VolumeReport& report)
       : _communicator(communicator),
         _input(input),
         _data(data),
-        _clock(clock),
         _report(report),
-        _ladder(communicator, input, data, clock, report),
+        _ladder(communicator, input, data, report),
         _budget(data.zones->count()) {}
 
   mesh::DistributedMesh run() {
@@ -52,7 +51,7 @@ private:
   // --- one round of filling
 
   void fill(ZonePlan plan) {
-    _clock.begin_round();
+    parallel::begin_round();
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone), _work[load.zone] = load.work();
     std::erase_if(_results, [&](const auto& result) { return _ladder.is_gone(result.first); });
     constexpr std::int64_t steps = 1000;  // of a wave, whatever its zones
@@ -60,7 +59,7 @@ private:
                                 "tetrahedra");
     std::int64_t waves = 0, made = 0;
     for (const ZoneShipment& batch : plan.batches) {
-      std::vector<ZoneContent> contents = supply_zones(_communicator, _data.store(_input), batch, _clock);
+      std::vector<ZoneContent> contents = supply_zones(_communicator, _data.store(_input), batch);
       parallel::agree(_communicator, [&] {
         for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
           made += fill_one(contents[i]);
@@ -73,7 +72,7 @@ private:
   }
 
   ZonePlan plan(const std::vector<ZoneIndex>& pending) {
-    return plan_zones(_communicator, _data.store(_input), pending, _ladder.widths(), _clock);
+    return plan_zones(_communicator, _data.store(_input), pending, _ladder.widths());
   }
 
   std::vector<ZoneFace> faces() const {
@@ -85,14 +84,14 @@ private:
 
   /// Tetrahedra made.
   std::int64_t fill_one(ZoneContent& content) {
-    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds(), seconds = _input.options.base_cpu_seconds;
     require_size(content);
     _known_points += static_cast<std::int64_t>(content.problem.regions.size());
     const parallel::CrashNote note(fmt::format("stage volume, zone {}", content.zone));
     ZoneFilling filling = fill_zone_in_child(content.problem, fault_of(content.zone), _input.tasks, seconds);
-    _clock.add_task_cpu(filling.cpu_seconds);
-    _clock.note_child_memory(filling.child_peak_bytes);
+    parallel::add_task_cpu(filling.cpu_seconds);
+    parallel::note_child_memory(filling.child_peak_bytes);
     parallel::log_verbose(fmt::format(
         "volume: zone {}: {} points and {} triangles known, {} tetrahedra of its own, {:.3g} CPU s",
         content.zone, content.problem.points.size(), content.problem.triangles.size(),
@@ -103,13 +102,13 @@ private:
       return 0;
     }
     if (filling.filled) {
-      _clock.add_pieces(1);
+      parallel::add_pieces(1);
       const ZoneResult& made = _results[content.zone] = make_pieces(content, filling);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
-      _clock.note_task({"zone", content.zone, _work.at(content.zone),
-                        parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
-                        filling.child_peak_bytes});
+      parallel::note_task({"zone", content.zone, _work.at(content.zone),
+                           parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
+                           filling.child_peak_bytes});
       return static_cast<std::int64_t>(filling.owned.cells.size());
     }
     _failures.push_back({content.zone, filling.failure});
@@ -153,7 +152,7 @@ private:
     CoreMesh core = make_core(_communicator,
                               {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones,
                                _data.finder(_input), _data.core_piece_tets},
-                              _results, _clock);
+                              _results);
     _report.tetrahedra = core.tetrahedra;
     _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
     for (const auto& [zone, result] : _results) {
@@ -170,7 +169,6 @@ private:
   const parallel::Communicator& _communicator;
   const VolumeInput& _input;
   Decomposition::Data& _data;
-  parallel::StageClock& _clock;
   VolumeReport& _report;
   ZoneLadder _ladder;
   FillingBudget _budget;
@@ -186,9 +184,8 @@ private:
 }  // namespace
 
 mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
-                                 Decomposition decomposition, parallel::StageClock& clock,
-                                 VolumeReport& report) {
-  return ZoneFiller(communicator, input, decomposition.data(), clock, report).run();
+                                 Decomposition decomposition, VolumeReport& report) {
+  return ZoneFiller(communicator, input, decomposition.data(), report).run();
 }
 
 }  // namespace aeroloom::volume

@@ -25,30 +25,27 @@ cad::Model load(const parallel::Communicator& ranks, const std::string& file) {
   cad::DomainOptions options;
   options.file = file;
   if (file.empty()) options.transport.emplace();
-  parallel::StageClock clock;
   cad::DomainReport report;
-  return domain::load_domain(ranks, options, clock, report);
+  return domain::load_domain(ranks, options, report);
 }
 
 /// From CAD to improved tetrahedra, stage by stage.
 mesh::DistributedMesh make_mesh(const parallel::Communicator& ranks, const cad::Model& model) {
   constexpr double wanted_tetrahedra = 60'000;
-  parallel::StageClock clock;
-  const sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, wanted_tetrahedra, clock);
-  const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes, clock);
+  const sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, wanted_tetrahedra);
+  const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
 
-  const surface::SurfaceMesh surface = surface::mesh_surface(ranks, model, field, {}, clock);
+  const surface::SurfaceMesh surface = surface::mesh_surface(ranks, model, field, {});
   const mesh::Numbering numbering = mesh::number_mesh(ranks, surface.mesh);
 
   volume::VolumeOptions pieces;
   pieces.piece_tets = 20'000;
   const volume::VolumeInput input{surface.mesh, numbering, surface.field, pieces};
   volume::VolumeReport report;
-  mesh::DistributedMesh volume =
-      volume::fill_zones(ranks, input, volume::decompose(ranks, input, clock), clock, report);
+  mesh::DistributedMesh volume = volume::fill_zones(ranks, input, volume::decompose(ranks, input), report);
 
   cad::PointLocator locator(model);
-  improve::improve_mesh(ranks, volume, {}, clock, {&locator, &surface.field});
+  improve::improve_mesh(ranks, volume, {}, {&locator, &surface.field});
   return volume;
 }
 

@@ -360,9 +360,8 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 }  // namespace
 
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const RefillRequest& request,
-                            parallel::StageClock& clock) {
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+                            const mesh::SharedVertices& shared, const RefillRequest& request) {
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_key_rounds) throw std::logic_error("refill_cavities: too many rounds");
   CavityClaims uncontested = request.claims;

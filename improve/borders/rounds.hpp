@@ -100,7 +100,6 @@ struct RefillRequest {
 /// claims. Cavities are assigned to ranks by size. At most 255 rounds on one mesh. `shared` are those of the
 /// mesh as it comes in. Collective. Throws CollectiveError.
 CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const RefillRequest& request,
-                            parallel::StageClock& clock);
+                            const mesh::SharedVertices& shared, const RefillRequest& request);
 
 }  // namespace aeroloom::cavities

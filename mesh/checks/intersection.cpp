@@ -295,12 +295,12 @@ std::vector<VertexName> name_vertices(const Piece& piece) {
 }
 
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const DistributedMesh& surface, parallel::StageClock& clock) {
+                                            const DistributedMesh& surface) {
   using parallel::ScopedCpu;
   std::vector<Batch> batches;
   std::vector<Triangles> contents;
   parallel::agree(communicator, [&] {
-    const ScopedCpu cpu(clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     cut_into_batches(surface, communicator.rank(), batches, contents);
   });
   std::vector<Batch> table = communicator.all_gather_items(std::span<const Batch>(batches));
@@ -308,14 +308,14 @@ std::vector<TriangleHit> find_intersections(const parallel::Communicator& commun
     return std::tie(a.piece, a.order) < std::tie(b.piece, b.order);
   });
   const std::vector<BatchPair> pairs = [&] {
-    const ScopedCpu cpu(clock, ScopedCpu::As::repeated);
+    const ScopedCpu cpu(ScopedCpu::As::repeated);
     return find_batch_pairs(table, communicator.rank());
   }();
   const auto at_hand = fetch_batches(communicator, table, pairs, std::move(contents));
 
   std::vector<TriangleHit> hits;
   {
-    const ScopedCpu cpu(clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     BatchTest test(table);
     for (const BatchPair pair : pairs) {
       if (tester(table, pair) == communicator.rank())

@@ -33,6 +33,6 @@ std::vector<VertexName> name_vertices(const Piece& piece);
 /// Vertices are the same when their shared-vertex keys are (across pieces) or their indices (within one).
 /// Collective.
 std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const DistributedMesh& surface, parallel::StageClock& clock);
+                                            const DistributedMesh& surface);
 
 }  // namespace aeroloom::mesh

@@ -54,6 +54,11 @@ void restart_peak() {
   }
 }
 
+/// The clock that has a stage open in this thread.
+thread_local StageClock* open_clock = nullptr;
+/// CPU of this thread that was in scopes, since the start of the program.
+thread_local double scoped_cpu = 0;
+
 /// Throws on every rank unless all have closed the stages of rank 0.
 void require_same_stages(const Communicator& communicator, const std::vector<StageCost>& costs, bool open) {
   std::vector<std::string> mine;
@@ -124,11 +129,18 @@ std::int64_t resident_bytes() {
   return status_bytes("VmRSS");
 }
 
+StageClock::~StageClock() {
+  if (open_clock == this) open_clock = nullptr;
+}
+
 void StageClock::begin(const std::string& name) {
-  if (_open) throw std::logic_error("stage '" + name + "' begins inside '" + current().name + "'");
+  if (open_clock) {
+    throw std::logic_error("stage '" + name + "' begins inside '" + open_clock->current().name + "'");
+  }
   return_free_memory();
   restart_peak();
   _open = true;
+  open_clock = this;
   const auto known =
       std::find_if(_costs.begin(), _costs.end(), [&](const StageCost& cost) { return cost.name == name; });
   _current = static_cast<std::size_t>(known - _costs.begin());
@@ -137,7 +149,7 @@ void StageClock::begin(const std::string& name) {
   _of_others_at_start = std::max<std::int64_t>(0, _shared_at_start - share_of_shared_bytes());
   _wall_start = wall_seconds();
   _cpu_start = cpu_seconds();
-  _scoped_start = _scoped_cpu;
+  _scoped_start = scoped_cpu;
   _message_wall_start = session::message_time().wall_seconds;
   _message_cpu_start = session::message_time().cpu_seconds;
   _messages_at_start = message_counts();
@@ -151,7 +163,7 @@ void StageClock::end() {
   cost.wall_seconds += wall_seconds() - _wall_start;
   const session::MessageTime& messages = session::message_time();
   cost.waiting_seconds += messages.wall_seconds - _message_wall_start;
-  const double known = _scoped_cpu - _scoped_start + messages.cpu_seconds - _message_cpu_start;
+  const double known = scoped_cpu - _scoped_start + messages.cpu_seconds - _message_cpu_start;
   cost.other_cpu_seconds += std::max(0.0, cpu_seconds() - _cpu_start - known);
   cost.messages += message_counts();
   cost.messages -= _messages_at_start;
@@ -163,6 +175,7 @@ void StageClock::end() {
   const std::int64_t own = peak - std::min(_shared_at_start, shared_bytes()) + share_of_shared_bytes();
   cost.peak_own_bytes = std::max(cost.peak_own_bytes, std::min(own, peak));
   _open = false;
+  open_clock = nullptr;
   stage_ends();
 }
 
@@ -236,20 +249,45 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
   return summaries;
 }
 
-ScopedCpu::ScopedCpu(StageClock& clock, As as)
-    : _clock(clock),
-      _as(as),
-      _start(cpu_seconds() - session::message_time().cpu_seconds),
-      _scoped_before(clock._scoped_cpu) {
+void add_task_cpu(double seconds) {
+  if (open_clock) open_clock->add_task_cpu(seconds);
+}
+
+void add_serial_cpu(double seconds) {
+  if (open_clock) open_clock->add_serial_cpu(seconds);
+}
+
+void add_pieces(std::int64_t count) {
+  if (open_clock) open_clock->add_pieces(count);
+}
+
+void begin_round() {
+  if (open_clock) open_clock->begin_round();
+}
+
+void note_task(TaskRecord task) {
+  if (open_clock) open_clock->note_task(std::move(task));
+}
+
+void note_child_memory(std::int64_t bytes) {
+  if (open_clock) open_clock->note_child_memory(bytes);
+}
+
+std::span<const TaskRecord> noted_tasks() {
+  return open_clock ? std::span(open_clock->tasks()) : std::span<const TaskRecord>();
+}
+
+ScopedCpu::ScopedCpu(As as)
+    : _as(as), _start(cpu_seconds() - session::message_time().cpu_seconds), _scoped_before(scoped_cpu) {
   beat();  // not at the end: what allocates has no place in a destructor
 }
 
 ScopedCpu::~ScopedCpu() {
   const double all = cpu_seconds() - session::message_time().cpu_seconds - _start;
-  const double used = all - (_clock._scoped_cpu - _scoped_before);
-  _clock._scoped_cpu += used;
-  if (!_clock._open) return;
-  StageCost& cost = _clock.current();
+  const double used = all - (scoped_cpu - _scoped_before);
+  scoped_cpu += used;
+  if (!open_clock) return;
+  StageCost& cost = open_clock->current();
   (_as == As::check ? cost.check_cpu_seconds : cost.task_cpu_seconds) += used;
   if (_as == As::serial || _as == As::repeated) cost.serial_cpu_seconds += used;
   if (_as == As::repeated) cost.repeated_cpu_seconds += used;

@@ -5,6 +5,7 @@
 #include "parallel/communication/message_counts.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,11 +76,18 @@ struct StageSummary {
   std::vector<double> cpu_seconds_of_ranks;          ///< of tasks, as min, mean and max are
 };
 
-/// Collects the cost of the stages, one open at a time. Stages pass it down; tasks add to the open stage.
+/// Collects the cost of the stages, one open at a time. While a stage is open, what this thread does counts
+/// to it: nobody passes the clock on. A clock with an open stage must not be moved; another clock of the same
+/// thread cannot open one.
 class StageClock {
 public:
+  StageClock() = default;
+  StageClock(const StageClock&) = default;
+  StageClock& operator=(const StageClock&) = default;
+  ~StageClock();
+
   /// A stage begun again goes on where it was. What earlier stages have freed is not counted as its. Throws
-  /// std::logic_error when a stage is open.
+  /// std::logic_error when a stage is open, of this clock or of another of this thread.
   void begin(const std::string& name);
   void end();
   /// Notes a stage before there was a clock, which has all CPU of the thread so far. Throws as begin.
@@ -111,7 +119,6 @@ private:
   std::size_t _current = 0;
   bool _open = false;
   double _wall_start = 0, _cpu_start = 0;
-  double _scoped_cpu = 0;  // of the calling thread that stands on a clock, since the start of the program
   double _scoped_start = 0;
   double _message_wall_start = 0, _message_cpu_start = 0;
   MessageCounts _messages_at_start;
@@ -120,18 +127,29 @@ private:
   std::int64_t _of_others_at_start = 0;  // of that, what other processes count as theirs
 };
 
-/// Adds the CPU time of a scope to the open stage, as task time, as serial work of one rank, as work that
-/// every rank repeats, or as a check of what was made; less what it spent in messages and in scopes within.
+// To the stage that is open in this thread; nothing where none is. As the members of StageClock.
+
+void add_task_cpu(double seconds);
+void add_serial_cpu(double seconds);
+void add_pieces(std::int64_t count);
+void begin_round();
+void note_task(TaskRecord task);
+void note_child_memory(std::int64_t bytes);
+/// The tasks of all stages of the clock that has it.
+std::span<const TaskRecord> noted_tasks();
+
+/// Adds the CPU time of a scope to the stage that is open in this thread, as task time, as serial work of one
+/// rank, as work that every rank repeats, or as a check of what was made; less what it spent in messages and
+/// in scopes within.
 class ScopedCpu {
 public:
   enum class As { task, serial, repeated, check };
-  ScopedCpu(StageClock& clock, As as);
+  explicit ScopedCpu(As as);
   ~ScopedCpu();
   ScopedCpu(const ScopedCpu&) = delete;
   ScopedCpu& operator=(const ScopedCpu&) = delete;
 
 private:
-  StageClock& _clock;
   As _as;
   double _start, _scoped_before;
 };

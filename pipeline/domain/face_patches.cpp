@@ -10,7 +10,7 @@
 namespace aeroloom::domain {
 
 cases::TypedPatches find_patches(const parallel::Communicator& communicator, const cad::Model& model,
-                                 const cases::Case& input, parallel::StageClock& clock) {
+                                 const cases::Case& input) {
   if (input.groups.rules.empty() && !input.groups.strict && input.patches.empty())
     return cases::apply_patch_rules(model, {});
   std::string refused;
@@ -18,7 +18,7 @@ cases::TypedPatches find_patches(const parallel::Communicator& communicator, con
   parallel::Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::serial);
     try {
       chosen = cases::choose_patches(model, input.groups, input.patches);
     } catch (const std::invalid_argument& error) {

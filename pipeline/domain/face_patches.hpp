@@ -11,6 +11,6 @@ namespace aeroloom::domain {
 /// and decides, so that all ranks have the same and a message has the place in the case file. Collective.
 /// Throws std::invalid_argument on every rank as cases::choose_patches().
 cases::TypedPatches find_patches(const parallel::Communicator& communicator, const cad::Model& model,
-                                 const cases::Case& input, parallel::StageClock& clock);
+                                 const cases::Case& input);
 
 }  // namespace aeroloom::domain

@@ -148,15 +148,14 @@ std::string source_of(const DomainOptions& options) {
 }
 
 /// Runs a task on the options; its result where it ended well.
-Bytes run_task(const parallel::NamedTask& task, const DomainOptions& options, parallel::StageClock& clock,
-               Fault fault) {
+Bytes run_task(const parallel::NamedTask& task, const DomainOptions& options, Fault fault) {
   const parallel::SandboxLimits limits = limits_for(options);
   const parallel::CrashNote note(fmt::format("stage geometry, {}", source_of(options)));
   const parallel::SandboxResult result =
       parallel::run_sandboxed(task.name(), parallel::to_wire(std::tie(fault, options)), limits);
-  clock.add_task_cpu(result.cpu_seconds);
-  clock.add_serial_cpu(result.cpu_seconds);
-  clock.note_child_memory(result.peak_resident_bytes);
+  parallel::add_task_cpu(result.cpu_seconds);
+  parallel::add_serial_cpu(result.cpu_seconds);
+  parallel::note_child_memory(result.peak_resident_bytes);
   if (result.status != parallel::SandboxStatus::ok) throw_crash(options, result, limits);
   auto answer = parallel::from_wire<Answer>(result.output);
   // The CAD library takes memory that it does not get for faults of the geometry.
@@ -173,40 +172,38 @@ Bytes run_task(const parallel::NamedTask& task, const DomainOptions& options, pa
 
 }  // namespace
 
-cad::Domain prepare_sandboxed(const DomainOptions& options, parallel::StageClock& clock) {
-  return unpack_domain(run_task(prepare_task, options, clock, parallel::requested_fault("domain").fault));
+cad::Domain prepare_sandboxed(const DomainOptions& options) {
+  return unpack_domain(run_task(prepare_task, options, parallel::requested_fault("domain").fault));
 }
 
-cad::Diagnosis diagnose_sandboxed(const DomainOptions& options, parallel::StageClock& clock) {
-  return unpack_diagnosis(run_task(diagnose_task, options, clock, parallel::requested_fault("domain").fault));
+cad::Diagnosis diagnose_sandboxed(const DomainOptions& options) {
+  return unpack_diagnosis(run_task(diagnose_task, options, parallel::requested_fault("domain").fault));
 }
 
 cad::CadFacts look_sandboxed(const std::string& file) {
   DomainOptions options;
   options.file = file;
-  parallel::StageClock clock;
-  return parallel::from_wire<cad::CadFacts>(run_task(look_task, options, clock, Fault::none));
+  return parallel::from_wire<cad::CadFacts>(run_task(look_task, options, Fault::none));
 }
 
 cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
-                       parallel::StageClock& clock, cad::DomainReport& report) {
+                       cad::DomainReport& report) {
   Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    cad::Domain domain = prepare_sandboxed(options, clock);
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::serial);
+    cad::Domain domain = prepare_sandboxed(options);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::serial);
     report = std::move(domain.report);
     bytes = domain.model.serialise();
   });
-  return share_model(communicator, std::move(bytes), clock);
+  return share_model(communicator, std::move(bytes));
 }
 
-cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
-                       parallel::StageClock& clock) {
+cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
   communicator.broadcast(bytes);
   std::optional<cad::Model> model;
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
     model = cad::Model::from_bytes(bytes);
   });
   return *model;

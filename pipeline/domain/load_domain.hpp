@@ -12,11 +12,11 @@ namespace aeroloom::domain {
 
 /// Prepares the domain in a child of this rank. Not collective. Throws what cad::prepare_domain throws;
 /// cad::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
-cad::Domain prepare_sandboxed(const cad::DomainOptions& options, parallel::StageClock& clock);
+cad::Domain prepare_sandboxed(const cad::DomainOptions& options);
 
 /// Looks at the geometry in a child of this rank; as above, but a domain that cannot be made is part of the
 /// diagnosis. Not collective.
-cad::Diagnosis diagnose_sandboxed(const cad::DomainOptions& options, parallel::StageClock& clock);
+cad::Diagnosis diagnose_sandboxed(const cad::DomainOptions& options);
 
 /// Looks at a file in a child of this rank. Not collective. Throws what cad::look_at_cad_file throws, and as
 /// above.
@@ -25,10 +25,9 @@ cad::CadFacts look_sandboxed(const std::string& file);
 /// Rank 0 prepares the domain, every rank numbers its entities from the same bytes. `report` is filled on
 /// rank 0 alone. Collective; throws CollectiveError.
 cad::Model load_domain(const parallel::Communicator& communicator, const cad::DomainOptions& options,
-                       parallel::StageClock& clock, cad::DomainReport& report);
+                       cad::DomainReport& report);
 
 /// The model that rank 0 has as bytes, on every rank. Collective; throws CollectiveError.
-cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes,
-                       parallel::StageClock& clock);
+cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes);
 
 }  // namespace aeroloom::domain

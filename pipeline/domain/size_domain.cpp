@@ -33,15 +33,13 @@ constexpr double some_features = 1.01;
 
 /// The model without faces narrower than `width`, where neighbours can take them in.
 std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
-                                            const cad::Model& model, double width,
-                                            parallel::StageClock& clock, JoinedFaces& what) {
+                                            const cad::Model& model, double width, JoinedFaces& what) {
   const double tolerance = join_tolerance * width;
-  std::vector<sizing::NarrowFace> narrow =
-      sizing::find_narrow_faces(communicator, model, width, tolerance, clock);
+  std::vector<sizing::NarrowFace> narrow = sizing::find_narrow_faces(communicator, model, width, tolerance);
   if (narrow.empty()) return std::nullopt;
   std::optional<cad::Model> joined;
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
     what.groups = sizing::group_narrow_faces(model, narrow, tolerance);
     joined = cad::join_faces(model, what.groups);
   });
@@ -194,13 +192,13 @@ struct Aim {
 
 SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
                              const cases::SizingRequest& asked, const Simplification& simplification,
-                             parallel::StageClock& clock, Aim aim) {
+                             Aim aim) {
   std::optional<sizing::SizingOptions>& near = aim.near;
   const double thin = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
   const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
-  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, clock, layers, fields,
+  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, layers, fields,
                                               demands_of(asked));
   std::optional<LevelRequest> of_level;
   if (asked.level) of_level = apply_level(*sampler, asked);
@@ -216,7 +214,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   if (automatic) edges = sizing::find_trailing_edges(*sampler, width);
   JoinedFaces what;
   if (join) {
-    if (const auto joined = join_narrow_faces(communicator, model, width, clock, what)) {
+    if (const auto joined = join_narrow_faces(communicator, model, width, what)) {
       sizing::ModelSampler of_joined(std::move(*sampler), *joined);
       sampler.emplace(std::move(of_joined));
     }
@@ -226,10 +224,9 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
   if (closed && trial.prospect) near = trial.prospect->options;
-  SizedDomain sized =
-      closed ? size_domain_near(communicator, *closed, request,
-                                {simplification.narrow_faces, cad::TrailingEdges::keep}, clock, aim)
-             : finish(*sampler, request, trial, std::move(what), aim.purpose);
+  SizedDomain sized = closed ? size_domain_near(communicator, *closed, request,
+                                                {simplification.narrow_faces, cad::TrailingEdges::keep}, aim)
+                             : finish(*sampler, request, trial, std::move(what), aim.purpose);
   if (!closed) sized.walls = report_walls(model, coincident, *sampler, sized.field);
   judge_again(report, sized.sizes);
   sized.edges = std::move(report);
@@ -246,10 +243,10 @@ void require_walls_apart(const SizedDomain& sized) {
 
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const cases::SizingRequest& given, const Simplification& simplification,
-                        parallel::StageClock& clock, sizing::FieldFor purpose) {
+                        sizing::FieldFor purpose) {
   const cases::SizingRequest request = cases::in_model_units(given);
   sizing::require_faces(model, demands_of(request));
-  return size_domain_near(communicator, model, request, simplification, clock, {purpose, {}});
+  return size_domain_near(communicator, model, request, simplification, {purpose, {}});
 }
 
 }  // namespace aeroloom::domain

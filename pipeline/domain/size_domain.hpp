@@ -61,7 +61,7 @@ struct SizedDomain {
 /// Field and counts may be rough where the purpose is a forecast.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const cases::SizingRequest& request, const Simplification& simplification,
-                        parallel::StageClock& clock, sizing::FieldFor purpose = sizing::FieldFor::mesh);
+                        sizing::FieldFor purpose = sizing::FieldFor::mesh);
 
 /// Ends a run whose faces lie on one another: CollectiveError (input), with the faces. The same on every
 /// rank.

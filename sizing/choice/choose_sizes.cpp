@@ -354,8 +354,8 @@ std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& 
 }
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
-                           double target_tetrahedra, parallel::StageClock& clock) {
-  ModelSampler sampler(communicator, model, clock, SizingOptions{}.proximity, Fields::several);
+                           double target_tetrahedra) {
+  ModelSampler sampler(communicator, model, SizingOptions{}.proximity, Fields::several);
   return choose_sizes(sampler, target_tetrahedra).options;
 }
 

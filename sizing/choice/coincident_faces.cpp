@@ -263,7 +263,7 @@ std::vector<CoincidentFaces> ModelSampler::find_coincident_faces() const {
   const double extent = std::max({size.x, size.y, size.z});
   std::vector<CoincidentFaces> mine;
   parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     std::vector<std::int32_t> first_walls(_model.face_count(), -1);
     for (std::size_t w = _walls->facets.size(); w-- > 0;)
       first_walls[_walls->facets[w].face] = static_cast<std::int32_t>(w);

@@ -25,7 +25,7 @@ constexpr double bytes_per_triangle = 200;
 }  // namespace
 
 std::vector<std::pair<FaceId, FaceSamples::Overview>> ModelSampler::look_over(const SizingOptions& options) {
-  const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+  const ScopedCpu cpu(ScopedCpu::As::task);
   std::vector<std::pair<FaceId, FaceSamples::Overview>> seen;
   for (OwnFace& face : _faces) {
     FaceSamples once(_model.is_planar(face.id));

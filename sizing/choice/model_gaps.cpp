@@ -73,8 +73,7 @@ std::int64_t share_of_face(double faces, double area_part, double facet_part) {
 }
 
 /// Looks until everything was looked at or the work is done. Collective.
-void search_faces(const parallel::Communicator& communicator, parallel::StageClock& clock,
-                  std::vector<FaceSearch>& searches) {
+void search_faces(const parallel::Communicator& communicator, std::vector<FaceSearch>& searches) {
   parallel::Progress progress("sizing", static_cast<std::int64_t>(searches.size()),
                               "faces searched for gaps");
   const auto is_done = [](const FaceSearch& each) { return each.gaps->unseen.empty(); };
@@ -87,7 +86,7 @@ void search_faces(const parallel::Communicator& communicator, parallel::StageClo
     const double per_share =
         static_cast<double>(left) / (deal == 0 ? all_shares : static_cast<double>(wanting));
     parallel::agree(communicator, [&] {
-      const ScopedCpu cpu(clock, ScopedCpu::As::task);
+      const ScopedCpu cpu(ScopedCpu::As::task);
       for (FaceSearch& each : searches) {
         if (deal > 0 && is_done(each)) continue;
         visited += each.search.go_on(std::llround(per_share * static_cast<double>(each.share)), *each.gaps);
@@ -102,7 +101,7 @@ void search_faces(const parallel::Communicator& communicator, parallel::StageClo
 
 /// In the open gaps of those faces. Gaps may turn out to be narrower than was seen before: what some faces
 /// leave goes to where the narrow parts are by then. Collective.
-void look_closer(const parallel::Communicator& communicator, parallel::StageClock& clock, double layers,
+void look_closer(const parallel::Communicator& communicator, double layers,
                  std::vector<FaceSearch>& searches) {
   std::int64_t rays_left = most_close_rays, nodes_left = most_close_nodes;
   const auto is_worth_it = [&] {
@@ -121,7 +120,7 @@ void look_closer(const parallel::Communicator& communicator, parallel::StageCloc
     const double apart = std::max(1.0, std::sqrt(wanted / static_cast<double>(rays_left)));
     std::int64_t shot = 0, visited = 0;
     parallel::agree(communicator, [&] {
-      const ScopedCpu cpu(clock, ScopedCpu::As::task);
+      const ScopedCpu cpu(ScopedCpu::As::task);
       for (FaceSearch& each : searches) {
         if (each.gaps->narrow.empty()) continue;
         // Half of it the same for each face, half by what is to be looked at.
@@ -164,7 +163,7 @@ void ModelSampler::measure_gaps(Notes notes) {
                       "many rays",
                       finest));
     }
-    const ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     const GapLimits limits{extent / narrow_gap, finest, _layers};
     for (OwnFace& face : _faces) {
       if (_layers <= 0 || face.gaps || _model.is_far_field(face.id)) continue;
@@ -176,8 +175,8 @@ void ModelSampler::measure_gaps(Notes notes) {
                                         static_cast<double>(face.facets.triangles.size()) / all_facets)});
     }
   });
-  search_faces(_communicator, _clock, searches);
-  look_closer(_communicator, _clock, _layers, searches);
+  search_faces(_communicator, searches);
+  look_closer(_communicator, _layers, searches);
   gather_gaps();
 }
 

@@ -19,11 +19,10 @@ using cad::FaceId;
 using parallel::ScopedCpu;
 
 /// Areas of all faces, each measured by one rank.
-std::vector<double> measure_faces(const parallel::Communicator& communicator, const cad::Model& model,
-                                  parallel::StageClock& clock) {
+std::vector<double> measure_faces(const parallel::Communicator& communicator, const cad::Model& model) {
   std::vector<double> mine, areas(model.face_count());
   parallel::agree(communicator, [&] {
-    const ScopedCpu cpu(clock, ScopedCpu::As::task);
+    const ScopedCpu cpu(ScopedCpu::As::task);
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       mine.push_back(model.face_area(f));
     }
@@ -79,19 +78,18 @@ std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& optio
 
 }  // namespace
 
-ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
-                           parallel::StageClock& clock, double layers, Fields fields, SizeDemands demands)
+ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad::Model& model, double layers,
+                           Fields fields, SizeDemands demands)
     : _communicator(communicator),
       _model(model),
-      _clock(clock),
       _layers(layers),
       _fields(fields),
       _demands(std::move(demands)),
       _root(model.bounds()),
       _asked_on_faces(sizes_on_faces(model, _demands)),
-      _areas(measure_faces(communicator, model, clock)) {
+      _areas(measure_faces(communicator, model)) {
   parallel::agree(communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     _far_field = find_far_field(model);
     const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
     _owners = parallel::assign_largest_first(loads, communicator.size());
@@ -100,7 +98,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
       const bool mine = _owners[f] == communicator.rank();
       const double begin = parallel::cpu_seconds();
       if (mine) add_face(f);
-      if (mine) _clock.note_task({"sampled face", f, loads[f], parallel::cpu_seconds() - begin});
+      if (mine) parallel::note_task({"sampled face", f, loads[f], parallel::cpu_seconds() - begin});
       progress.advance(1, mine ? 1 : 0);
     }
     list_corners();
@@ -113,7 +111,6 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
 ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
     : _communicator(before._communicator),
       _model(joined),
-      _clock(before._clock),
       _layers(before._layers),
       _fields(before._fields),
       _demands(std::move(before._demands)),
@@ -124,7 +121,7 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
       _surfaces(std::move(before._surfaces)),
       _body_box(before._body_box) {
   parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     std::vector<FaceId> number(before._model.face_count());
     for (FaceId f = 0; f < joined.face_count(); ++f) {
       const std::vector<FaceId> members = joined.members(f);
@@ -181,7 +178,7 @@ void ModelSampler::list_corners() {
 void ModelSampler::gather_triangles() {
   std::vector<Wall> mine;
   parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     for (const OwnFace& face : _faces) {
       if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
       const auto& points = face.facets.points;
@@ -195,7 +192,7 @@ void ModelSampler::gather_triangles() {
   });
   std::vector<Wall> all = _communicator.all_gather_items<Wall>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
-  ScopedCpu cpu(_clock, ScopedCpu::As::repeated);
+  ScopedCpu cpu(ScopedCpu::As::repeated);
   std::vector<Triangle> boundary;
   for (const Wall& t : all) {
     if (!_far_field[t.face]) {
@@ -238,7 +235,7 @@ std::vector<double> ModelSampler::sizes_at(std::span<const geometry::Vec3> point
                                            const SizingOptions& options) const {
   std::vector<double> sizes(points.size(), options.maximum);
   {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     const double slope = std::log(options.growth);
     for (std::size_t i = 0; i < points.size(); ++i) {
       for (const SizeSource& s : own)
@@ -259,7 +256,7 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
   const std::vector<double> sizes = sizes_at(points, own, options);
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     for (std::size_t i = 0; i < _corners.size(); ++i) {
       const auto more = corner_sources(_model, _corners[i], sizes[before + i], options);
       mine.insert(mine.end(), more.begin(), more.end());
@@ -273,7 +270,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   require_possible(options);
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     mine = sample_own(options, coarser);
   });
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
@@ -291,7 +288,7 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
   options.strip_minimum = finest_strip * width;
   std::vector<Strip> mine;
   parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     for (const OwnFace& face : _faces) {
       Strip narrowest{face.id, width, {}};
       for (const StripPart& part : strip_parts(_model, face.facets, face.closed_corners, options, width)) {
@@ -323,7 +320,7 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
   rough.feature_aspect = aspect_of_parts;
   std::vector<FaceElements> mine;
   parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(_clock, ScopedCpu::As::task);
+    ScopedCpu cpu(ScopedCpu::As::task);
     SizingOptions sizes = options;
     for (const OwnFace& face : _faces) {
       const auto parts = strip_parts(_model, face.facets, face.closed_corners, rough, options.minimum);

@@ -88,8 +88,8 @@ public:
   /// `layers`: elements across a gap that the fields to come may ask for, at most; `fields`: how many those
   /// will be; `demands`: what all of them ask for besides, whose patches the model has. Collective. Throws
   /// parallel::CollectiveError where the CAD library fails on a face.
-  ModelSampler(const parallel::Communicator& communicator, const cad::Model& model,
-               parallel::StageClock& clock, double layers, Fields fields, SizeDemands demands = {});
+  ModelSampler(const parallel::Communicator& communicator, const cad::Model& model, double layers,
+               Fields fields, SizeDemands demands = {});
 
   /// For the model with some faces joined: what belongs to all others is taken over. Collective.
   ModelSampler(ModelSampler&& before, const cad::Model& joined);
@@ -222,7 +222,6 @@ private:
 
   parallel::Communicator _communicator;
   cad::Model _model;
-  parallel::StageClock& _clock;
   double _layers;
   Fields _fields;
   SizeDemands _demands;

@@ -191,7 +191,7 @@ double ModelSampler::count_triangles(const SizeField& field) const {
   };
   std::vector<FaceCount> mine;
   {
-    const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     for (const OwnFace& face : _faces) {
       double sum = 0, area = 0;
       const auto& points = face.facets.points;
@@ -215,7 +215,7 @@ double ModelSampler::count_tetrahedra(const SizeField& field) const {
   const std::int64_t tasks = (field.leaf_count() + leaves_per_task - 1) / leaves_per_task;
   std::vector<double> mine;
   {
-    const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     VolumeIntegral integral(field, boundary());
     for (std::int64_t task = _communicator.rank(); task < tasks; task += _communicator.size()) {
       const std::int64_t first = task * leaves_per_task;

@@ -35,14 +35,14 @@ struct Demand {
 
 /// This rank's part of what a key of the case asks for, one more than `most` at most. Collective. What it
 /// throws is about the case, not the geometry.
-std::vector<SizeSource> find_demanded(const parallel::Communicator& communicator, parallel::StageClock& clock,
-                                      const Demand& demand, double most) {
+std::vector<SizeSource> find_demanded(const parallel::Communicator& communicator, const Demand& demand,
+                                      double most) {
   const double room = static_cast<double>(parallel::node_memory_bytes()) / bytes_per_region_cell;
   const double own_room = room / communicator.size();
   std::vector<SizeSource> mine;
   try {
     parallel::agree(communicator, [&] {
-      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+      const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
       const double count = demand.count();
       if (count <= room)
         mine =
@@ -103,7 +103,7 @@ std::vector<SizeSource> ModelSampler::sample_regions(double coarser) const {
   }
   std::vector<SizeSource> mine;
   parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     for (const SizeRegion& region : _demands.regions) {
       const auto more =
           sources_in(_root, region, coarser * region.size, _communicator.rank(), _communicator.size());
@@ -124,7 +124,7 @@ void ModelSampler::lay_surfaces() {
     surfaces.emplace_back(key, std::move(triangles), reach);
   };
   parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::repeated);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
     for (const WallSize& wall : _demands.walls) {
       const std::vector<bool> named = faces_like(_model, wall.faces);
       std::vector<SizedTriangle> triangles;
@@ -164,7 +164,7 @@ std::vector<SizeSource> ModelSampler::sample_formula(const SizingOptions& option
                       [&](RankOf part, std::int64_t limit) {
                         return sources_of_formula(_root, formula, space, part.rank, part.ranks, limit);
                       }};
-  return find_demanded(_communicator, _clock, demand, most);
+  return find_demanded(_communicator, demand, most);
 }
 
 std::vector<SizeSource> ModelSampler::sample_surfaces(const SizingOptions& options, double coarser,
@@ -176,7 +176,7 @@ std::vector<SizeSource> ModelSampler::sample_surfaces(const SizingOptions& optio
                         [&](RankOf part, std::int64_t limit) {
                           return sources_where(_root, ask, part, coarser * options.maximum, limit);
                         }};
-    const auto more = find_demanded(_communicator, _clock, demand, most);
+    const auto more = find_demanded(_communicator, demand, most);
     mine.insert(mine.end(), more.begin(), more.end());
   }
   return mine;

@@ -33,7 +33,7 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
 }  // namespace
 
 SizeField ModelSampler::build_field(const SizingOptions& options) {
-  return FieldBuilder(_communicator, _clock, _model.bounds(), options).build(sample(options, 1));
+  return FieldBuilder(_communicator, _model.bounds(), options).build(sample(options, 1));
 }
 
 std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& options, double coarser,
@@ -45,7 +45,7 @@ std::optional<SizeField> ModelSampler::build_coarser(const SizingOptions& option
                        &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
-  return FieldBuilder(_communicator, _clock, _model.bounds(), coarse)
+  return FieldBuilder(_communicator, _model.bounds(), coarse)
       .build_within(sample(options, coarser), most_leaves);
 }
 
@@ -71,10 +71,10 @@ std::optional<double> ModelSampler::estimate_tetrahedra(const SizingOptions& opt
 }
 
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
-                           const SizingOptions& options, parallel::StageClock& clock) {
+                           const SizingOptions& options) {
   check_options(options);
   const double layers = std::max(options.proximity, elements_across_gaps(options));
-  return ModelSampler(communicator, model, clock, layers, Fields::one).build_field(options);
+  return ModelSampler(communicator, model, layers, Fields::one).build_field(options);
 }
 
 }  // namespace aeroloom::sizing

@@ -113,10 +113,10 @@ double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
 }
 
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const Model& model,
-                                          double width, double tolerance, parallel::StageClock& clock) {
+                                          double width, double tolerance) {
   std::vector<NarrowFace> found;
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       if (const auto narrow = examine(model, f, width, tolerance)) found.push_back(*narrow);
     }

@@ -33,7 +33,7 @@ double turn_across(const cad::Model& model, cad::FaceId a, cad::FaceId b, cad::E
 /// trailing edge has none. Not on the far field; an exact plane joins its like alone. By face, the same on
 /// every rank. Collective.
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const cad::Model& model,
-                                          double width, double tolerance, parallel::StageClock& clock);
+                                          double width, double tolerance);
 
 /// Groups for cad::join_faces: of those found, all that can vanish together.
 std::vector<std::vector<cad::FaceId>> group_narrow_faces(const cad::Model& model,

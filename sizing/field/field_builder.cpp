@@ -62,10 +62,9 @@ void check_options(const SizingOptions& options) {
           "surface_maximum must be 0 or at least minimum", options.surface_maximum);
 }
 
-FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
-                           const geometry::Box& domain, const SizingOptions& options)
+FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, const geometry::Box& domain,
+                           const SizingOptions& options)
     : _communicator(communicator),
-      _clock(clock),
       _domain(domain),
       _options(options),
       _root(domain),
@@ -75,9 +74,8 @@ FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel:
           domain.diagonal());
 }
 
-FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
-                           const SizeField& previous)
-    : FieldBuilder(communicator, clock, previous._domain, previous._options) {
+FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, const SizeField& previous)
+    : FieldBuilder(communicator, previous._domain, previous._options) {
   _previous = &previous;
 }
 
@@ -89,7 +87,7 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
                                                     std::int64_t most_leaves) {
   require_positive(sources);
   std::erase_if(sources, [&](const SizeSource& source) { return source.size >= _options.maximum; });
-  const ScopedCpu own(_clock, ScopedCpu::As::task);
+  const ScopedCpu own(ScopedCpu::As::task);
   sources = thin_sources(_root, sources);
   _cells = SplitCubes(_communicator, divide_root(sources));
   _sources = send_to_pages(_cells.pages(), std::move(sources));

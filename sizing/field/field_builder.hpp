@@ -31,11 +31,10 @@ void check_options(const SizingOptions& options);
 class FieldBuilder {
 public:
   /// Collective, as all that follows.
-  FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
-               const geometry::Box& domain, const SizingOptions& options);
+  FieldBuilder(const parallel::Communicator& communicator, const geometry::Box& domain,
+               const SizingOptions& options);
   /// Starts from a field that the new one must nowhere exceed.
-  FieldBuilder(const parallel::Communicator& communicator, parallel::StageClock& clock,
-               const SizeField& previous);
+  FieldBuilder(const parallel::Communicator& communicator, const SizeField& previous);
 
   /// The field under the sources of all ranks, whose sizes may lie below the minimum. Called once.
   SizeField build(std::vector<SizeSource> sources);
@@ -91,7 +90,6 @@ private:
   SizeField finish(const Octree& octree, std::vector<float> own_sizes) const;
 
   const parallel::Communicator& _communicator;
-  parallel::StageClock& _clock;
   geometry::Box _domain;
   SizingOptions _options;
   const SizeField* _previous = nullptr;

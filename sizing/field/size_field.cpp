@@ -33,13 +33,12 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
   for (SizeSource& source : bounded) {
     if (source.size > 0) source.size = std::max(source.size, options.minimum);
   }
-  parallel::StageClock unused;
-  return FieldBuilder(parallel::Communicator::self(), unused, domain, options).build(std::move(bounded));
+  return FieldBuilder(parallel::Communicator::self(), domain, options).build(std::move(bounded));
 }
 
-SizeField SizeField::refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
-                             parallel::StageClock& clock) const {
-  return FieldBuilder(communicator, clock, *this).build({more.begin(), more.end()});
+SizeField SizeField::refined(const parallel::Communicator& communicator,
+                             std::span<const SizeSource> more) const {
+  return FieldBuilder(communicator, *this).build({more.begin(), more.end()});
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {

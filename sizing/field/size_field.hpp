@@ -120,8 +120,7 @@ public:
 
   /// The field with further sources, each rank its own: sizes can only fall, below the minimum too. The same
   /// however ranks share them. Used where surfaces come too close. Collective.
-  SizeField refined(const parallel::Communicator& communicator, std::span<const SizeSource> more,
-                    parallel::StageClock& clock) const;
+  SizeField refined(const parallel::Communicator& communicator, std::span<const SizeSource> more) const;
   /// Bit for bit, for another run.
   parallel::Bytes pack() const;
   /// Held once per node. Every rank gives the same bytes. Collective; throws std::logic_error for bytes that
@@ -156,7 +155,7 @@ private:
 /// ranks in parallel; no rank has the sources of all. Collective. Throws std::invalid_argument for impossible
 /// options, CollectiveError where the CAD library fails.
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
-                           const SizingOptions& options, parallel::StageClock& clock);
+                           const SizingOptions& options);
 
 /// Predicted size of the mesh under a field: integrals of 4/(sqrt(3) h^2) over the surface, and of 11.3/h^3,
 /// what meshes of ten models have on average, over the volume.
@@ -171,6 +170,6 @@ struct PredictedCounts {
 /// Sizes for the impatient: those of a field that gives about `target_tetrahedra`, with bounds taken from the
 /// model (choose_sizes.hpp has the field with them). Collective.
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
-                           double target_tetrahedra, parallel::StageClock& clock);
+                           double target_tetrahedra);
 
 }  // namespace aeroloom::sizing

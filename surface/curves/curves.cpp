@@ -196,27 +196,26 @@ bool is_constraining(const Model& model, EdgeId id) {
 }
 
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const Model& model,
-                            const sizing::SizeField& field, parallel::StageClock& clock,
-                            std::span<const cad::VertexId> short_legs) {
+                            const sizing::SizeField& field, std::span<const cad::VertexId> short_legs) {
   std::vector<EdgeId> edges;
   std::vector<double> loads;
   std::vector<EdgeId> mine;
   std::vector<MetricLength> lengths;
   std::vector<EdgeMeasure> measures;
   std::vector<FreeStretch> stretches;
-  std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field, clock);
+  std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field);
   shorten_legs(model, field, short_legs, corners);
   const auto legs = legs_of_edges(model, corners);
   parallel::agree(communicator, [&] {
     {
-      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
+      const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
       for (EdgeId e = 0; e < model.edge_count(); ++e) {
         if (!is_constraining(model, e)) continue;
         edges.push_back(e);
         loads.push_back(estimate_load(model, field, e));
       }
     }
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     const auto assignment = parallel::assign_largest_first(loads, communicator.size());
     for (const int task : parallel::tasks_of_rank(assignment, loads, communicator.rank())) {
       const double begin = parallel::cpu_seconds();
@@ -224,7 +223,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
       stretches.push_back(between_legs(model, edges[task], legs[edges[task]]));
       lengths.push_back(metric_length(model, field, edges[task], stretches.back()));
       measures.push_back(measure_edge(model, edges[task], lengths.back(), stretches.back().legs));
-      clock.note_task({"curve", edges[task], loads[task], parallel::cpu_seconds() - begin});
+      parallel::note_task({"curve", edges[task], loads[task], parallel::cpu_seconds() - begin});
     }
   });
   measures = communicator.all_gather_items(std::span<const EdgeMeasure>(measures));
@@ -232,10 +231,10 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   std::vector<PlacedVertex> placed;
   parallel::agree(communicator, [&] {
     const std::vector<int> segments = [&] {
-      const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
+      const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
       return count_segments(model, std::move(measures));
     }();
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     for (std::size_t i = 0; i < mine.size(); ++i) {
       const auto vertices = place_vertices(model, mine[i], lengths[i], stretches[i], segments[mine[i]]);
       placed.insert(placed.end(), vertices.begin(), vertices.end());
@@ -244,7 +243,7 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
   mesh.sharp_corners = std::move(corners);
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::repeated);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
     align_tips(model, sizing::closing_gap(field.options()), mesh);
   });
   return mesh;

@@ -47,7 +47,6 @@ bool is_constraining(const cad::Model& model, cad::EdgeId edge);
 /// Beside closed ones vertices lie opposite each other (tip_alignment.hpp). Each edge is discretised by one
 /// rank, the result is shared. Collective.
 CurveMesh discretise_curves(const parallel::Communicator& communicator, const cad::Model& model,
-                            const sizing::SizeField& field, parallel::StageClock& clock,
-                            std::span<const cad::VertexId> short_legs = {});
+                            const sizing::SizeField& field, std::span<const cad::VertexId> short_legs = {});
 
 }  // namespace aeroloom::surface

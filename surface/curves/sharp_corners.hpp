@@ -41,8 +41,7 @@ bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner,
 
 /// All of them by face, the same on every rank. Collective.
 std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator,
-                                            const cad::Model& model, const sizing::SizeField& field,
-                                            parallel::StageClock& clock);
+                                            const cad::Model& model, const sizing::SizeField& field);
 
 /// Length of a short leg, in sizes at the corner. Chosen, not measured.
 inline constexpr double longest_short_leg = 4;

@@ -24,6 +24,6 @@ struct CutOptions : SurfaceOptions {
 /// As mesh_surface().
 SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, const cad::Model& model,
                                    const sizing::SizeField& field, const CutOptions& options,
-                                   parallel::StageClock& clock, parallel::TaskStore* tasks = nullptr);
+                                   parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::surface

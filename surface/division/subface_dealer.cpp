@@ -37,12 +37,8 @@ struct SubfaceDealer::Row {
 };
 
 SubfaceDealer::SubfaceDealer(const parallel::Communicator& communicator, const cad::Model& model,
-                             const CutOptions& options, parallel::StageClock& clock)
-    : _communicator(communicator),
-      _model(model),
-      _options(options),
-      _clock(clock),
-      _whole(model.face_count(), 0) {}
+                             const CutOptions& options)
+    : _communicator(communicator), _model(model), _options(options), _whole(model.face_count(), 0) {}
 
 void SubfaceDealer::leave_whole(const std::vector<cad::FaceId>& faces) {
   for (const cad::FaceId face : faces) _whole[face] = 1;
@@ -104,11 +100,11 @@ void SubfaceDealer::divide(Subfaces::value_type& entry, int level, CoarseSizes& 
     part[level] = static_cast<std::int32_t>(i);
     divided.emplace(part, std::move(pieces.subfaces[i]));
   }
-  _clock.note_task({.kind = level == 1 ? "divided face" : "divided part",
-                    .number = key[0],
-                    .predicted = load,
-                    .cpu_seconds = parallel::cpu_seconds() - begin,
-                    .burden = load});
+  parallel::note_task({.kind = level == 1 ? "divided face" : "divided part",
+                       .number = key[0],
+                       .predicted = load,
+                       .cpu_seconds = parallel::cpu_seconds() - begin,
+                       .burden = load});
   std::vector<CutAngle>& angles = _angles[key];  // its first part has the key of the face
   angles.insert(angles.end(), pieces.angles.begin(), pieces.angles.end());
 }
@@ -133,7 +129,7 @@ Subfaces SubfaceDealer::divide_heavy(Subfaces subfaces, const std::vector<Row>& 
   subfaces = send_to_owners(std::move(subfaces), rows, owners);
   Subfaces divided;
   parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(_clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     for (auto& entry : subfaces) {
       if (is_to_divide({entry.first, entry.second.load, 0, 0, 0}, level)) {
         divide(entry, level, sizes, divided);

@@ -32,7 +32,7 @@ double load_of_piece(double triangles, double facets);
 class SubfaceDealer {
 public:
   SubfaceDealer(const parallel::Communicator& communicator, const cad::Model& model,
-                const CutOptions& options, parallel::StageClock& clock);
+                const CutOptions& options);
 
   /// From now on, these faces are one piece each. The same on every rank.
   void leave_whole(const std::vector<cad::FaceId>& faces);
@@ -53,7 +53,6 @@ private:
   const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
-  parallel::StageClock& _clock;
   std::vector<char> _whole;      // per face: 1 where it must not be divided
   std::vector<double> _burdens;  // per rank: what it has done in this deal, in triangles to mesh, about
   std::map<SubfaceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank in this deal

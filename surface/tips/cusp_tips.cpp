@@ -199,8 +199,8 @@ std::vector<ClosedTip> describe(const CurveMesh& curves, const std::vector<Tip>&
 }  // namespace
 
 std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicator, const Model& model,
-                                       const CurveMesh& curves, double widest, mesh::DistributedMesh& surface,
-                                       parallel::StageClock& clock) {
+                                       const CurveMesh& curves, double widest,
+                                       mesh::DistributedMesh& surface) {
   std::vector<Tip> tips;
   for (const SharpCorner& corner : curves.sharp_corners) {
     if (!corner.closes) continue;
@@ -211,7 +211,7 @@ std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicato
   tips = closable_tips(communicator, curves, surface, std::move(tips));
   if (tips.empty()) return {};
   const ClosedVertices closed(model, curves, tips);
-  const parallel::ScopedCpu cpu(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
   for (Piece& piece : surface.pieces) {
     const std::vector<CurveVertex> on_curve = curve_vertices(curves, piece);
     const bool touched = std::any_of(on_curve.begin(), on_curve.end(),

@@ -28,7 +28,7 @@ inline constexpr double closing_width = 0.3;
 /// vertex. A tip stays that has vertices between its curves, or whose curves other faces join. By
 /// face, the same on every rank. Collective.
 std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicator, const cad::Model& model,
-                                       const CurveMesh& curves, double widest, mesh::DistributedMesh& surface,
-                                       parallel::StageClock& clock);
+                                       const CurveMesh& curves, double widest,
+                                       mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::surface

@@ -188,11 +188,10 @@ TEST(BadCells, FollowRounds) {
     BadCells bad(mesh, measure);
     const std::int64_t first = world.sum(bad.state(mesh).bad);
     cavities::CavityClaims claims;
-    parallel::StageClock clock;
     for (int shift = 0; shift < 4; ++shift) {
       if (world.sum(claim_for_bad(mesh, bad, measure, shift, Effort::sparing, claims)) == 0) break;
       bad.update(mesh, cavities::refill_cavities(world, mesh, mesh::SharedVertices(world, mesh),
-                                                 {claims, {}, improve}, clock));
+                                                 {claims, {}, improve}));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
       BadState all;

@@ -22,8 +22,7 @@ TEST(ImproveMesh, RemovesAPlantedSliver) {
     DistributedMesh mesh = mesh::examples::distribute(self, whole, 1);
     if (examine(mesh.pieces, 15).angle > 6) continue;
     ++planted;
-    parallel::StageClock clock;
-    EXPECT_EQ(improve_mesh(self, mesh, {}, clock).bad_after, 0);
+    EXPECT_EQ(improve_mesh(self, mesh, {}).bad_after, 0);
     expect_valid(self, mesh);
   }
   EXPECT_GT(planted, 2);
@@ -34,8 +33,7 @@ TEST(ImproveMesh, DependsOnThePiecesAlone) {
   const auto self = parallel::Communicator::self();
   const auto improved_hash = [](const parallel::Communicator& communicator, ImproveReport& report) {
     DistributedMesh mesh = mesh::examples::distribute(communicator, examples::shaken_cube(5, 5, 30, 3), 5);
-    parallel::StageClock clock;
-    report = improve_mesh(communicator, mesh, {}, clock);
+    report = improve_mesh(communicator, mesh, {});
     expect_valid(communicator, mesh);
     EXPECT_EQ(mesh::SharedVertices(communicator, mesh).drop_unshared(mesh), 0)
         << "vertices of one piece listed as shared";
@@ -59,8 +57,7 @@ TEST(ImproveMesh, OnlyLooksWhenDisabled) {
   const std::string hash = mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh));
   ImproveOptions options;
   options.enabled = false;
-  parallel::StageClock clock;
-  const ImproveReport report = improve_mesh(world, mesh, options, clock);
+  const ImproveReport report = improve_mesh(world, mesh, options);
   EXPECT_GT(report.bad_before, 0);
   EXPECT_EQ(report.bad_after, report.bad_before);
   EXPECT_EQ(report.min_angle_after, report.min_angle_before);
@@ -88,8 +85,7 @@ TEST(ImproveMesh, LeavesALatticeAsItIs) {
     DistributedMesh mesh = before;
     ImproveOptions options;
     options.target_angle = target;
-    parallel::StageClock clock;
-    const ImproveReport report = improve_mesh(self, mesh, options, clock);
+    const ImproveReport report = improve_mesh(self, mesh, options);
     EXPECT_EQ(report.min_angle_before, examine(before.pieces, target).angle);
     expect_valid(self, mesh);
     int moved = 0;
@@ -108,8 +104,7 @@ TEST(ImproveMesh, LeavesALatticeAsItIs) {
 TEST(ImproveMesh, WorksOnAFewRanksWithoutPieces) {
   const auto world = parallel::Communicator::world();
   DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(4, 1, 10, 6), 1);
-  parallel::StageClock clock;
-  const ImproveReport report = improve_mesh(world, mesh, {}, clock);
+  const ImproveReport report = improve_mesh(world, mesh, {});
   EXPECT_GT(report.min_angle_after, report.min_angle_before);
   expect_valid(world, mesh);
 }
@@ -119,11 +114,10 @@ TEST(ImproveMesh, RefusesWhatItCannotDoOnAllRanks) {
   DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(3, 1, 0, 7), 1);
   ImproveOptions options;
   options.target_angle = 80;
-  parallel::StageClock clock;
-  EXPECT_THROW(improve_mesh(world, mesh, options, clock), std::runtime_error);
+  EXPECT_THROW(improve_mesh(world, mesh, options), std::runtime_error);
   DistributedMesh surface;
   surface.kind = mesh::CellKind::triangle;
-  EXPECT_THROW(improve_mesh(world, surface, {}, clock), std::runtime_error);
+  EXPECT_THROW(improve_mesh(world, surface, {}), std::runtime_error);
 }
 
 }  // namespace

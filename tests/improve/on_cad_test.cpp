@@ -116,13 +116,12 @@ TEST(ImproveOnCad, SlidesAndKeepsTheBox) {
     expect_on_cad(model, with.pieces);
     const ImproveOptions options;
     const auto before = examine(with.pieces, options.target_angle);
-    parallel::StageClock clock;
-    slid += improve_mesh(self, with, options, clock, {&locator, nullptr}).slid;
+    slid += improve_mesh(self, with, options, {&locator, nullptr}).slid;
     const auto after = examine(with.pieces, options.target_angle);
     expect_valid(self, with);
     expect_on_cad(model, with.pieces);
     EXPECT_GT(after.quality, before.quality);
-    EXPECT_EQ(improve_mesh(self, without, options, clock).slid, 0);
+    EXPECT_EQ(improve_mesh(self, without, options).slid, 0);
     EXPECT_GE(after.angle, 10) << seed;
   }
   EXPECT_GT(slid, 50);
@@ -134,8 +133,7 @@ TEST(ImproveOnCad, DependsOnThePiecesAlone) {
   const auto improved_hash = [&](const parallel::Communicator& communicator) {
     cad::PointLocator locator(model);
     mesh::DistributedMesh mesh = mesh::examples::distribute(communicator, shaken_on_cad(model, 5, 4), 5);
-    parallel::StageClock clock;
-    improve_mesh(communicator, mesh, {}, clock, {&locator, nullptr});
+    improve_mesh(communicator, mesh, {}, {&locator, nullptr});
     return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
   };
   EXPECT_EQ(improved_hash(world), improved_hash(self));

@@ -65,8 +65,7 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   options.boundary_may_change = false;
   const Extremes before = examine(mesh.pieces, options.target_angle);
   const std::vector<Piece> old = mesh.pieces;
-  parallel::StageClock clock;
-  const ImproveReport report = improve_mesh(self, mesh, options, clock);
+  const ImproveReport report = improve_mesh(self, mesh, options);
   const Extremes after = examine(mesh.pieces, options.target_angle);
   expect_valid(self, mesh);
   EXPECT_GT(after.quality, before.quality);
@@ -94,8 +93,7 @@ TEST(RandomMeshes, KeepTheirFacesWhereTrianglesMayChange) {
     const ImproveOptions options;
     const Extremes before = examine(mesh.pieces, options.target_angle);
     const FaceAreas areas = areas_of_faces(mesh.pieces);
-    parallel::StageClock clock;
-    changed += improve_mesh(self, mesh, options, clock).changed_triangles;
+    changed += improve_mesh(self, mesh, options).changed_triangles;
     expect_valid(self, mesh);
     EXPECT_GT(examine(mesh.pieces, options.target_angle).quality, before.quality);
     const FaceAreas after = areas_of_faces(mesh.pieces);
@@ -110,13 +108,12 @@ TEST_P(RandomMesh, NeverGetsWorseWhenRepeated) {
   const auto self = parallel::Communicator::self();
   DistributedMesh mesh =
       mesh::examples::distribute(self, examples::shaken_cube(4, 1, 25, 100 + GetParam()), 1);
-  parallel::StageClock clock;
   for (const double target : {5.0, 15.0, 30.0}) {
     ImproveOptions options;
     options.target_angle = target;
     options.sweeps = 4;
     const double before = examine(mesh.pieces, target).quality;
-    improve_mesh(self, mesh, options, clock);
+    improve_mesh(self, mesh, options);
     EXPECT_GE(examine(mesh.pieces, target).quality, before);
     expect_valid(self, mesh);
   }
@@ -170,8 +167,7 @@ TEST(RandomMeshes, AreWorkedOnOnceMoreForPercentiles) {
     ImproveOptions options;
     options.target_angle = target;
     options.percentiles = percentiles;
-    parallel::StageClock clock;
-    const ImproveReport report = improve_mesh(self, mesh, options, clock);
+    const ImproveReport report = improve_mesh(self, mesh, options);
     EXPECT_EQ(report.bad_after, examine(mesh.pieces, target).bad);
     EXPECT_EQ(report.min_angle_after, examine(mesh.pieces, target).angle);
     expect_valid(self, mesh);

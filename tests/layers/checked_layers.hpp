@@ -30,9 +30,8 @@ inline LayerOptions options_for(std::vector<double> first) {
 
 inline Layers build(const Communicator& communicator, const mesh::DistributedMesh& mesh,
                     const LayerOptions& options, const PlaneRemesher& remesh = {}) {
-  parallel::StageClock clock;
   const mesh::NumberedMesh wall{mesh, mesh::number_mesh(communicator, mesh)};
-  return build_layers(communicator, wall, options, clock, remesh);
+  return build_layers(communicator, wall, options, remesh);
 }
 
 inline double enclosed_volume(const mesh::DistributedMesh& mesh) {
@@ -126,8 +125,7 @@ inline void expect_valid(const Communicator& communicator, const mesh::Distribut
   const double between = enclosed_volume(wall) - enclosed_volume(layers.front);
   EXPECT_NEAR(communicator.sum(volume), communicator.sum(between),
               1e-10 * std::abs(communicator.sum(enclosed_volume(wall))));
-  parallel::StageClock clock;
-  EXPECT_TRUE(mesh::find_intersections(communicator, layers.front, clock).empty());
+  EXPECT_TRUE(mesh::find_intersections(communicator, layers.front).empty());
 }
 
 }  // namespace aeroloom::layers::checked

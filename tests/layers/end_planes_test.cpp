@@ -65,9 +65,8 @@ std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& front
 
 Layers build(const Communicator& communicator, const mesh::DistributedMesh& mesh, const LayerOptions& options,
              const PlaneRemesher& remesh) {
-  parallel::StageClock clock;
   const mesh::NumberedMesh wall{mesh, mesh::number_mesh(communicator, mesh)};
-  return build_layers(communicator, wall, options, clock, remesh);
+  return build_layers(communicator, wall, options, remesh);
 }
 
 bool same_bits(double a, double b) {

@@ -47,21 +47,18 @@ struct Unaware {
 };
 
 mesh::DistributedMesh clear(const Communicator& communicator, Unaware& columns, LayerReport& report) {
-  parallel::StageClock clock;
   const PlaneRemesher none;
-  return FrontClearing(communicator, columns.wall, columns.directions, none)
-      .run(columns.limits, report, clock);
+  return FrontClearing(communicator, columns.wall, columns.directions, none).run(columns.limits, report);
 }
 
 TEST(Front, ShrinksUntilNoTrianglesMeet) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = narrow_slit().distribute(world, 5);
   Unaware columns(world, mesh);
-  parallel::StageClock clock;
-  EXPECT_FALSE(mesh::find_intersections(world, columns.front(), clock).empty());
+  EXPECT_FALSE(mesh::find_intersections(world, columns.front()).empty());
   LayerReport report;
   clear(world, columns, report);
-  EXPECT_TRUE(mesh::find_intersections(world, columns.front(), clock).empty());
+  EXPECT_TRUE(mesh::find_intersections(world, columns.front()).empty());
   EXPECT_GE(report.crossing_rounds, 1);
   EXPECT_GT(report.crossings, 0);
   EXPECT_EQ(report.zeroed_by_force, 0);
@@ -107,11 +104,10 @@ TEST(Front, DoesNotCloseAroundAPart) {
   limits.converge(world);
   shrink_to_good(world, wall, directions, limits);
   LayerReport report;
-  parallel::StageClock clock;
   const PlaneRemesher none;
   const mesh::DistributedMesh before = make_front(wall.mesh, make_columns(wall, directions, limits));
-  EXPECT_TRUE(mesh::find_intersections(world, before, clock).empty());
-  FrontClearing(world, wall, directions, none).run(limits, report, clock);
+  EXPECT_TRUE(mesh::find_intersections(world, before).empty());
+  FrontClearing(world, wall, directions, none).run(limits, report);
   EXPECT_GT(report.swallowing, 0);
   double least = 1;
   std::int64_t live = 0;
@@ -135,9 +131,8 @@ TEST(Front, LeavesCrossingsOfTheWallItself) {
   const Directions directions = find_directions(wall, fans);
   ColumnLimits limits(wall, {}, fans, directions);
   LayerReport report;
-  parallel::StageClock clock;
   const PlaneRemesher none;
-  FrontClearing(world, wall, directions, none).run(limits, report, clock);
+  FrontClearing(world, wall, directions, none).run(limits, report);
   EXPECT_EQ(report.crossing_rounds, 0);
 }
 

@@ -73,14 +73,12 @@ struct Layered {
   /// Tetrahedra behind the front, improved, and the layers before it.
   void fill(const sizing::SizeField& field, std::int64_t most_cells_per_piece,
             volume::VolumeOptions options = {}) {
-    parallel::StageClock clock;
     volume::VolumeReport report;
     const volume::VolumeInput input{front.mesh, front.numbering, field, options};
-    mesh =
-        volume::fill_zones(communicator, input, volume::decompose(communicator, input, clock), clock, report);
+    mesh = volume::fill_zones(communicator, input, volume::decompose(communicator, input), report);
     improve::ImproveOptions improvement;
     improvement.boundary_may_change = false;
-    improved = improve::improve_mesh(communicator, mesh, improvement, clock, {nullptr, &field});
+    improved = improve::improve_mesh(communicator, mesh, improvement, {nullptr, &field});
     tetrahedra = 0;
     for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);

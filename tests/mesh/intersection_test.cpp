@@ -18,8 +18,7 @@ namespace {
 
 std::vector<TriangleHit> intersections_of(const parallel::Communicator& communicator,
                                           const DistributedMesh& surface) {
-  parallel::StageClock clock;
-  return find_intersections(communicator, surface, clock);
+  return find_intersections(communicator, surface);
 }
 
 using geometry::Vec3;

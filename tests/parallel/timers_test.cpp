@@ -92,11 +92,11 @@ TEST(StageClockTest, AddsToTheOpenStageOnly) {
   clock.begin("surface");
   clock.add_pieces(3);
   {
-    const ScopedCpu scope(clock, ScopedCpu::As::task);
+    const ScopedCpu scope(ScopedCpu::As::task);
     work(0.05);
   }
   {
-    const ScopedCpu scope(clock, ScopedCpu::As::serial);
+    const ScopedCpu scope(ScopedCpu::As::serial);
     work(0.02);
   }
   clock.end();
@@ -118,10 +118,10 @@ TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
   const double before = cpu_seconds();
   clock.begin("volume");
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     work(0.06);
     // What lies within is no task, and neither is waiting.
-    const ScopedCpu check(clock, ScopedCpu::As::check);
+    const ScopedCpu check(ScopedCpu::As::check);
     work(0.02);
     // However late a rank comes to the first barrier, all but rank 0 wait at the second.
     world.barrier();
@@ -178,7 +178,36 @@ TEST(StageClockTest, RefusesNestedStages) {
   EXPECT_THROW(clock.end(), std::logic_error);
   clock.begin("a");
   EXPECT_THROW(clock.begin("b"), std::logic_error);
+  StageClock other;
+  EXPECT_THROW(other.begin("b"), std::logic_error);
   clock.end();
+  EXPECT_NO_THROW(other.begin("b"));  // a clock that ends with a stage open leaves none behind
+}
+
+TEST(StageClockTest, IsTheClockOfItsThread) {
+  begin_round();
+  add_pieces(7);
+  EXPECT_TRUE(noted_tasks().empty());
+  StageClock clock;
+  clock.begin("surface");
+  add_pieces(2);
+  add_task_cpu(1.5);
+  add_serial_cpu(0.5);
+  begin_round();
+  note_task({.kind = "face"});
+  EXPECT_EQ(noted_tasks().size(), 1u);
+  std::thread([] {
+    const ScopedCpu scope(ScopedCpu::As::task);
+    add_pieces(100);
+    work(0.02);
+  }).join();
+  clock.end();
+  add_pieces(100);
+  EXPECT_EQ(clock.costs()[0].pieces, 2);
+  EXPECT_DOUBLE_EQ(clock.costs()[0].task_cpu_seconds, 1.5);
+  EXPECT_DOUBLE_EQ(clock.costs()[0].serial_cpu_seconds, 0.5);
+  ASSERT_EQ(clock.tasks().size(), 1u);
+  EXPECT_EQ(clock.tasks()[0].round, 1);
 }
 
 TEST(StageClockTest, CountsChildrenOnTopOfTheRank) {
@@ -243,11 +272,11 @@ TEST(StageClockTest, TellsRepeatedWorkFromSerial) {
   const double before = cpu_seconds();
   clock.begin("volume");
   {
-    const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
+    const ScopedCpu repeated(ScopedCpu::As::repeated);
     work(0.02);
   }
   {
-    const ScopedCpu serial(clock, ScopedCpu::As::serial);
+    const ScopedCpu serial(ScopedCpu::As::serial);
     work(0.01);
   }
   clock.end();

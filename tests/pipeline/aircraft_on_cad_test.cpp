@@ -33,23 +33,20 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   domain.far_field.emplace();
   domain.far_field->extent = 3;
   const cad::Model model = cad::Model::from_bytes(cad::prepare_domain(domain).model.serialise());
-  parallel::StageClock clock;
-  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 60'000, clock);
+  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 60'000);
   sizes.feature_minimum = 0.5 * sizes.minimum;  // small for a test: trailing edges stay unresolved
   sizes.strip_minimum = 0;
-  const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes, clock);
+  const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;
-  Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options, clock), {}, {}, {}};
+  Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options), {}, {}, {}};
   const mesh::Numbering numbering = mesh::number_mesh(ranks, aircraft.surface.mesh);
   volume::VolumeOptions options;
   options.piece_tets = 10'000;
   const volume::VolumeInput input{aircraft.surface.mesh, numbering, aircraft.surface.field, options};
-  aircraft.volume =
-      volume::fill_zones(ranks, input, volume::decompose(ranks, input, clock), clock, aircraft.report);
+  aircraft.volume = volume::fill_zones(ranks, input, volume::decompose(ranks, input), aircraft.report);
   cad::PointLocator locator(model);
-  aircraft.improved =
-      improve::improve_mesh(ranks, aircraft.volume, {}, clock, {&locator, &aircraft.surface.field});
+  aircraft.improved = improve::improve_mesh(ranks, aircraft.volume, {}, {&locator, &aircraft.surface.field});
   return aircraft;
 }
 

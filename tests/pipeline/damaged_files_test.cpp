@@ -145,9 +145,8 @@ protected:
   std::string outcome(const fs::path& file) {
     cad::DomainOptions options;
     options.file = file.string();
-    parallel::StageClock clock;
     try {
-      const cad::Domain domain = domain::prepare_sandboxed(options, clock);
+      const cad::Domain domain = domain::prepare_sandboxed(options);
       EXPECT_GT(domain.model.face_count(), 0) << file;
       return {};
     } catch (const cad::CadError& error) {
@@ -199,10 +198,9 @@ TEST_F(DamagedFiles, CrashesAndHangsOfTheCadLibraryBecomeMessages) {
   for (const auto& [fault, words] : expected) {
     cad::DomainOptions options;
     options.file = (_folder / "any.step").string();
-    parallel::StageClock clock;
     const ScopedFault injected("domain=" + fault);
     try {
-      domain::prepare_sandboxed(options, clock);
+      domain::prepare_sandboxed(options);
       ADD_FAILURE() << words;
     } catch (const cad::CadError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();

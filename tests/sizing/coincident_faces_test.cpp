@@ -14,8 +14,7 @@ using shapes::slotted_block;
 namespace {
 
 std::vector<CoincidentFaces> coincident_in(const cad::Model& model) {
-  parallel::StageClock clock;
-  return ModelSampler(parallel::Communicator::world(), model, clock, 1, Fields::one).find_coincident_faces();
+  return ModelSampler(parallel::Communicator::world(), model, 1, Fields::one).find_coincident_faces();
 }
 
 }  // namespace

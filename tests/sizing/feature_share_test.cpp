@@ -13,13 +13,13 @@ namespace {
 
 constexpr double no_budget = 1e9;
 
-/// A sampler with its clock.
+/// A sampler of a shape.
 class Sampled {
 public:
   explicit Sampled(const cad::Model& model) : Sampled(model, 0) {}
   /// With gaps looked for.
   Sampled(const cad::Model& model, double layers)
-      : _sampler(parallel::Communicator::world(), model, _clock, layers, Fields::several) {}
+      : _sampler(parallel::Communicator::world(), model, layers, Fields::several) {}
 
   FeatureShare share(double budget, std::int64_t most_leaves = 1'000'000'000) {
     return share_of_features(_sampler, sizes(), budget, 1, most_leaves);
@@ -40,7 +40,6 @@ public:
   }
 
 private:
-  parallel::StageClock _clock;
   ModelSampler _sampler;
 };
 

@@ -37,8 +37,7 @@ TEST(LevelDemands, FieldHasTheSpacingAlongEdges) {
   options.default_far_field.extent = 100;
   options.default_far_field.unit = cad::ExtentUnit::semispan;
   const cad::Model model = cad::prepare_domain(options).model;
-  parallel::StageClock clock;
-  ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   const Vec3 flow{1, 0, 0};
   const LiftingBodies bodies = find_lifting_bodies(sampler, flow);
   EXPECT_NEAR(model.bounds().size().x, 2 * 100 * bodies.semispan, 0.01 * bodies.semispan);

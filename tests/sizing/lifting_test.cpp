@@ -18,8 +18,7 @@ using geometry::Vec3;
 
 LiftingBodies find(const cad::DomainOptions& options) {
   const cad::Model model = cad::prepare_domain(options).model;
-  parallel::StageClock clock;
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   return find_lifting_bodies(sampler, {1, 0, 0});
 }
 
@@ -93,8 +92,7 @@ TEST(Lifting, OfNamedFacesAlone) {
   cad::DomainOptions options;
   options.transport = cad::TransportDimensions{};
   const cad::Model model = cad::prepare_domain(options).model;
-  parallel::StageClock clock;
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   const auto named = [&](const std::vector<std::string>& names) {
     return find_lifting_bodies(sampler, {1, 0, 0}, names);
   };

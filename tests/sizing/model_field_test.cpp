@@ -27,8 +27,7 @@ using sizing::SizingOptions;
 namespace {
 
 SizeField build(const Model& model, const SizingOptions& options) {
-  parallel::StageClock clock;
-  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+  return sizing::build_size_field(parallel::Communicator::world(), model, options);
 }
 
 Vec3 random_direction(std::mt19937_64& random) {
@@ -206,9 +205,7 @@ TEST(ModelField, IsTheSameForAnyRankCount) {
   for (const PrimitiveKind kind :
        {PrimitiveKind::torus, PrimitiveKind::cylinder, PrimitiveKind::box_with_sphere}) {
     const Model model = cad::make_primitive_domain(kind);
-    parallel::StageClock clock;
-    const std::int64_t alone =
-        hash(sizing::build_size_field(parallel::Communicator::self(), model, options, clock));
+    const std::int64_t alone = hash(sizing::build_size_field(parallel::Communicator::self(), model, options));
     const std::int64_t together = hash(build(model, options));
     EXPECT_EQ(alone, together);
     const auto world = parallel::Communicator::world();

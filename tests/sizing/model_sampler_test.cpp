@@ -18,18 +18,17 @@ namespace {
 
 using cad::Model;
 
-Model join_narrow(const Model& model, double width, parallel::StageClock& clock) {
-  auto narrow = find_narrow_faces(parallel::Communicator::world(), model, width, 1e-3, clock);
+Model join_narrow(const Model& model, double width) {
+  auto narrow = find_narrow_faces(parallel::Communicator::world(), model, width, 1e-3);
   return cad::join_faces(model, group_narrow_faces(model, narrow, 1e-3));
 }
 
 /// Fields and predictions of samplers that were made anew and from one for the model before.
-void expect_same(const Model& model, const Model& joined, const SizingOptions& options, Fields fields,
-                 parallel::StageClock& clock) {
+void expect_same(const Model& model, const Model& joined, const SizingOptions& options, Fields fields) {
   const auto world = parallel::Communicator::world();
-  ModelSampler before(world, model, clock, options.proximity, fields);
+  ModelSampler before(world, model, options.proximity, fields);
   before.build_field(options);
-  ModelSampler after(std::move(before), joined), anew(world, joined, clock, options.proximity, fields);
+  ModelSampler after(std::move(before), joined), anew(world, joined, options.proximity, fields);
   const SizeField field = after.build_field(options), expected = anew.build_field(options);
   ASSERT_EQ(field.leaf_count(), expected.leaf_count());
   for (std::int64_t leaf = 0; leaf < field.leaf_count(); ++leaf)
@@ -42,21 +41,19 @@ void expect_same(const Model& model, const Model& joined, const SizingOptions& o
 }  // namespace
 
 TEST(ModelSampler, TakesOverWhatJoiningLeavesAsItIs) {
-  parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
-  const Model joined = join_narrow(model, 0.06, clock);
+  const Model joined = join_narrow(model, 0.06);
   ASSERT_LT(joined.face_count(), model.face_count());
   EXPECT_EQ(joined.members(0).size() + joined.face_count() - 1, model.face_count());
   for (const Fields fields : {Fields::one, Fields::several})
-    expect_same(model, joined, {0.05, 0.5, 15, 1.3, 0}, fields, clock);
+    expect_same(model, joined, {0.05, 0.5, 15, 1.3, 0}, fields);
 }
 
 // Segments of facets leave the curves by far more than this strip is wide, and other ones on each side of it.
 TEST(ModelSampler, WidthsOfStripsAreThoseBetweenTheirCurves) {
   constexpr double width = 4e-5;
-  parallel::StageClock clock;
   const Model model = cad::shapes::half_coin(width);
-  const ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   const std::vector<Strip> strips = sampler.strips_narrower_than(0.05, 0.05);
   ASSERT_FALSE(strips.empty());
   EXPECT_NEAR(strips.front().width, width, 0.05 * width);
@@ -65,9 +62,8 @@ TEST(ModelSampler, WidthsOfStripsAreThoseBetweenTheirCurves) {
 // At a strip the size is that of what lies around it, did it ask for nothing.
 TEST(ModelSampler, TellsSizesWithoutFeatures) {
   constexpr double width = 0.002, surface = 0.1;
-  parallel::StageClock clock;
   const Model model = cad::shapes::blunt_wedge(width);
-  ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::one);
+  ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   SizingOptions options;
   options.minimum = 0.02, options.maximum = 0.5, options.surface_maximum = surface;
   options.feature_minimum = 0.001;
@@ -82,21 +78,19 @@ TEST(ModelSampler, TellsSizesWithoutFeatures) {
 
 // The strip hides that two walls meet in an edge; joined with one of them it must not be taken for a gap.
 TEST(ModelSampler, LooksForGapsAnewBesideJoinedFaces) {
-  parallel::StageClock clock;
   const Model model = cad::shapes::creased_prism(10);
-  const Model joined = join_narrow(model, 0.06, clock);
+  const Model joined = join_narrow(model, 0.06);
   SizingOptions options{0.02, 0.5, 15, 1.3, 0};
   options.proximity = 3;
-  expect_same(model, joined, options, Fields::several, clock);
+  expect_same(model, joined, options, Fields::several);
 }
 
 // Sizes of a circle of radius 1 that turn by so much are below the minimum; flat faces ask for nothing.
 TEST(ModelSampler, TellsOnWhichFacesTheMinimumWins) {
-  parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
   SizingOptions options{0.5, 1, 5, 1.3, 0};
   options.proximity = 0;
-  ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, Fields::several);
+  ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::several);
   const std::vector<BoundedFace> bounded = sampler.faces_bounded_by_minimum(options);
   ASSERT_FALSE(bounded.empty());
   for (const BoundedFace& each : bounded) {
@@ -109,10 +103,9 @@ TEST(ModelSampler, TellsOnWhichFacesTheMinimumWins) {
 }
 
 TEST(ModelSampler, RefusesSizesThatNoMachineHolds) {
-  parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
   for (const Fields fields : {Fields::one, Fields::several}) {
-    ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, fields);
+    ModelSampler sampler(parallel::Communicator::world(), model, 0, fields);
     const auto refusal = [&](const SizingOptions& options) -> std::string {
       try {
         sampler.build_field(options);
@@ -139,10 +132,9 @@ TEST(CurvatureLimits, LeaveTheFarFieldItsSizes) {
 }
 
 TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
-  parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
   const SizingOptions options{0.05, 0.5, 15, 1.3, 0};
-  ModelSampler sampler(parallel::Communicator::world(), model, clock, options.proximity, Fields::several);
+  ModelSampler sampler(parallel::Communicator::world(), model, options.proximity, Fields::several);
   constexpr std::int64_t many = 1'000'000'000;
   const auto exact = sampler.try_sizes(options, many);
   const auto estimate = sampler.estimate_tetrahedra(options, 1, many);
@@ -160,9 +152,8 @@ TEST(ModelSampler, RemembersEstimatesForSizesThatDifferByRounding) {
 }
 
 TEST(ModelSampler, RoughFieldsTellAboutAsManyAndDoSoForAnySizes) {
-  parallel::StageClock clock;
   const Model model = cad::shapes::split_cylinder(3, 2);
-  ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, Fields::several);
+  ModelSampler sampler(parallel::Communicator::world(), model, 1, Fields::several);
   const SizingOptions options{0.02, 0.3, 15, 1.3, 0};
   const PredictedCounts exact = sampler.predict(sampler.build_field(options));
   const RoughField rough = sampler.build_rough_field(options);

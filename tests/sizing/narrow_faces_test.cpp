@@ -13,8 +13,7 @@ namespace {
 using cad::Model;
 
 std::vector<NarrowFace> find(const Model& model, double width, double tolerance) {
-  parallel::StageClock clock;
-  return find_narrow_faces(parallel::Communicator::world(), model, width, tolerance, clock);
+  return find_narrow_faces(parallel::Communicator::world(), model, width, tolerance);
 }
 
 TEST(NarrowFaces, AreFoundWithTheirNeighbours) {

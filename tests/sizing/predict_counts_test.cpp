@@ -23,9 +23,8 @@ constexpr double pi = std::numbers::pi;
 
 PredictedCounts predict(const Model& model, const SizingOptions& options,
                         const parallel::Communicator& communicator = parallel::Communicator::world()) {
-  parallel::StageClock clock;
-  const SizeField field = sizing::build_size_field(communicator, model, options, clock);
-  return sizing::ModelSampler(communicator, model, clock, 0, sizing::Fields::one).predict(field);
+  const SizeField field = sizing::build_size_field(communicator, model, options);
+  return sizing::ModelSampler(communicator, model, 0, sizing::Fields::one).predict(field);
 }
 
 /// The prediction for one size everywhere, with the constants of the integrals.
@@ -110,22 +109,18 @@ TEST(ChooseSizes, HitsTheTarget) {
   const Model model = sphere_in_box(20, 0.5);
   const auto world = parallel::Communicator::world();
   for (const double target : {6e4, 2e5, 6e5}) {
-    parallel::StageClock clock;
-    const SizingOptions options = sizing::choose_sizes(world, model, target, clock);
+    const SizingOptions options = sizing::choose_sizes(world, model, target);
     EXPECT_NEAR(predict(model, options).tetrahedra, target, 0.1 * target);
     EXPECT_GT(options.surface_maximum, options.minimum);
     EXPECT_LE(options.surface_maximum, options.maximum);
     EXPECT_EQ(options.minimum, world.maximum(options.minimum));
-    parallel::StageClock own;
-    EXPECT_EQ(options.minimum,
-              sizing::choose_sizes(parallel::Communicator::self(), model, target, own).minimum);
+    EXPECT_EQ(options.minimum, sizing::choose_sizes(parallel::Communicator::self(), model, target).minimum);
   }
 }
 
 TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
   const Model model = sphere_in_box(20, 0.5);
-  parallel::StageClock clock;
-  sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, sizing::Fields::several);
+  sizing::ModelSampler sampler(parallel::Communicator::world(), model, 1, sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 5e4);
   const SizeField field = sampler.build_field(chosen.options);
   EXPECT_EQ(chosen.field.leaf_count(), field.leaf_count());
@@ -139,8 +134,7 @@ TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
 
 TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
   const Model model = sphere_in_box(2, 0.02);
-  parallel::StageClock clock;
-  sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 1, sizing::Fields::several);
+  sizing::ModelSampler sampler(parallel::Communicator::world(), model, 1, sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 100);
   EXPECT_GT(chosen.counts.tetrahedra, 200);
   EXPECT_NEAR(chosen.options.surface_maximum, 0.008, 0.002) << "the coarsest it tries, a fifth of the body";
@@ -150,13 +144,11 @@ TEST(ChooseSizes, WorksWithoutFarField) {
   PrimitiveDimensions dimensions;
   dimensions.radius = 0.2;
   const Model torus = make_primitive_domain(PrimitiveKind::torus, dimensions);
-  parallel::StageClock clock;
-  const SizingOptions options = sizing::choose_sizes(parallel::Communicator::world(), torus, 1e5, clock);
+  const SizingOptions options = sizing::choose_sizes(parallel::Communicator::world(), torus, 1e5);
   EXPECT_NEAR(predict(torus, options).tetrahedra, 1e5, 1e4);
 }
 
 TEST(ChooseSizes, RefusesImpossibleTargets) {
   const Model box = cad::make_primitive_domain(PrimitiveKind::box);
-  parallel::StageClock clock;
-  EXPECT_THROW(sizing::choose_sizes(parallel::Communicator::world(), box, 0, clock), std::invalid_argument);
+  EXPECT_THROW(sizing::choose_sizes(parallel::Communicator::world(), box, 0), std::invalid_argument);
 }

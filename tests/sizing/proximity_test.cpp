@@ -42,8 +42,7 @@ namespace {
 
 SizeField build(const Model& model, double proximity, double minimum = 0.001) {
   const SizingOptions options{minimum, 1, 30, 1.3, 0, proximity};
-  parallel::StageClock clock;
-  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+  return sizing::build_size_field(parallel::Communicator::world(), model, options);
 }
 
 Model plate(double thickness) {
@@ -113,8 +112,7 @@ SizeField build_with_gaps(const Model& model, double gap_minimum) {
   SizingOptions options{0.1, 1, 30, 1.3, 0, 1};
   options.feature_minimum = options.minimum;
   options.gap_minimum = gap_minimum;
-  parallel::StageClock clock;
-  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+  return sizing::build_size_field(parallel::Communicator::world(), model, options);
 }
 
 }  // namespace
@@ -152,8 +150,7 @@ Model plate_in_far_field(double thickness) {
 SizeField build_with_elements(const Model& model, double thin, double gap) {
   SizingOptions options{0.008, 1, 30, 1.3, 0, thin};
   options.gap_proximity = gap;
-  parallel::StageClock clock;
-  return sizing::build_size_field(parallel::Communicator::world(), model, options, clock);
+  return sizing::build_size_field(parallel::Communicator::world(), model, options);
 }
 
 }  // namespace
@@ -270,10 +267,9 @@ TEST(SharpCorners, SizesFitBetweenTheEdges) {
   const double half = 5 * M_PI / 180;
   const Model sharp = wedge(10);
   SizingOptions options{1e-4, 1, 30, 1.3, 0.2, 0};
-  parallel::StageClock clock;
   const auto least_on_bisector = [&](double feature_minimum) {
     options.feature_minimum = feature_minimum;
-    const SizeField field = sizing::build_size_field(parallel::Communicator::world(), sharp, options, clock);
+    const SizeField field = sizing::build_size_field(parallel::Communicator::world(), sharp, options);
     double least = 1;
     for (double r = 0.02; r < 1; r += 0.01) {
       // The sharp corners lie at x = 1, z = 0 and 1; the other sides at x = 0.

@@ -168,8 +168,7 @@ TEST(SizeField, IsTheSameOnEveryRank) {
 TEST(SizeField, RefinedOnlyLowers) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
   const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{3, 3, 3}, 0.05}, {{-5, 0, 0}, 9}};
-  parallel::StageClock clock;
-  const SizeField refined = field.refined(parallel::Communicator::world(), more, clock);
+  const SizeField refined = field.refined(parallel::Communicator::world(), more);
   EXPECT_LE(refined({1, 0, 0}), 0.004 * (1 + 1e-6));
   EXPECT_LE(refined({3, 3, 3}), 0.05 * (1 + 1e-6));
   EXPECT_NEAR(refined({-5, 0, 0}), field({-5, 0, 0}), 0.05 * field({-5, 0, 0}));
@@ -201,10 +200,9 @@ TEST(SizeField, ScaledMultipliesEverySize) {
 }
 
 TEST(SizeField, RefinedKeepsTheGrowthLimit) {
-  parallel::StageClock clock;
   const SizeField field =
       SizeField::build(cube(10), sphere_sources(0.05), options)
-          .refined(parallel::Communicator::world(), std::vector<SizeSource>{{{1, 0, 0}, 0.001}}, clock);
+          .refined(parallel::Communicator::world(), std::vector<SizeSource>{{{1, 0, 0}, 0.001}});
   Points points(9);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = Vec3{1, 0, 0} + points.on_sphere(std::exp(points.uniform(-8, 0)));
@@ -286,8 +284,7 @@ TEST(SizeField, EvaluatesInWellUnderAMicrosecond) {
 
 TEST(FieldBuilder, GivesUpOnFieldsThatAreMuchTooFine) {
   const auto world = parallel::Communicator::world();
-  parallel::StageClock clock;
-  const auto builder = [&] { return sizing::FieldBuilder(world, clock, cube(2), options); };
+  const auto builder = [&] { return sizing::FieldBuilder(world, cube(2), options); };
   const auto sources = sphere_sources(0.1);
   const SizeField whole = builder().build(sources);
   const std::int64_t leaves = whole.leaf_count();
@@ -300,9 +297,8 @@ TEST(FieldBuilder, GivesUpOnFieldsThatAreMuchTooFine) {
 
 TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
   const auto world = parallel::Communicator::world();
-  parallel::StageClock clock;
   const auto sources = sphere_sources(0.08);
-  const SizeField together = sizing::FieldBuilder(world, clock, cube(5), options).build(sources);
+  const SizeField together = sizing::FieldBuilder(world, cube(5), options).build(sources);
   const SizeField alone = SizeField::build(cube(5), sources, options);
   const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{0, 2, 0}, 0.03}};
   // Each rank has a part of them.
@@ -310,8 +306,8 @@ TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
   for (std::size_t i = 0; i < more.size(); ++i) {
     if (i % world.size() == static_cast<std::size_t>(world.rank())) own.push_back(more[i]);
   }
-  const SizeField refined = together.refined(world, own, clock);
-  const SizeField refined_alone = alone.refined(parallel::Communicator::self(), more, clock);
+  const SizeField refined = together.refined(world, own);
+  const SizeField refined_alone = alone.refined(parallel::Communicator::self(), more);
   ASSERT_EQ(together.leaf_count(), alone.leaf_count());
   ASSERT_EQ(refined.leaf_count(), refined_alone.leaf_count());
   Points points(21);
@@ -324,11 +320,10 @@ TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
 
 TEST(FieldBuilder, AllRanksHearOfAnImpossibleSourceOfOne) {
   const auto world = parallel::Communicator::world();
-  parallel::StageClock clock;
   for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     std::vector<SizeSource> mine{{{1, 0, 0}, 0.1}};
     if (world.rank() == world.size() - 1) mine.push_back({{0, 1, 0}, size});
-    EXPECT_THROW(sizing::FieldBuilder(world, clock, cube(2), options).build(mine), std::invalid_argument);
+    EXPECT_THROW(sizing::FieldBuilder(world, cube(2), options).build(mine), std::invalid_argument);
   }
 }
 

@@ -95,8 +95,7 @@ void refine_at_loops(const Communicator& communicator, Meshed& meshed) {
       if (meshed.surface.field(middle) > much_shorter * length) sources.push_back({middle, length});
     }
   }
-  parallel::StageClock clock;
-  meshed.surface.field = meshed.surface.field.refined(communicator, sources, clock);
+  meshed.surface.field = meshed.surface.field.refined(communicator, sources);
 }
 
 /// An aircraft's outline moves by two hundredths of its length where it can; where it would cross itself, as

@@ -148,9 +148,8 @@ TEST(Curves, CoarseSizesStillLeaveConformingLoops) {
 TEST(Curves, AreTheSameOnAnyNumberOfRanks) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const auto field = graded_field(model, model.bounds().low, 0.01, 0.2);
-  parallel::StageClock clock;
-  const CurveMesh together = discretise_curves(parallel::Communicator::world(), model, field, clock);
-  const CurveMesh alone = discretise_curves(parallel::Communicator::self(), model, field, clock);
+  const CurveMesh together = discretise_curves(parallel::Communicator::world(), model, field);
+  const CurveMesh alone = discretise_curves(parallel::Communicator::self(), model, field);
   EXPECT_EQ(together.points, alone.points);
   EXPECT_EQ(together.parameters, alone.parameters);
   EXPECT_EQ(together.first_interior, alone.first_interior);

@@ -69,9 +69,7 @@ Model cube_with_cusp() {
 const sizing::SizingOptions sizes{0.02, 0.1, 12, 1.3, 0};
 
 SurfaceMesh mesh_cube(const Communicator& communicator, const Model& model) {
-  parallel::StageClock clock;
-  return mesh_surface(communicator, model, sizing::build_size_field(communicator, model, sizes, clock), {},
-                      clock);
+  return mesh_surface(communicator, model, sizing::build_size_field(communicator, model, sizes), {});
 }
 
 double least_angle(const mesh::DistributedMesh& surface) {
@@ -146,8 +144,7 @@ TEST(CuspTips, KeepExactPlanes) {
 
 TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
   const Model model = cube_with_cusp();
-  parallel::StageClock clock;
-  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes, clock);
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   EXPECT_GT(field({0, 0, 1}), 2 * sizing::closing_gap(sizes));
   const double end = std::sqrt(2 * radius * sizing::closing_gap(sizes));
   EXPECT_LT(field({1.2 * end, 0, 1}), 4 * sizing::closing_gap(sizes));
@@ -155,8 +152,7 @@ TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
 
 TEST(CuspTips, HaveSizesThatFollowTheirWidthBehind) {
   const Model model = cube_with_cusp();
-  parallel::StageClock clock;
-  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes, clock);
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   for (double x = 0.12; x < 0.4; x *= 1.02) {
     const double width = x * x / (2 * radius);
     EXPECT_LT(field({x, 0, 1}), 2 * width) << x;
@@ -165,9 +161,8 @@ TEST(CuspTips, HaveSizesThatFollowTheirWidthBehind) {
 
 TEST(CuspTips, HaveVerticesOppositeEachOther) {
   const Model model = cube_with_cusp();
-  parallel::StageClock clock;
-  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes, clock);
-  const CurveMesh curves = discretise_curves(Communicator::world(), model, field, clock);
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
+  const CurveMesh curves = discretise_curves(Communicator::world(), model, field);
   ASSERT_FALSE(curves.sharp_corners.empty());
   const SharpCorner& corner = curves.sharp_corners.front();
   std::vector<std::vector<double>> away;
@@ -185,11 +180,10 @@ TEST(CuspTips, HaveVerticesOppositeEachOther) {
 TEST(CuspTips, StayWhereTheCurvesAreApart) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
-  parallel::StageClock clock;
-  const auto field = sizing::build_size_field(communicator, model, sizes, clock);
-  const CurveMesh curves = discretise_curves(communicator, model, field, clock);
+  const auto field = sizing::build_size_field(communicator, model, sizes);
+  const CurveMesh curves = discretise_curves(communicator, model, field);
   mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
-  EXPECT_TRUE(close_cusp_tips(communicator, model, curves, 1e-9, surface, clock).empty());
+  EXPECT_TRUE(close_cusp_tips(communicator, model, curves, 1e-9, surface).empty());
 }
 
 }  // namespace

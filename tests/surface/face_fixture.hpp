@@ -32,8 +32,7 @@ inline sizing::SizeField graded_field(const cad::Model& model, geometry::Vec3 po
 }
 
 inline CurveMesh curves_of(const cad::Model& model, const sizing::SizeField& field) {
-  parallel::StageClock clock;
-  return discretise_curves(parallel::Communicator::world(), model, field, clock);
+  return discretise_curves(parallel::Communicator::world(), model, field);
 }
 
 inline cad::Facets facets_of(const cad::Model& model, cad::FaceId face) {

@@ -22,8 +22,7 @@ constexpr double size = 0.12, strip_degrees = 1.5;
 
 Model joined_cylinder(const Communicator& communicator) {
   const Model apart = cad::shapes::split_cylinder(strip_degrees, 2);
-  parallel::StageClock clock;
-  auto narrow = sizing::find_narrow_faces(communicator, apart, size, 0.05 * size, clock);
+  auto narrow = sizing::find_narrow_faces(communicator, apart, size, 0.05 * size);
   return cad::join_faces(apart, sizing::group_narrow_faces(apart, narrow, 0.05 * size));
 }
 
@@ -43,10 +42,8 @@ struct Meshed {
 };
 
 Meshed mesh_model(const Communicator& communicator, const Model& model, const SurfaceOptions& options) {
-  parallel::StageClock clock;
-  const sizing::SizeField field =
-      sizing::build_size_field(communicator, model, {size, size, 30, 1.3, 0}, clock);
-  SurfaceMesh surface = mesh_surface(communicator, model, field, options, clock);
+  const sizing::SizeField field = sizing::build_size_field(communicator, model, {size, size, 30, 1.3, 0});
+  SurfaceMesh surface = mesh_surface(communicator, model, field, options);
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   return {std::move(surface), std::move(numbering)};
 }

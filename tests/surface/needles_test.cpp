@@ -34,9 +34,8 @@ Model sharp_prism(double degrees) {
 
 SurfaceMesh mesh_of(const Model& model, double size, int needle_rounds,
                     const Communicator& communicator = Communicator::world()) {
-  parallel::StageClock clock;
   SurfaceMesh surface = mesh_surface(communicator, model, testing::uniform_field(model, size),
-                                     {.needle_rounds = needle_rounds}, clock);
+                                     {.needle_rounds = needle_rounds});
   const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   EXPECT_TRUE(mesh::check_surface_mesh(communicator, surface.mesh, numbering).valid());
   return surface;
@@ -88,10 +87,9 @@ TEST(Needles, InSharpCornersAreForced) {
 TEST(Needles, LegsAreShortWhereAskedFor) {
   constexpr double size = 0.05;
   const Model model = sharp_prism(6);
-  parallel::StageClock clock;
   const sizing::SizeField field = testing::uniform_field(model, size);
   const auto longest_leg = [&](std::span<const cad::VertexId> short_legs) {
-    const CurveMesh curves = discretise_curves(Communicator::world(), model, field, clock, short_legs);
+    const CurveMesh curves = discretise_curves(Communicator::world(), model, field, short_legs);
     double longest = 0;
     for (const SharpCorner& corner : curves.sharp_corners) {
       for (const cad::EdgeEnd& end : corner.ends) {

@@ -31,8 +31,7 @@ struct Meshed {
 
 Meshed mesh_model(const Communicator& communicator, const cad::Model& model, const sizing::SizeField& field,
                   const SurfaceOptions& options, const FaceDivider& divider = {}) {
-  parallel::StageClock clock;
-  SurfaceMesh surface = mesh_surface_with_cuts(communicator, model, field, {options, divider}, clock);
+  SurfaceMesh surface = mesh_surface_with_cuts(communicator, model, field, {options, divider});
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   return {std::move(surface), std::move(numbering)};
 }
@@ -212,8 +211,7 @@ TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
 }
 
 Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
-  parallel::StageClock clock;
-  const CurveMesh curves = discretise_curves(Communicator::self(), model, field, clock);
+  const CurveMesh curves = discretise_curves(Communicator::self(), model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (!model.is_planar(f)) return subface_of_face(model, f, curves, field, {});
   }
@@ -263,8 +261,7 @@ TEST(Subfaces, TravelBitForBit) {
 
 TEST(SharedVertexKeys, NameVerticesOfCurvesAndCuts) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  parallel::StageClock clock;
-  const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1), clock);
+  const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1));
   std::set<mesh::SharedVertexKey> names;
   for (CurveVertex v = 0; v < static_cast<CurveVertex>(curves.points.size()); ++v) {
     const mesh::SharedVertexKey vertex_key = curves.vertex_key(model, v);

@@ -39,17 +39,14 @@ struct Meshed {
 
 inline Meshed mesh_model(const Communicator& communicator, const Model& model,
                          const sizing::SizingOptions& sizes, const SurfaceOptions& options) {
-  parallel::StageClock clock;
-  const sizing::SizeField field = sizing::build_size_field(communicator, model, sizes, clock);
-  return {mesh_surface(communicator, model, field, options, clock),
-          cad::shapes::faces_of_patch(model, "symmetry")};
+  const sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
+  return {mesh_surface(communicator, model, field, options), cad::shapes::faces_of_patch(model, "symmetry")};
 }
 
 inline PlaneConflicts remesh(const Communicator& communicator, const Model& model,
                              const SurfaceOptions& options, Meshed& meshed) {
-  parallel::StageClock clock;
   return remesh_planes(communicator, model, meshed.surface.field, {meshed.planes, options},
-                       meshed.surface.mesh, clock);
+                       meshed.surface.mesh);
 }
 
 /// Moves the vertices that `moved` has a place for.
@@ -100,13 +97,12 @@ inline PlaneMeasures measure_planes(const Communicator& communicator, const Mesh
 
 /// Intersections that triangles of planes have a part in.
 inline std::int64_t count_plane_hits(const Communicator& communicator, const Meshed& meshed) {
-  parallel::StageClock clock;
   std::vector<mesh::PieceId> planes;
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
     if (is_of(meshed.planes, piece)) planes.push_back(piece.id);
   }
   planes = communicator.all_gather_items<mesh::PieceId>(planes);
-  const auto hits = mesh::find_intersections(communicator, meshed.surface.mesh, clock);
+  const auto hits = mesh::find_intersections(communicator, meshed.surface.mesh);
   return std::count_if(hits.begin(), hits.end(), [&](const mesh::TriangleHit& hit) {
     return std::find(planes.begin(), planes.end(), hit.first_piece) != planes.end() ||
            std::find(planes.begin(), planes.end(), hit.second_piece) != planes.end();

@@ -56,11 +56,10 @@ protected:
 
   /// The mesh; throws where triangles cross or lie on each other.
   SurfaceMesh mesh(const parallel::Communicator& communicator) const {
-    parallel::StageClock clock;
     const double size = 0.1;
     const sizing::SizeField field =
-        sizing::build_size_field(communicator, _model, {0.5 * size, size, 15, 1.3, 0}, clock);
-    return mesh_surface(communicator, _model, field, {}, clock);
+        sizing::build_size_field(communicator, _model, {0.5 * size, size, 15, 1.3, 0});
+    return mesh_surface(communicator, _model, field, {});
   }
 
   Model _model;
@@ -100,9 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Cones, PointedTips,
 
 std::vector<PointedTip> tips_of(const TopoDS_Shape& shape) {
   const Model model = cad::shapes::prepare_fluid(shape).model;
-  parallel::StageClock clock;
   const sizing::SizeField field =
-      sizing::build_size_field(parallel::Communicator::self(), model, {0.05, 0.1, 15, 1.3, 0}, clock);
+      sizing::build_size_field(parallel::Communicator::self(), model, {0.05, 0.1, 15, 1.3, 0});
   const CurveMesh curves = testing::curves_of(model, field);
   std::vector<PointedTip> tips;
   for (cad::FaceId face = 0; face < model.face_count(); ++face) {
@@ -137,10 +135,9 @@ TEST(CapPointedTips, LeavesAnotherTipInPlace) {
     mesh.triangles.push_back({i, i + 1, i + side});
     mesh.triangles.push_back({i + 1, i + side + 1, i + side});
   }
-  parallel::StageClock clock;
   const Model model = cad::shapes::prepare_fluid(cone(20, 1)).model;
   const sizing::SizeField field =
-      sizing::build_size_field(parallel::Communicator::self(), model, {0.1, 0.1, 15, 1.3, 0}, clock);
+      sizing::build_size_field(parallel::Communicator::self(), model, {0.1, 0.1, 15, 1.3, 0});
   const Vec3 first{0.93, 0.94, 0}, second{0.95, 1, 0};
   cap_pointed_tips(field, {{0, first, {0.93, 0.94}, 4}, {1, second, {0.95, 1}, 4}}, mesh);
   ASSERT_EQ(mesh.tips.size(), 1u);

@@ -27,15 +27,13 @@ Model sharp_prism(double degrees = sharp_degrees) {
 }
 
 sizing::SizeField field_of(const Model& model) {
-  parallel::StageClock clock;
-  return sizing::build_size_field(parallel::Communicator::world(), model, {0.05, 0.2, 12, 1.3, 0}, clock);
+  return sizing::build_size_field(parallel::Communicator::world(), model, {0.05, 0.2, 12, 1.3, 0});
 }
 
 TEST(SharpCorners, AreFoundWithEqualLegs) {
   const Model model = sharp_prism();
   const sizing::SizeField field = field_of(model);
-  parallel::StageClock clock;
-  const auto corners = find_sharp_corners(parallel::Communicator::world(), model, field, clock);
+  const auto corners = find_sharp_corners(parallel::Communicator::world(), model, field);
   ASSERT_EQ(corners.size(), 2u);
   const CurveMesh curves = testing::curves_of(model, field);
   for (const SharpCorner& corner : corners) {
@@ -53,9 +51,8 @@ TEST(SharpCorners, AreFoundWithEqualLegs) {
 
 TEST(SharpCorners, HoldOneTriangle) {
   const Model model = sharp_prism();
-  parallel::StageClock clock;
   const auto communicator = parallel::Communicator::world();
-  const SurfaceMesh surface = mesh_surface(communicator, model, field_of(model), {}, clock);
+  const SurfaceMesh surface = mesh_surface(communicator, model, field_of(model), {});
   ASSERT_EQ(surface.report.sharp_corners.size(), 2u);
   std::int64_t below_corner = 0, below_twenty = 0;
   for (const mesh::Piece& piece : surface.mesh.pieces) {
@@ -78,15 +75,14 @@ TEST(SharpCorners, HoldOneTriangle) {
 TEST(SharpCorners, OfAWedgesSectionStayOpen) {
   const Model model = sharp_prism(6);
   const sizing::SizeField field = field_of(model);
-  parallel::StageClock clock;
   const auto communicator = parallel::Communicator::world();
-  const auto corners = find_sharp_corners(communicator, model, field, clock);
+  const auto corners = find_sharp_corners(communicator, model, field);
   ASSERT_EQ(corners.size(), 2u);
   for (const SharpCorner& corner : corners) {
     EXPECT_FALSE(corner.closes);
     EXPECT_GT(corner.leg, 0);
   }
-  EXPECT_TRUE(mesh_surface(communicator, model, field, {}, clock).report.closed_tips.empty());
+  EXPECT_TRUE(mesh_surface(communicator, model, field, {}).report.closed_tips.empty());
 }
 
 }  // namespace

@@ -30,11 +30,10 @@ struct Meshed {
 };
 
 Meshed mesh_model(const Communicator& communicator, const cad::Model& model, double angle, double maximum) {
-  parallel::StageClock clock;
   const sizing::SizingOptions sizes{
       .minimum = 1e-3, .maximum = maximum, .curvature_angle = angle, .growth = 1.3};
-  sizing::SizeField field = sizing::build_size_field(communicator, model, sizes, clock);
-  SurfaceMesh surface = mesh_surface(communicator, model, field, {}, clock);
+  sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
+  SurfaceMesh surface = mesh_surface(communicator, model, field, {});
   mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
   return {model, std::move(field), std::move(surface), std::move(numbering)};
 }
@@ -80,11 +79,10 @@ TEST(SurfaceMesher, ChordalDeviationIsBounded) {
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::cylinder}) {
     const cad::Model model = cad::make_primitive_domain(kind, {.radius = 1, .height = 1});
     for (const double wanted : {1e-2, 1e-3}) {
-      parallel::StageClock clock;
       sizing::SizingOptions sizes{.minimum = 1, .maximum = 1, .curvature_angle = 60, .growth = 1.3};
       sizes.chordal_deviation = wanted;
       const SurfaceMesh surface =
-          mesh_surface(world, model, sizing::build_size_field(world, model, sizes, clock), {}, clock);
+          mesh_surface(world, model, sizing::build_size_field(world, model, sizes), {});
       double largest = 0;
       for (const mesh::Piece& piece : surface.mesh.pieces) {
         if (model.is_planar(piece.common_face())) continue;
@@ -132,8 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapes,
 TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
   const Communicator world = Communicator::world(), self = Communicator::self();
   const Meshed meshed = mesh_model(world, cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
-  parallel::StageClock clock;
-  const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field, clock);
+  const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field);
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
     const Subface subface = subface_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
     mesh::Piece alone = mesh_piece(meshed.model, subface, meshed.field, {});

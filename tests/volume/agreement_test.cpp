@@ -45,8 +45,7 @@ std::vector<ZoneFace> unmatched(const std::vector<ZoneFace>& faces, int shift = 
   for (const ZoneFace& f : faces) {
     if ((f.zone + shift) % world.size() == world.rank()) mine.push_back(f);
   }
-  parallel::StageClock clock;
-  std::vector<ZoneFace> found = find_unmatched(world, mine, clock);
+  std::vector<ZoneFace> found = find_unmatched(world, mine);
   const auto all = world.all_gather(parallel::to_bytes<ZoneFace>(found));
   for (const parallel::Bytes& other : all) EXPECT_EQ(other, all.front());
   return found;

@@ -56,13 +56,12 @@ void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
     if (data.tree->knows(number)) data.changes[data.tree->index(number)].shell = shell;
   }
   const std::int64_t before = data.report.core_tetrahedra;
-  parallel::StageClock clock;
-  make_all_points(problem.communicator, problem.input(), data, clock);
+  make_all_points(problem.communicator, problem.input(), data);
   EXPECT_LT(data.report.core_tetrahedra, before);
   std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
   data.plan = plan_zones(problem.communicator, data.store(problem.input()), all,
-                         std::vector(all.size(), problem.options.halo), clock);
+                         std::vector(all.size(), problem.options.halo));
 }
 
 VolumeOptions in_zones_of(std::int64_t tets) {
@@ -99,8 +98,7 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   const Communicator world = Communicator::world();
   const surfaces::Surface surface = surfaces::shaken(surfaces::cube_with_ball(10, 9), 0.03);
   const Problem problem(world, surface, fields::around_unit_sphere(0.1, 0.5));
-  parallel::StageClock clock;
-  Decomposition decomposition = decompose(world, problem.input(), clock);
+  Decomposition decomposition = decompose(world, problem.input());
   Decomposition::Data& data = decomposition.data();
   // A block that is all core.
   const BlockIndex first = data.core->ghosts().first();
@@ -113,7 +111,7 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   const bool is_mine = data.tree->owner(chosen) == world.rank();
   if (data.tree->knows(chosen)) data.changes[data.tree->index(chosen)].shell = 0xff;
   const std::int64_t before = data.report.shell_points;
-  const std::vector<BlockIndex> changed = make_all_points(world, problem.input(), data, clock);
+  const std::vector<BlockIndex> changed = make_all_points(world, problem.input(), data);
   EXPECT_GT(data.report.shell_points, before);
   if (is_mine) {
     const BlockIndex block = data.tree->index(chosen);

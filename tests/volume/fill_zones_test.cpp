@@ -224,11 +224,10 @@ TEST(Decompose, leaves_less_than_one_and_a_half_zones_whole) {
   const Problem problem(world, surfaces::cube_with_ball(8, 4), fields::uniform(0.4));
   const auto zones = [&](double of) {
     VolumeInput input = problem.input();
-    parallel::StageClock clock;
-    const DecompositionReport report = decompose(world, input, clock).report();
+    const DecompositionReport report = decompose(world, input).report();
     const double expected = report.expected_tetrahedra - static_cast<double>(report.core_tetrahedra);
     input.options.piece_tets = static_cast<std::int64_t>(expected / of);
-    return decompose(world, input, clock).report().zones;
+    return decompose(world, input).report().zones;
   };
   EXPECT_EQ(zones(1.45), 1);
   EXPECT_EQ(zones(1.55), 2);

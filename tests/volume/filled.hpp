@@ -32,15 +32,14 @@ struct Filled {
   Filled(const parallel::Communicator& communicator, const surfaces::Surface& surface,
          const sizing::SizeField& field, VolumeOptions options = {}, const Change& change = {})
       : problem(communicator, surface, field, options) {
-    Decomposition decomposition = decompose(communicator, problem.input(), clock);
+    Decomposition decomposition = decompose(communicator, problem.input());
     if (change) change(problem, decomposition.data());
     decomposed = decomposition.report();
-    mesh = fill_zones(communicator, problem.input(), std::move(decomposition), clock, report);
+    mesh = fill_zones(communicator, problem.input(), std::move(decomposition), report);
     numbering = mesh::number_mesh(communicator, mesh);
   }
 
   Problem problem;
-  parallel::StageClock clock;
   DecompositionReport decomposed;
   VolumeReport report;
   mesh::DistributedMesh mesh;

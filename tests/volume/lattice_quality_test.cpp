@@ -21,7 +21,7 @@ class EndlessLattice : public OnOneRank {};
 /// In all space, without any surface.
 struct Endless {
   Endless(const sizing::SizeField& sizes, const geometry::Box& box)
-      : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, box, clock) {
+      : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, box) {
     const auto blocks = static_cast<std::size_t>(tree.block_count());
     table.longest_edge.assign(blocks, 0);
     table.note_levels_met(tree);
@@ -34,7 +34,6 @@ struct Endless {
   }
 
   const sizing::SizeField& field;
-  parallel::StageClock clock;
   LatticeFrame frame;
   LatticeTree tree;
   SurfaceTable table;

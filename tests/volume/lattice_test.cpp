@@ -36,10 +36,7 @@ sizing::SizeField steep() {
 struct Grown {
   explicit Grown(sizing::SizeField sizes, const Communicator& communicator = Communicator::self(),
                  const Box& box = fields::domain)
-      : field(std::move(sizes)),
-        frame(field, box),
-        wanted(box),
-        tree(communicator, frame, field, wanted, clock) {}
+      : field(std::move(sizes)), frame(field, box), wanted(box), tree(communicator, frame, field, wanted) {}
 
   /// Whether sizes ask for a cell to be split.
   bool is_too_coarse(const GridCube& cell) const {
@@ -50,7 +47,6 @@ struct Grown {
   }
 
   sizing::SizeField field;
-  parallel::StageClock clock;
   LatticeFrame frame;
   Box wanted;
   LatticeTree tree;

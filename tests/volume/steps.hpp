@@ -70,13 +70,12 @@ inline geometry::Box box_of(const surfaces::Surface& surface) {
 struct Lattice {
   Lattice(const Problem& problem, const geometry::Box& box)
       : frame(problem.field, box),
-        tree(problem.communicator, frame, problem.field, box, clock),
-        own_triangles(
-            deliver_surface(problem.communicator, frame, tree, problem.surface, problem.numbering, clock)),
+        tree(problem.communicator, frame, problem.field, box),
+        own_triangles(deliver_surface(problem.communicator, frame, tree, problem.surface, problem.numbering)),
         table(tabulate_surface(frame, tree, own_triangles)) {
-    learn_what_touches(problem.communicator, known(), own_triangles, clock);
+    learn_what_touches(problem.communicator, known(), own_triangles);
     changes.resize(tree.block_count());
-    learn_what_is_far_finer(problem.communicator, known(), source(problem, {}), clock);
+    learn_what_is_far_finer(problem.communicator, known(), source(problem, {}));
     changes.resize(tree.block_count());
   }
   Lattice(const Lattice&) = delete;
@@ -90,7 +89,6 @@ struct Lattice {
             changes};
   }
 
-  parallel::StageClock clock;
   LatticeFrame frame;
   LatticeTree tree;
   std::vector<SurfaceTriangle> own_triangles;
@@ -104,8 +102,7 @@ struct Surroundings {
       : radii(radii_of(problem, lattice)),
         triangles(deliver(problem, lattice)),
         surface(triangles),
-        found(find_block_regions(problem.communicator, lattice.known(), {triangles, surface, radii},
-                                 lattice.clock)),
+        found(find_block_regions(problem.communicator, lattice.known(), {triangles, surface, radii})),
         regions(found.of_block) {}
 
   static SearchRadii radii_of(const Problem& problem, Lattice& lattice) {
@@ -113,7 +110,7 @@ struct Surroundings {
   }
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
     return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii_of(problem, lattice),
-                          lattice.own_triangles, lattice.clock);
+                          lattice.own_triangles);
   }
 
   SearchRadii radii;

@@ -32,8 +32,7 @@ struct Shared {
   std::vector<SurfaceTriangle> deliver(double radius) {
     const SearchRadii radii{
         std::vector<BlockSearchRadii>(lattice.tree.last() - lattice.tree.first(), {radius, radius}), 0};
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii, lattice.own_triangles,
-                          lattice.clock);
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii, lattice.own_triangles);
   }
 
   surfaces::Surface surface;

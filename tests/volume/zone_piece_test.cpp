@@ -38,12 +38,11 @@ protected:
     VolumeOptions options;
     options.piece_tets = 2000;
     problem = new Problem(*communicator, *surface, fields::uniform(0.14), options);
-    parallel::StageClock clock;
-    decomposition = new Decomposition(decompose(*communicator, problem->input(), clock));
+    decomposition = new Decomposition(decompose(*communicator, problem->input()));
     Decomposition::Data& data = decomposition->data();
     zones = new std::vector<Zone>;
     for (const ZoneShipment& batch : data.plan.batches) {
-      for (ZoneContent& content : supply_zones(*communicator, data.store(problem->input()), batch, clock)) {
+      for (ZoneContent& content : supply_zones(*communicator, data.store(problem->input()), batch)) {
         ZoneFilling filling = fill_zone_in_child(content.problem, parallel::Fault::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(content, filling);

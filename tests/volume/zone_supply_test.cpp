@@ -37,7 +37,7 @@ struct Divided {
   explicit Divided(const Communicator& communicator)
       : surface(surfaces::nested_cubes(8)),
         problem(communicator, surface, fields::around_unit_sphere(0.1, 0.4), in_zones_of(1500)),
-        decomposition(decompose(communicator, problem.input(), clock)),
+        decomposition(decompose(communicator, problem.input())),
         data(decomposition.data()),
         finder(data.finder(problem.input())) {
     std::vector<Away> rows;  // every rank is told
@@ -51,14 +51,13 @@ struct Divided {
     all.resize(data.zones->count());
     std::iota(all.begin(), all.end(), 0);
     widths.assign(all.size(), problem.options.halo);
-    plan = plan_zones(communicator, data.store(problem.input()), all, widths, clock);
+    plan = plan_zones(communicator, data.store(problem.input()), all, widths);
   }
 
   std::vector<ZoneContent> supply_all() {
     std::vector<ZoneContent> contents;
     for (const ZoneShipment& batch : plan.batches) {
-      for (ZoneContent& content :
-           supply_zones(problem.communicator, data.store(problem.input()), batch, clock))
+      for (ZoneContent& content : supply_zones(problem.communicator, data.store(problem.input()), batch))
         contents.push_back(std::move(content));
     }
     return contents;
@@ -66,7 +65,6 @@ struct Divided {
 
   surfaces::Surface surface;
   Problem problem;
-  parallel::StageClock clock;
   Decomposition decomposition;
   Decomposition::Data& data;
   ZoneFinder finder;
@@ -160,8 +158,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   const std::vector<ZoneIndex> some{2, 5};
   std::vector<double> widths = divided.widths;
   widths[5] *= 1.5;
-  const ZonePlan plan =
-      plan_zones(world, divided.data.store(divided.problem.input()), some, widths, divided.clock);
+  const ZonePlan plan = plan_zones(world, divided.data.store(divided.problem.input()), some, widths);
   ASSERT_EQ(plan.loads.size(), 2u);
   EXPECT_EQ(plan.loads[0].zone, 2);
   EXPECT_EQ(plan.loads[1].zone, 5);

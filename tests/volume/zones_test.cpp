@@ -19,7 +19,7 @@ using parallel::Communicator;
 
 struct Tree {
   explicit Tree(const sizing::SizeField& field, const geometry::Box& box = fields::domain)
-      : frame(field, box), tree(Communicator::self(), frame, field, box, clock) {}
+      : frame(field, box), tree(Communicator::self(), frame, field, box) {}
 
   /// A load for each block in the box, in proportion to its leaves, and a little chance.
   std::vector<Load> loads(const geometry::Box& box = fields::domain) const {
@@ -36,7 +36,6 @@ struct Tree {
     return frame.to_space(0.5 * (box.low + box.high));
   }
 
-  parallel::StageClock clock;
   LatticeFrame frame;
   LatticeTree tree;
 };

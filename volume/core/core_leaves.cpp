@@ -9,10 +9,10 @@ using mesh::RegionId;
 using parallel::ScopedCpu;
 
 CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
-                       const BlockPoints& points, parallel::StageClock& clock)
+                       const BlockPoints& points)
     : _ghosts(communicator, source.tree), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
       const std::int64_t first = points.starts[i], last = points.starts[i + 1];
       if (first == last) continue;
@@ -27,13 +27,13 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
   }
   _ghosts.update(communicator, _present);
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     choose(source, points);
   }
   _ghosts.update(communicator, _core);
-  shrink_until_stable(communicator, source.tree, clock);
+  shrink_until_stable(communicator, source.tree);
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     claim(source.tree);
   }
   _ghosts.update(communicator, _claims);
@@ -164,13 +164,12 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
   return found;
 }
 
-void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree,
-                                     parallel::StageClock& clock) {
+void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree) {
   LeafSurroundings around(tree);
   std::vector<std::size_t> open;  // own blocks that leaves may have to leave
   _beside_shell.assign(_ghosts.own_count(), 0);
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
       if (_core[i] == 0) continue;
       around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
@@ -189,7 +188,7 @@ void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator,
   for (bool changed = true; changed;) {
     changed = false;
     {
-      const ScopedCpu task(clock, ScopedCpu::As::task);
+      const ScopedCpu task(ScopedCpu::As::task);
       std::sort(open.begin(), open.end());
       open.erase(std::unique(open.begin(), open.end()), open.end());
       for (const std::size_t i : std::exchange(open, {})) {
@@ -209,7 +208,7 @@ void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator,
     const std::vector<std::uint8_t> before(_core.begin() + static_cast<std::ptrdiff_t>(_ghosts.own_count()),
                                            _core.end());
     _ghosts.update(communicator, _core);
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     for (std::size_t g = 0; g < before.size(); ++g) {
       if (before[g] != _core[_ghosts.own_count() + g]) open_beside(_ghosts.ghost(g));
     }

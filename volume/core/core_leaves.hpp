@@ -29,7 +29,7 @@ class CoreLeaves {
 public:
   /// `points` are all those of this rank's blocks. Collective.
   CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
-             const BlockPoints& points, parallel::StageClock& clock);
+             const BlockPoints& points);
 
   /// The core leaves of a block, a bit each.
   std::uint8_t of(BlockIndex b) const { return _core[_ghosts.place(b)]; }
@@ -61,8 +61,7 @@ private:
   void choose(const LatticeSource& source, const BlockPoints& points);
   bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
   bool is_beside_shell(const LeafSurroundings& around) const;
-  void shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree,
-                           parallel::StageClock& clock);
+  void shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree);
   void claim(const LatticeTree& tree);
   bool leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const;
 

@@ -46,10 +46,10 @@ std::vector<std::int32_t> find_unmatched_here(const parallel::Communicator& comm
 }  // namespace
 
 std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
-                                     std::span<const ZoneFace> faces, parallel::StageClock& clock) {
+                                     std::span<const ZoneFace> faces) {
   std::vector<ZoneFace> mine;
   {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (const std::int32_t face : find_unmatched_here(communicator, faces)) mine.push_back(faces[face]);
   }
   std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);

@@ -13,7 +13,7 @@ namespace aeroloom::volume {
 /// The faces that have no partner: another zone's face with the same vertices, with the other orientation, in
 /// the same region. By vertices and zone, the same on every rank. Collective.
 std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
-                                     std::span<const ZoneFace> faces, parallel::StageClock& clock);
+                                     std::span<const ZoneFace> faces);
 
 /// A place where zones disagree: faces without partner that are connected by vertices.
 struct DisputedPlace {

@@ -55,9 +55,8 @@ public:
         ->point;
   }
   /// Cells of blocks that their rank may not know bring their points. Collective.
-  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells,
-                   parallel::StageClock& clock) {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells) {
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (const auto& [rank, number] : wanted_by_others(communicator.rank(), cells))
       _arrived.push_back({rank, number, place(number)});
     _arrived = mesh::deliver(communicator, std::move(_arrived), [](const CorePoint& p) { return p.rank; });

@@ -238,20 +238,19 @@ std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
 class CoreMaker {
 public:
   CoreMaker(const parallel::Communicator& communicator, const CoreSource& source,
-            std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock)
+            std::map<ZoneIndex, ZoneResult>& results)
       : _communicator(communicator),
         _source(source),
         _results(results),
-        _clock(clock),
         _naming(source),
-        _ranges(communicator, source.lattice.tree, source.core, source.share, source.piece_tets, clock),
+        _ranges(communicator, source.lattice.tree, source.core, source.share, source.piece_tets),
         _cells(source.lattice.tree, source.core, source.squares) {}
 
   CoreMesh run() {
     std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
-    _naming.send_points(_communicator, parcels, _clock);
+    _naming.send_points(_communicator, parcels);
     parcels = mesh::deliver(_communicator, std::move(parcels), [](const CoreParcel& p) { return p.rank; });
-    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     std::stable_sort(parcels.begin(), parcels.end(), [](const CoreParcel& a, const CoreParcel& b) {
       return a.target != b.target ? a.target < b.target : a.region < b.region;
     });
@@ -300,7 +299,7 @@ private:
 
   /// Cells of zones, and of ranges that other ranks make into pieces.
   std::vector<CoreParcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
-    const ScopedCpu task(_clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     std::vector<CoreParcel> parcels;
     const GhostBlocks& ghosts = _source.core.ghosts();
     for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
@@ -342,7 +341,7 @@ private:
       cells += _mesh.pieces[i].cell_count();
       bytes += mesh::bytes_at_rest(_mesh.pieces[i]);
     }
-    _clock.note_task({"core piece", range, cells, seconds, bytes});
+    parallel::note_task({"core piece", range, cells, seconds, bytes});
   }
 
   /// Of the ranges that are this rank's; what others have of them comes later along the curve.
@@ -383,7 +382,6 @@ private:
   const parallel::Communicator& _communicator;
   const CoreSource& _source;
   std::map<ZoneIndex, ZoneResult>& _results;
-  parallel::StageClock& _clock;
   CoreNaming _naming;
   CoreRanges _ranges;
   CoreCells _cells;
@@ -393,8 +391,8 @@ private:
 }  // namespace
 
 CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
-                   std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock) {
-  return CoreMaker(communicator, source, results, clock).run();
+                   std::map<ZoneIndex, ZoneResult>& results) {
+  return CoreMaker(communicator, source, results).run();
 }
 
 }  // namespace aeroloom::volume

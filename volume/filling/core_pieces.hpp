@@ -34,6 +34,6 @@ struct CoreMesh {
 /// Adds to the zones' results what is theirs; a zone without piece in a region gets one. Collective. Throws
 /// std::logic_error where a tetrahedron is flat or inverted.
 CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
-                   std::map<ZoneIndex, ZoneResult>& results, parallel::StageClock& clock);
+                   std::map<ZoneIndex, ZoneResult>& results);
 
 }  // namespace aeroloom::volume

@@ -10,8 +10,7 @@
 namespace aeroloom::volume {
 
 CoreRanges::CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree,
-                       const CoreLeaves& core, const ShellShare& share, std::int64_t piece_tets,
-                       parallel::StageClock& clock)
+                       const CoreLeaves& core, const ShellShare& share, std::int64_t piece_tets)
     : _tree(tree), _core(core), _range(core.ghosts().count(), -1), _deep(share.deep) {
   const GhostBlocks& ghosts = core.ghosts();
   const std::vector<std::uint16_t>& weights = share.inner_cells;
@@ -29,7 +28,7 @@ CoreRanges::CoreRanges(const parallel::Communicator& communicator, const Lattice
   ghosts.update(communicator, _deep);
   _inner.assign(ghosts.count(), 0);
   {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     find_inner();
   }
   ghosts.update(communicator, _inner);

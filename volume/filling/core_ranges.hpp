@@ -15,7 +15,7 @@ class CoreRanges {
 public:
   /// Refers to `tree`, `core` and `share`. Collective.
   CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree, const CoreLeaves& core,
-             const ShellShare& share, std::int64_t piece_tets, parallel::StageClock& clock);
+             const ShellShare& share, std::int64_t piece_tets);
 
   /// The range of one of this rank's blocks; -1 where there is no core at all.
   std::int32_t of(BlockIndex own) const { return _range[_core.ghosts().place(own)]; }

@@ -54,6 +54,6 @@ struct Decomposition::Data {
 /// have; the surface they were made with is let go. Returns those of this rank's blocks whose core is another
 /// than before. Collective.
 std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                                        Decomposition::Data& data, parallel::StageClock& clock);
+                                        Decomposition::Data& data);
 
 }  // namespace aeroloom::volume

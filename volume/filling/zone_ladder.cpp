@@ -66,7 +66,7 @@ std::vector<ZoneIndex> ZoneLadder::change_failed(const std::vector<ZoneFailure>&
     if (!is_gone(failure.zone)) points_change = climb(failure, evidence, changed) || points_change;
   }
   if (points_change) {
-    for (const BlockIndex b : make_all_points(_communicator, _input, _data, _clock))
+    for (const BlockIndex b : make_all_points(_communicator, _input, _data))
       changed.blocks[b - _data.tree->first()] = 1;
   }
   return those_that_see(std::move(changed));
@@ -172,7 +172,7 @@ std::vector<ZoneIndex> ZoneLadder::those_that_see(Changed changed) {
 // --- zones that disagree
 
 std::vector<ZoneIndex> ZoneLadder::resolve_disputes(std::span<const ZoneFace> faces) {
-  const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces, _clock);
+  const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces);
   if (unmatched.empty()) return {};
   ++_rounds_of_giving;
   Changed changed = nothing();

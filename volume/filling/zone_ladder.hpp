@@ -15,11 +15,10 @@ namespace aeroloom::volume {
 class ZoneLadder {
 public:
   ZoneLadder(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
-             parallel::StageClock& clock, VolumeReport& report)
+             VolumeReport& report)
       : _communicator(communicator),
         _input(input),
         _data(data),
-        _clock(clock),
         _report(report),
         _changes_of(data.zones->count(), 0),
         _merged(data.zones->count(), 0),
@@ -65,7 +64,6 @@ private:
   const parallel::Communicator& _communicator;
   const VolumeInput& _input;
   Decomposition::Data& _data;
-  parallel::StageClock& _clock;
   VolumeReport& _report;
   std::vector<int> _changes_of;
   std::vector<std::uint8_t> _merged, _is_gone;

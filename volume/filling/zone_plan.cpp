@@ -144,11 +144,10 @@ void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments
 }  // namespace
 
 ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore& store,
-                    std::span<const ZoneIndex> zones, std::span<const double> widths,
-                    parallel::StageClock& clock) {
+                    std::span<const ZoneIndex> zones, std::span<const double> widths) {
   ZoneShipment mine;
   parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     mine = std::move(Finding(store, zones, widths).found);
   });
   ZonePlan plan;

@@ -240,17 +240,17 @@ std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
 }  // namespace
 
 std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const ZoneStore& store,
-                                      const ZoneShipment& shipment, parallel::StageClock& clock) {
+                                      const ZoneShipment& shipment) {
   Cargo cargo;
   {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     cargo = std::move(Loader(store, shipment).cargo);
   }
   ship(communicator, cargo.points);
   ship(communicator, cargo.at_borders);
   ship(communicator, cargo.triangles);
   ship(communicator, cargo.borders);
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   std::vector<ZoneContent> contents;
   for (ZoneIndex zone = 0; zone < static_cast<ZoneIndex>(shipment.ranks.size()); ++zone) {
     const std::span<PointOfZone> near = of_zone(cargo.points, zone);

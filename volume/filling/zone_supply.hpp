@@ -88,6 +88,6 @@ struct ZoneShipment {
 /// Sends what zones know to the ranks that fill them: points, triangles, and the triangles of the core's
 /// border at its points. Returns the zones of this rank, by number. Collective.
 std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const ZoneStore& store,
-                                      const ZoneShipment& shipment, parallel::StageClock& clock);
+                                      const ZoneShipment& shipment);
 
 }  // namespace aeroloom::volume

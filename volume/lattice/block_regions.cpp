@@ -286,10 +286,10 @@ private:
 }  // namespace
 
 BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                                const SurfaceAround& around, parallel::StageClock& clock) {
+                                const SurfaceAround& around) {
   const LatticeTree& tree = lattice.tree;
   const SurfaceTable& table = lattice.table;
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   BlockSets sets(tree, table);
   sets.join_those_of_all_ranks(communicator);
   const std::vector<Contact> contacts = sets.take_contacts(communicator);

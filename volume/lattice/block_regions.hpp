@@ -47,6 +47,6 @@ struct BlockRegions {
 /// meets are looked at, each by the rank that has that block. What is found does not depend on who has which.
 /// Collective.
 BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                                const SurfaceAround& around, parallel::StageClock& clock);
+                                const SurfaceAround& around);
 
 }  // namespace aeroloom::volume

@@ -130,7 +130,7 @@ std::int64_t most_octants(const Communicator& communicator, const Limits& limits
 
 /// Splits what is judged so; on several ranks level by level, distributed anew after each. False: the trees
 /// have too few levels.
-bool refine(const Communicator& communicator, Brick& brick, Growth& growth, parallel::StageClock& clock) {
+bool refine(const Communicator& communicator, Brick& brick, Growth& growth) {
   p8est_t& forest = brick.forest();
   const bool is_alone = communicator.size() == 1;
   for (int level = brick.tree_level(); level < brick.finest(); ++level) {
@@ -139,7 +139,7 @@ bool refine(const Communicator& communicator, Brick& brick, Growth& growth, para
     growth.count = forest.local_num_quadrants;
     const std::int64_t before = forest.global_num_quadrants;
     {
-      const ScopedCpu task(clock, ScopedCpu::As::task);
+      const ScopedCpu task(ScopedCpu::As::task);
       p8est_refine_ext(&forest, 1, P8EST_QMAXLEVEL, refine_if_split, nullptr, nullptr);
     }
     if (is_alone || forest.global_num_quadrants == before) break;
@@ -160,43 +160,42 @@ bool refine(const Communicator& communicator, Brick& brick, Growth& growth, para
 
 /// Nothing where the trees have too few levels.
 std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, const Crown& crown,
-                              const Judge& judge, std::int64_t limit, parallel::StageClock& clock) {
+                              const Judge& judge, std::int64_t limit) {
   LibraryScope library(communicator.rank(), "refining");
   Brick brick(communicator, tree_level);
   Growth growth{judge, brick, crown.open, limit};
   brick.forest().user_pointer = &growth;
-  if (!refine(communicator, brick, growth, clock)) return std::nullopt;
+  if (!refine(communicator, brick, growth)) return std::nullopt;
   library.now("balancing");
   growth.count = brick.forest().local_num_quadrants;
   {
-    const ScopedCpu task(clock, ScopedCpu::As::task);
+    const ScopedCpu task(ScopedCpu::As::task);
     p8est_balance_ext(&brick.forest(), P8EST_CONNECT_FULL, count_octant, nullptr);
   }
   library.now("partitioning");
   p8est_partition_ext(&brick.forest(), 1, nullptr);
   if (tree_level == many_trees) brick.unite(trees_within(crown, brick.split_trees()));
-  const ScopedCpu task(clock, ScopedCpu::As::task);
+  const ScopedCpu task(ScopedCpu::As::task);
   return brick.take();
 }
 
 }  // namespace
 
-Forest grow(const Communicator& communicator, const Judge& judge, parallel::StageClock& clock,
-            Limits limits) {
+Forest grow(const Communicator& communicator, const Judge& judge, Limits limits) {
   const std::int64_t limit = most_octants(communicator, limits);
   Crown crown;
-  if (auto grown = grow_in(communicator, one_tree, crown, judge, limit, clock)) return std::move(*grown);
+  if (auto grown = grow_in(communicator, one_tree, crown, judge, limit)) return std::move(*grown);
   parallel::agree(communicator, [&] {
-    const ScopedCpu repeated(clock, ScopedCpu::As::repeated);
+    const ScopedCpu repeated(ScopedCpu::As::repeated);
     crown = judge_crown(judge);
   });
-  return *grow_in(communicator, many_trees, crown, judge, limit, clock);
+  return *grow_in(communicator, many_trees, crown, judge, limit);
 }
 
 Forest partition_by_weight(const Communicator& communicator, const Forest& forest,
-                           std::span<const std::int32_t> weights, parallel::StageClock& clock) {
+                           std::span<const std::int32_t> weights) {
   const LibraryScope library(communicator.rank(), "partitioning");
-  const ScopedCpu task(clock, ScopedCpu::As::task);
+  const ScopedCpu task(ScopedCpu::As::task);
   Brick brick(communicator, forest, weights);
   p8est_partition_ext(&brick.forest(), 1, given_weight);
   return brick.take();

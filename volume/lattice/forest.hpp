@@ -52,12 +52,11 @@ struct Limits {
 
 /// The smallest balanced octree that has all cubes split which are judged so. Ranks share the judging, level
 /// by level. Throws CollectiveError (resources) where it takes more than the limits. Collective.
-Forest grow(const parallel::Communicator& communicator, const Judge& judge, parallel::StageClock& clock,
-            Limits limits = {});
+Forest grow(const parallel::Communicator& communicator, const Judge& judge, Limits limits = {});
 
 /// A forest with the same leaves, partitioned by weights, one per leaf of this rank, none negative.
 /// Collective.
 Forest partition_by_weight(const parallel::Communicator& communicator, const Forest& forest,
-                           std::span<const std::int32_t> weights, parallel::StageClock& clock);
+                           std::span<const std::int32_t> weights);
 
 }  // namespace aeroloom::forest

@@ -93,14 +93,13 @@ std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, cons
 
 LatticeTree::LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
                          const sizing::SizeField& field, const geometry::Box& box,
-                         parallel::StageClock& clock, const std::vector<std::uint64_t>& triangle_keys) {
+                         const std::vector<std::uint64_t>& triangle_keys) {
   std::vector<KnownBlock> mine;
   {
-    forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box), clock);
+    forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box));
     if (communicator.size() > 1)
-      forest = forest::partition_by_weight(communicator, forest, weigh(communicator, forest, triangle_keys),
-                                           clock);
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+      forest = forest::partition_by_weight(communicator, forest, weigh(communicator, forest, triangle_keys));
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     mine = blocks_of(forest.local());
   }
   constexpr std::uint64_t end = 1ULL << 3 * finest_level;
@@ -123,7 +122,7 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
         fmt::format("the lattice would take {} blocks, more than can be numbered. Ask for larger elements "
                     "(SizingOptions::minimum)",
                     total()));
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const BlockNumber first = _firsts[communicator.rank()];
   for (std::size_t i = 0; i < mine.size(); ++i) mine[i].number = first + static_cast<BlockNumber>(i);
   fill(mine, first, static_cast<BlockIndex>(mine.size()));

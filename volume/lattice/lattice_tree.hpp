@@ -50,7 +50,7 @@ public:
   /// and the triangles cost whose centres lie in finest cubes with the keys given, on any rank. Ranks know no
   /// other blocks than their own so far. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
-              const sizing::SizeField& field, const geometry::Box& box, parallel::StageClock& clock,
+              const sizing::SizeField& field, const geometry::Box& box,
               const std::vector<std::uint64_t>& triangle_keys = {});
   static constexpr double coarsest_edge = 1.53;
 

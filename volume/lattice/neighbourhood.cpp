@@ -27,12 +27,12 @@ std::vector<Question> take_questions(const Communicator& communicator, std::vect
 }
 
 void learn_what_touches(const Communicator& communicator, const KnownLattice& lattice,
-                        std::span<const SurfaceTriangle> triangles, parallel::StageClock& clock) {
+                        std::span<const SurfaceTriangle> triangles) {
   const LatticeFrame& frame = lattice.frame;
   LatticeTree& tree = lattice.tree;
   SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return;
-  const ScopedCpu task(clock, ScopedCpu::As::task);
+  const ScopedCpu task(ScopedCpu::As::task);
   std::vector<Question> questions;
   const auto ask_for = [&](const GridBox& box) {
     ask(tree, box, {box, 0, 0, 0, 0, communicator.rank()}, questions);
@@ -62,11 +62,11 @@ void learn_what_touches(const Communicator& communicator, const KnownLattice& la
 }
 
 void learn_what_is_far_finer(const Communicator& communicator, const KnownLattice& lattice,
-                             const LatticeSource& source, parallel::StageClock& clock) {
+                             const LatticeSource& source) {
   LatticeTree& tree = lattice.tree;
   SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return;
-  const ScopedCpu task(clock, ScopedCpu::As::task);
+  const ScopedCpu task(ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     for (const double radius : looks_of_block(source, b)) {

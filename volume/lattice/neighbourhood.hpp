@@ -48,9 +48,9 @@ struct KnownLattice {
 
 /// All blocks that touch this rank's, or hold corners of its triangles.
 void learn_what_touches(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                        std::span<const SurfaceTriangle> triangles, parallel::StageClock& clock);
+                        std::span<const SurfaceTriangle> triangles);
 /// Where there are far finer blocks on the surface (see looks_of_block), one of them.
 void learn_what_is_far_finer(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                             const LatticeSource& source, parallel::StageClock& clock);
+                             const LatticeSource& source);
 
 }  // namespace aeroloom::volume

@@ -101,11 +101,11 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,
                                              const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering, parallel::StageClock& clock) {
+                                             const mesh::Numbering& numbering) {
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
   {
-    const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
       const Piece& piece = surface.pieces[p];
       for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -159,10 +159,9 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
 
 std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
                                             const LatticeFrame& frame, const LatticeTree& tree,
-                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own,
-                                            parallel::StageClock& clock) {
+                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
   if (communicator.size() == 1) return own;
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     const BlockSearchRadii& of_block = radii.of_blocks[b - tree.first()];

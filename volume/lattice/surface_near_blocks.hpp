@@ -58,7 +58,7 @@ struct SurfaceTable {
 std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
                                              const LatticeFrame& frame, const LatticeTree& tree,
                                              const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering, parallel::StageClock& clock);
+                                             const mesh::Numbering& numbering);
 
 /// Of this rank's blocks, from the triangles that meet them.
 SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,
@@ -85,7 +85,6 @@ struct SearchRadii {
 /// each once. Collective.
 std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
                                             const LatticeFrame& frame, const LatticeTree& tree,
-                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own,
-                                            parallel::StageClock& clock);
+                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own);
 
 }  // namespace aeroloom::volume

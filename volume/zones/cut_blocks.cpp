@@ -10,12 +10,12 @@
 namespace aeroloom::volume {
 
 void learn_what_is_cut(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                       const ZoneCuts& cuts, double width, parallel::StageClock& clock) {
+                       const ZoneCuts& cuts, double width) {
   const LatticeFrame& frame = lattice.frame;
   LatticeTree& tree = lattice.tree;
   SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return;
-  const parallel::ScopedCpu task(clock, parallel::ScopedCpu::As::task);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     const GridBox box =

@@ -11,6 +11,6 @@ namespace aeroloom::volume {
 /// Blocks across the borders of zones that halos of a width are told by (ZonesAround). Tree and table grow;
 /// indices of blocks change. Collective.
 void learn_what_is_cut(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                       const ZoneCuts& cuts, double width, parallel::StageClock& clock);
+                       const ZoneCuts& cuts, double width);
 
 }  // namespace aeroloom::volume

@@ -97,19 +97,17 @@ std::string hash(const Communicator& communicator, const mesh::DistributedMesh& 
 }
 
 CavityRound one_round(const Communicator& communicator, mesh::DistributedMesh& mesh,
-                      const CavityClaims& claims, CavityExtent extent, const RefillCavity& refill,
-                      parallel::StageClock& clock) {
+                      const CavityClaims& claims, CavityExtent extent, const RefillCavity& refill) {
   const mesh::SharedVertices shared(communicator, mesh);
-  return refill_cavities(communicator, mesh, shared, {claims, extent, refill}, clock);
+  return refill_cavities(communicator, mesh, shared, {claims, extent, refill});
 }
 
 TEST(Cavities, KeepTheMeshWhole) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
   const mesh::GlobalIndex cells = count_cells(world, mesh);
-  parallel::StageClock clock;
   for (int shift = 0; shift < 4; ++shift) {
-    const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, shift), {}, same, clock);
+    const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, shift), {}, same);
     EXPECT_GT(round.cavities, 0);
     EXPECT_EQ(round.refilled, round.cavities);
     expect_valid(world, mesh);
@@ -127,8 +125,7 @@ TEST(Cavities, SayWhatTheyChanged) {
     return result;
   };
   const std::vector<mesh::Piece> before = mesh.pieces;
-  parallel::StageClock clock;
-  const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, 0), {}, divided, clock);
+  const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, 0), {}, divided);
   ASSERT_EQ(round.changes.size(), before.size());
   std::int64_t changed = 0, kept = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
@@ -170,8 +167,7 @@ TEST(Cavities, ReachAsFarAsTheyAreTold) {
           mine[v] = cavity_at(p, 0.3, 1, 0);
       }
     }
-    parallel::StageClock clock;
-    one_round(world, mesh, claims, reach, count, clock);
+    one_round(world, mesh, claims, reach, count);
     expect_valid(world, mesh);
     taken.push_back(world.sum(tets));
     triangles.push_back(world.sum(on_surface));
@@ -184,15 +180,11 @@ TEST(Cavities, TakeNewVertices) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
   const mesh::GlobalIndex cells = count_cells(world, mesh);
-  parallel::StageClock clock;
   std::int64_t taken = 0;
-  one_round(
-      world, mesh, claim_for_shared(mesh, 0), {},
-      [&](const Cavity& cavity) {
-        taken += static_cast<std::int64_t>(cavity.tets.size());
-        return divided(cavity);
-      },
-      clock);
+  one_round(world, mesh, claim_for_shared(mesh, 0), {}, [&](const Cavity& cavity) {
+    taken += static_cast<std::int64_t>(cavity.tets.size());
+    return divided(cavity);
+  });
   expect_valid(world, mesh);
   EXPECT_EQ(count_cells(world, mesh), cells + 3 * world.sum(taken));
 }
@@ -225,9 +217,8 @@ TEST(Cavities, MayChangeTheSurface) {
   mesh::DistributedMesh alone = mesh::examples::cube(self, squares, pieces);
   const mesh::MeshCounts before = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(count_moved(world, together), 0);
-  parallel::StageClock clock;
-  one_round(world, together, claim_for_surface(together), {}, slid, clock);
-  one_round(self, alone, claim_for_surface(alone), {}, slid, clock);
+  one_round(world, together, claim_for_surface(together), {}, slid);
+  one_round(self, alone, claim_for_surface(alone), {}, slid);
   expect_valid(world, together);
   const mesh::MeshCounts after = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
   EXPECT_EQ(after.vertices, before.vertices);
@@ -240,26 +231,23 @@ TEST(Cavities, MayChangeTheSurface) {
 TEST(Cavities, RefuseAnotherBoundary) {
   const auto self = Communicator::self();
   mesh::DistributedMesh mesh = mesh::examples::cube(self, squares, pieces);
-  parallel::StageClock clock;
   const auto without_one = [](const Cavity& cavity) {
     Refilling result{{}, cavity.tets, {}};
     result.tets.pop_back();
     return std::optional(result);
   };
-  EXPECT_THROW(one_round(self, mesh, claim_for_shared(mesh, 0), {}, without_one, clock),
-               parallel::CollectiveError);
+  EXPECT_THROW(one_round(self, mesh, claim_for_shared(mesh, 0), {}, without_one), parallel::CollectiveError);
 }
 
 TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   mesh::DistributedMesh together = mesh::examples::cube(world, squares, pieces);
   mesh::DistributedMesh alone = mesh::examples::cube(self, squares, pieces);
-  parallel::StageClock clock;
   for (int shift = 0; shift < 3; ++shift) {
     const auto refill = shift == 1 ? divided : same;
     const CavityExtent reach{shift, shift == 2};
-    one_round(world, together, claim_for_shared(together, shift), reach, refill, clock);
-    one_round(self, alone, claim_for_shared(alone, shift), reach, refill, clock);
+    one_round(world, together, claim_for_shared(together, shift), reach, refill);
+    one_round(self, alone, claim_for_shared(alone, shift), reach, refill);
   }
   EXPECT_EQ(hash(world, together), hash(self, alone));
 }
@@ -267,14 +255,13 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
 TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, 4 * squares, pieces);
-  parallel::StageClock clock;
   std::int64_t tets = 0, largest = 0;
   const auto count = [&](const Cavity& cavity) {
     tets += static_cast<std::int64_t>(cavity.tets.size());
     largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
     return same(cavity);
   };
-  one_round(world, mesh, claim_for_shared(mesh, 0, 0.03), {}, count, clock);
+  one_round(world, mesh, claim_for_shared(mesh, 0, 0.03), {}, count);
   // The heaviest rank is above the mean by no more than one cavity.
   EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
@@ -284,9 +271,8 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
   const std::string before = hash(world, mesh);
-  parallel::StageClock clock;
-  const CavityRound round = one_round(
-      world, mesh, claim_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; }, clock);
+  const CavityRound round =
+      one_round(world, mesh, claim_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; });
   EXPECT_GT(round.cavities, 0);
   EXPECT_EQ(round.refilled, 0);
   EXPECT_EQ(hash(world, mesh), before);

@@ -22,8 +22,7 @@ SizedDomain size(const Model& model, double minimum, cases::NarrowFaces narrow_f
   cases::SizingRequest request;
   request.minimum = minimum;
   request.maximum = 1;
-  parallel::StageClock clock;
-  return size_domain(parallel::Communicator::world(), model, request, {narrow_faces}, clock);
+  return size_domain(parallel::Communicator::world(), model, request, {narrow_faces});
 }
 
 TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
@@ -51,11 +50,10 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   cases::SizingRequest request;
   request.target_tetrahedra = 20'000;
-  parallel::StageClock clock;
   const auto world = parallel::Communicator::world();
-  const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join}, clock);
+  const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
   ASSERT_EQ(sized.joined.changes.size(), 1u);
-  const sizing::ModelSampler sampler(world, sized.model, clock, 0, sizing::Fields::one);
+  const sizing::ModelSampler sampler(world, sized.model, 0, sizing::Fields::one);
   const double predicted = sampler.predict(sized.field).tetrahedra;
   EXPECT_GT(predicted, 14'000);
   EXPECT_LT(predicted, 28'000);
@@ -64,7 +62,6 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
 // The search goes around what is given; where that forbids the target, a warning names the key and the count.
 TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
-  parallel::StageClock clock;
   const auto world = parallel::Communicator::world();
   const std::vector<void (*)(cases::SizingRequest&)> keys{
       [](cases::SizingRequest& request) { request.growth = 1.15; },
@@ -81,7 +78,7 @@ TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
     for (std::size_t k = 0; k < keys.size(); ++k)
       if (chosen >> k & 1) keys[k](request);
     parallel::take_warnings(world);
-    const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join}, clock);
+    const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
     const parallel::Warnings warnings = parallel::take_warnings(world);
     const double share = sized.features ? sized.features->share.share : 1;
     const double error = std::log(sized.counts.tetrahedra / share / 30'000);
@@ -100,14 +97,13 @@ TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
 // A target that a key forbids: which, and what it costs.
 TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
-  parallel::StageClock clock;
   const auto world = parallel::Communicator::world();
   parallel::take_warnings(world);
   cases::SizingRequest request;
   request.target_tetrahedra = 1000;
   request.curvature_angle = 4;
   request.minimum = 0.01;
-  const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join}, clock);
+  const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
   const parallel::Warnings warnings = parallel::take_warnings(world);
   EXPECT_GT(sized.counts.tetrahedra, 2000);
   if (!world.is_root()) return;
@@ -121,12 +117,10 @@ TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
 // Bounds that were chosen follow those that are given.
 TEST(SizeDomain, LetsChosenBoundsFollowGivenOnes) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
-  parallel::StageClock clock;
   cases::SizingRequest request;
   request.target_tetrahedra = 1000;
   request.surface_maximum = 0.05;
-  const auto sized =
-      size_domain(parallel::Communicator::world(), model, request, {cases::NarrowFaces::join}, clock);
+  const auto sized = size_domain(parallel::Communicator::world(), model, request, {cases::NarrowFaces::join});
   EXPECT_EQ(sized.sizes.surface_maximum, 0.05);
   EXPECT_LE(sized.sizes.minimum, 0.05);
 }
@@ -136,10 +130,9 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   const Model model = cad::shapes::blunt_wedge(0.0005);
   cases::SizingRequest request;
   request.target_tetrahedra = 20'000;
-  parallel::StageClock clock;
   const auto size_within = [&](double budget) {
     request.feature_budget = budget;
-    return size_domain(parallel::Communicator::world(), model, request, {cases::NarrowFaces::join}, clock);
+    return size_domain(parallel::Communicator::world(), model, request, {cases::NarrowFaces::join});
   };
   const SizedDomain small = size_within(2);
   ASSERT_TRUE(small.features);
@@ -190,9 +183,8 @@ Model thin_wing(double thickness) {
 }
 
 SizedDomain size_automatically(const Model& model, const cases::SizingRequest& request) {
-  parallel::StageClock clock;
   return size_domain(parallel::Communicator::world(), model, request,
-                     {cases::NarrowFaces::join, cad::TrailingEdges::automatic}, clock);
+                     {cases::NarrowFaces::join, cad::TrailingEdges::automatic});
 }
 
 const JudgedEdge& only_edge(const SizedDomain& sized) {
@@ -244,8 +236,7 @@ TEST(TrailingEdges, GoByTheGivenSizesOfFeatures) {
 TEST(TrailingEdges, MayMoveAsElementsThereAreLarge) {
   constexpr double width = 0.0007, aspect = 5, minimum = 0.002;
   const Model model = thin_wing(width);
-  parallel::StageClock clock;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, sizing::Fields::one);
+  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, 0, sizing::Fields::one);
   const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, 0.05);
   const auto fate_of = [&](double root, double tip) {
     const auto sizes = [&](const std::vector<geometry::Vec3>& places) {
@@ -268,8 +259,7 @@ TEST(TrailingEdges, ThatEndInAPointAndAskForNothingAreClosed) {
   options.kind = cad::DomainKind::body;
   const Model model =
       cad::shapes::prepare(cad::shapes::blunt_wing({{0, 0, 0.0005}, {3, 0, 0}}), options).model;
-  parallel::StageClock clock;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, clock, 0, sizing::Fields::one);
+  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, 0, sizing::Fields::one);
   const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, minimum);
   ASSERT_EQ(edges.size(), 1u);
   const auto sizes = [&](const std::vector<geometry::Vec3>& places) {

@@ -132,9 +132,8 @@ void expect_whole_families(const Forest& forest, const Octants& all) {
 
 TEST(Forest, HasTheLeavesOfTheSmallestBalancedOctree) {
   const Communicator world = Communicator::world();
-  parallel::StageClock clock;
   for (const Splits& splits : examples()) {
-    const Forest forest = grow(world, splits, clock);
+    const Forest forest = grow(world, splits);
     const Octants expected = splits.leaves();
     expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);
@@ -143,16 +142,15 @@ TEST(Forest, HasTheLeavesOfTheSmallestBalancedOctree) {
 
 TEST(Forest, IsPartitionedByWeight) {
   const Communicator world = Communicator::world();
-  parallel::StageClock clock;
   std::mt19937_64 random(5);
   for (const Splits& splits : examples()) {
-    const Forest grown = grow(world, splits, clock);
+    const Forest grown = grow(world, splits);
     // All weight in the second half.
     std::vector<std::int32_t> weights;
     for (std::size_t i = 0; i < grown.local().size(); ++i)
       weights.push_back(grown.first(world.rank()) + static_cast<std::int64_t>(i) >= grown.count() / 2 ? 100
                                                                                                       : 0);
-    const Forest forest = partition_by_weight(world, grown, weights, clock);
+    const Forest forest = partition_by_weight(world, grown, weights);
     const Octants expected = splits.leaves();
     expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);
@@ -165,7 +163,6 @@ TEST(Forest, IsPartitionedByWeight) {
 
 TEST(Forest, SharesTheJudging) {
   const Communicator world = Communicator::world();
-  parallel::StageClock clock;
   std::int64_t judged = 0;
   // A sphere: cubes that it meets.
   const auto judge = [&](const GridCube& cube) {
@@ -179,7 +176,7 @@ TEST(Forest, SharesTheJudging) {
     }
     return cube.level < 6 && least < 0.1 && most > 0.1 ? Verdict::split : Verdict::keep;
   };
-  const Forest forest = grow(world, judge, clock);
+  const Forest forest = grow(world, judge);
   EXPECT_GT(forest.count(), 20000);
   const double share = static_cast<double>(judged) / static_cast<double>(world.sum(judged));
   EXPECT_LT(share, 1.5 / world.size());
@@ -189,14 +186,13 @@ TEST(Forest, SharesTheJudging) {
 
 TEST(Forest, SaysWhatItsJudgeThrows) {
   const Communicator world = Communicator::world();
-  parallel::StageClock clock;
   for (const int bad_level : {0, 1, 2, 4}) {
     const auto judge = [&](const GridCube& cube) {
       if (cube.level == bad_level) throw std::logic_error("no size there");
       return Verdict::split;
     };
     try {
-      grow(world, judge, clock);
+      grow(world, judge);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const parallel::CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::bug);
@@ -207,10 +203,9 @@ TEST(Forest, SaysWhatItsJudgeThrows) {
 
 TEST(Forest, StopsBeforeItIsTooLarge) {
   const Communicator world = Communicator::world();
-  parallel::StageClock clock;
   const auto endless = [](const GridCube&) { return Verdict::split; };
   try {
-    grow(world, endless, clock, {5000});
+    grow(world, endless, {5000});
     ADD_FAILURE() << "nothing was thrown";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::resources);

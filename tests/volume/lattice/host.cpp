@@ -38,18 +38,16 @@ std::int64_t grow_own(MPI_Comm group) {
 }
 
 std::int64_t grow_ours(const parallel::Communicator& communicator) {
-  parallel::StageClock clock;
   const auto judge = [](const geometry::GridCube& cube) {
     return cube.level < 6 && cube.low == geometry::GridPoint{} ? forest::Verdict::split
                                                                : forest::Verdict::keep;
   };
-  const forest::Forest grown = forest::grow(communicator, judge, clock);
-  partition_by_weight(communicator, grown, std::vector<std::int32_t>(grown.local().size(), 1), clock);
+  const forest::Forest grown = forest::grow(communicator, judge);
+  partition_by_weight(communicator, grown, std::vector<std::int32_t>(grown.local().size(), 1));
   return grown.count();
 }
 
 void grow_badly(const parallel::Communicator& communicator, const std::string& way) {
-  parallel::StageClock clock;
   const auto judge = [&](const geometry::GridCube& cube) {
     if (communicator.rank() == communicator.size() - 1 && cube.level >= 2) {
       if (way == "aborts") sc_abort_verbose(__FILE__, __LINE__, "a failing assertion");
@@ -57,7 +55,7 @@ void grow_badly(const parallel::Communicator& communicator, const std::string& w
     }
     return cube.level < 3 ? forest::Verdict::split : forest::Verdict::keep;
   };
-  forest::grow(communicator, judge, clock);
+  forest::grow(communicator, judge);
 }
 
 bool check(bool holds, const char* what) {
