@@ -44,7 +44,7 @@ mesh::DistributedMesh fill(const Communicator& communicator, const benchmarks::C
                            const volume::VolumeOptions& options) {
   const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, options};
   volume::VolumeReport report;
-  return volume::fill_zones(communicator, task, volume::decompose(communicator, task), report);
+  return volume::fill_zones(task, volume::decompose(task), report);
 }
 
 void run(const Communicator& communicator, const cases::Case& input) {

@@ -27,8 +27,8 @@ using namespace aeroloom;
 using parallel::Communicator;
 
 /// Diagonal of the box around the triangles of patches that are layered.
-double diagonal_of(const Communicator& communicator, const mesh::DistributedMesh& wall,
-                   const std::vector<bool>& layered) {
+double diagonal_of(const mesh::DistributedMesh& wall, const std::vector<bool>& layered) {
+  const Communicator& communicator = wall.communicator;
   geometry::Box box;
   for (const mesh::Piece& piece : wall.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -41,15 +41,14 @@ double diagonal_of(const Communicator& communicator, const mesh::DistributedMesh
   return geometry::distance({ends[0], ends[1], ends[2]}, {-ends[3], -ends[4], -ends[5]});
 }
 
-layers::LayerOptions options_for(const Communicator& communicator, const mesh::DistributedMesh& wall,
-                                 double first, const std::string& patch) {
+layers::LayerOptions options_for(const mesh::DistributedMesh& wall, double first, const std::string& patch) {
   std::vector<bool> layered;
   for (const std::string& name : wall.patches)
     layered.push_back(patch == "all" ? mesh::patch_type_by_name(name) != mesh::PatchType::farfield
                                      : patch == name);
   layers::LayerOptions options;
   options.patches.resize(wall.patches.size());
-  const double height = first * diagonal_of(communicator, wall, layered);
+  const double height = first * diagonal_of(wall, layered);
   for (std::size_t p = 0; p < layered.size(); ++p) options.patches[p].first = layered[p] ? height : 0;
   return options;
 }
@@ -92,16 +91,15 @@ void print_figures(const Communicator& communicator, const benchmarks::LayerFigu
 
 void run(const Communicator& communicator, const cases::Case& input, double first, const std::string& patch) {
   const benchmarks::CaseSurface made = benchmarks::mesh_surface(communicator, input);
-  const mesh::NumberedMesh wall =
-      mesh::split_pieces(communicator, made.surface.mesh, layers::wall_piece_triangles, {});
-  const layers::LayerOptions options = options_for(communicator, wall.mesh, first, patch);
+  const mesh::NumberedMesh wall = mesh::split_pieces(made.surface.mesh, layers::wall_piece_triangles, {});
+  const layers::LayerOptions options = options_for(wall.mesh, first, patch);
   parallel::StageClock clock;
   clock.begin("layers");
-  const layers::Layers layers = layers::build_layers(communicator, wall, options);
+  const layers::Layers layers = layers::build_layers(wall, options);
   clock.end();
   const parallel::StageSummary stage = clock.summarise(communicator).back();
   const double cpu_used = stage.cpu_seconds_mean * communicator.size();
-  const std::string hash = mesh::hash_mesh(communicator, layers.front, wall.numbering);
+  const std::string hash = mesh::hash_mesh(layers.front, wall.numbering);
   print_figures(communicator, {wall.mesh, layers, options});
   if (!communicator.is_root()) return;
   const layers::PatchLayers sum = sum_of(layers.report);

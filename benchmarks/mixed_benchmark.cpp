@@ -91,8 +91,8 @@ bool is_refused(const Work& work) {
 }
 
 /// Writes a checkpoint and reads it; another time with one bit changed in the file, which must not be read.
-mesh::DistributedMesh through_checkpoint(const Communicator& communicator, const mesh::DistributedMesh& mesh,
-                                         const std::string& folder) {
+mesh::DistributedMesh through_checkpoint(const mesh::DistributedMesh& mesh, const std::string& folder) {
+  const Communicator& communicator = mesh.communicator;
   const std::string path = (std::filesystem::path(folder) / "mixed.checkpoint").string();
   io::CheckpointDraft draft;
   for (const mesh::Piece& piece : mesh.pieces)
@@ -117,33 +117,31 @@ mesh::DistributedMesh through_checkpoint(const Communicator& communicator, const
 }
 
 /// Breaks one cell, and wants hash, validity and quality to tell.
-void require_found_out(const Communicator& communicator, mesh::DistributedMesh mesh,
-                       const mesh::Numbering& numbering, const std::string& hash) {
+void require_found_out(mesh::DistributedMesh mesh, const mesh::Numbering& numbering,
+                       const std::string& hash) {
   for (mesh::Piece& piece : mesh.pieces) {
     if (piece.id != 0) continue;
     for (int k = 0; k < 3; ++k) std::swap(piece.prisms[k], piece.prisms[k + 3]);
   }
-  require(mesh::hash_mesh(communicator, mesh, numbering) != hash, "the hash of a broken mesh is the same");
-  require(!mesh::check_volume_mesh(communicator, mesh, numbering, nullptr).valid(),
-          "a prism inside out counts as valid");
+  require(mesh::hash_mesh(mesh, numbering) != hash, "the hash of a broken mesh is the same");
+  require(!mesh::check_volume_mesh(mesh, numbering, nullptr).valid(), "a prism inside out counts as valid");
   const mesh::MixedQuality quality =
-      mesh::measure_quality(communicator, mesh, numbering, mesh::link_faces(communicator, mesh, numbering));
+      mesh::measure_quality(mesh, numbering, mesh::link_faces(mesh, numbering));
   require(quality.worst_of(mesh::Measure::volume, 0) < 0, "a prism inside out counts as good");
   for (mesh::Piece& piece : mesh.pieces) {
     if (piece.id == 0) piece.coordinates[3 * static_cast<std::size_t>(piece.shared_vertices.at(0))] += 1e-6;
   }
-  require(is_refused([&] { mesh::number_mesh(communicator, mesh); }),
-          "shared vertices that differ are numbered");
+  require(is_refused([&] { mesh::number_mesh(mesh); }), "shared vertices that differ are numbered");
 }
 
 /// A piece that a migration loses, or takes along twice, is missed.
-void require_all_missed(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
+void require_all_missed(const mesh::DistributedMesh& mesh) {
   mesh::DistributedMesh other = mesh;
   std::erase_if(other.pieces, [](const mesh::Piece& piece) { return piece.id == 1; });
-  require(is_refused([&] { mesh::number_mesh(communicator, other); }), "a lost piece is not missed");
+  require(is_refused([&] { mesh::number_mesh(other); }), "a lost piece is not missed");
   other = mesh;
   for (mesh::Piece& piece : other.pieces) piece.id = std::max(piece.id, 1);
-  require(is_refused([&] { mesh::number_mesh(communicator, other); }), "a piece twice is not found");
+  require(is_refused([&] { mesh::number_mesh(other); }), "a piece twice is not found");
 }
 
 void run(const Communicator& communicator, int squares, const std::string& folder) {
@@ -152,32 +150,29 @@ void run(const Communicator& communicator, int squares, const std::string& folde
       "assemble", [&] { return io::assemble(communicator, raw_share(communicator, squares), "mixed", 0); });
   const mesh::GlobalIndex cells = file.mesh.cell_count();
   mesh::NumberedMesh cut = steps.time("repartition", [&] {
-    return mesh::repartition(communicator, *file.mesh.pieces, *file.mesh.numbering,
+    return mesh::repartition(*file.mesh.pieces, *file.mesh.numbering,
                              static_cast<mesh::PieceId>(cells / cells_per_piece + 2));
   });
-  const mesh::Numbering numbering =
-      steps.time("numbering", [&] { return mesh::number_mesh(communicator, cut.mesh); });
-  const std::string hash =
-      steps.time("hash", [&] { return mesh::hash_mesh(communicator, cut.mesh, numbering); });
-  const mesh::ValidityReport validity = steps.time(
-      "validity", [&] { return mesh::check_volume_mesh(communicator, cut.mesh, numbering, nullptr); });
+  const mesh::Numbering numbering = steps.time("numbering", [&] { return mesh::number_mesh(cut.mesh); });
+  const std::string hash = steps.time("hash", [&] { return mesh::hash_mesh(cut.mesh, numbering); });
+  const mesh::ValidityReport validity =
+      steps.time("validity", [&] { return mesh::check_volume_mesh(cut.mesh, numbering, nullptr); });
   require(validity.valid(), validity.valid() ? "" : validity.violations.front().c_str());
   const mesh::MixedQuality quality = steps.time("quality", [&] {
-    return mesh::measure_quality(communicator, cut.mesh, numbering,
-                                 mesh::link_faces(communicator, cut.mesh, numbering));
+    return mesh::measure_quality(cut.mesh, numbering, mesh::link_faces(cut.mesh, numbering));
   });
-  require_found_out(communicator, cut.mesh, numbering, hash);
+  require_found_out(cut.mesh, numbering, hash);
   const auto same = [&](const mesh::DistributedMesh& other) {
-    return mesh::hash_mesh(communicator, other, mesh::number_mesh(communicator, other)) == hash;
+    return mesh::hash_mesh(other, mesh::number_mesh(other)) == hash;
   };
   std::vector<parallel::Rank> owner;
   for (mesh::PieceId id = 0; id < cut.mesh.piece_count; ++id)
     owner.push_back((5 * id + 1) % communicator.size());
-  steps.time("migration", [&] { return mesh::migrate(communicator, cut.mesh, owner), 0; });
+  steps.time("migration", [&] { return mesh::migrate(cut.mesh, owner), 0; });
   require(same(cut.mesh), "migration has changed the mesh");
-  require_all_missed(communicator, cut.mesh);
+  require_all_missed(cut.mesh);
   const mesh::DistributedMesh back =
-      steps.time("checkpoint", [&] { return through_checkpoint(communicator, cut.mesh, folder); });
+      steps.time("checkpoint", [&] { return through_checkpoint(cut.mesh, folder); });
   require(same(back), "the checkpoint has changed the mesh");
   std::int64_t bytes = 0;
   for (const mesh::Piece& piece : back.pieces) bytes += mesh::bytes_at_rest(piece);

@@ -60,8 +60,8 @@ Shape measure(const mesh::Piece& piece, const sizing::SizeField& field) {
   return shape;
 }
 
-Shape measure(const Communicator& communicator, const mesh::DistributedMesh& surface,
-              const sizing::SizeField& field) {
+Shape measure(const mesh::DistributedMesh& surface, const sizing::SizeField& field) {
+  const Communicator& communicator = surface.communicator;
   Shape all;
   for (const mesh::Piece& piece : surface.pieces) {
     const Shape one = measure(piece, field);
@@ -91,7 +91,8 @@ struct Sharp {
   std::int64_t below_20 = 0, below_10 = 0;
 };
 
-Sharp measure_sharp(const Communicator& communicator, const surface::SurfaceMesh& surface) {
+Sharp measure_sharp(const surface::SurfaceMesh& surface) {
+  const Communicator& communicator = surface.mesh.communicator;
   using Place = std::tuple<cad::FaceId, double, double, double>;
   std::set<Place> listed;
   for (const surface::ListedCorner& c : surface.report.sharp_corners) {
@@ -140,7 +141,8 @@ struct Decomposition {
   double cut_edges = 0, imbalance = 1;
 };
 
-Decomposition inspect_pieces(const Communicator& communicator, const mesh::DistributedMesh& surface) {
+Decomposition inspect_pieces(const mesh::DistributedMesh& surface) {
+  const Communicator& communicator = surface.communicator;
   struct Row {
     std::int32_t face, piece, triangles, border;
 
@@ -235,16 +237,15 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   const parallel::StageSummary& stage = stages.back();
   const double sizing = stages[1].cpu_seconds_mean * communicator.size();
-  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
-  const auto validity = mesh::check_surface_mesh(communicator, surface.mesh, numbering);
-  const std::string hash = mesh::hash_mesh(communicator, surface.mesh, numbering);
-  const Shape shape = measure(communicator, surface.mesh, surface.field);
-  const auto quality = mesh::summarise_quality(communicator, surface.mesh, numbering);
-  const Sharp apart = measure_sharp(communicator, surface);
-  const Decomposition decomposition = inspect_pieces(communicator, surface.mesh);
-  const benchmarks::SurfaceDetails details(communicator, surface.mesh);
-  if (request.write)
-    io::write_surface(communicator, surface.mesh, numbering, input.output.directory, "surface");
+  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
+  const auto validity = mesh::check_surface_mesh(surface.mesh, numbering);
+  const std::string hash = mesh::hash_mesh(surface.mesh, numbering);
+  const Shape shape = measure(surface.mesh, surface.field);
+  const auto quality = mesh::summarise_quality(surface.mesh, numbering);
+  const Sharp apart = measure_sharp(surface);
+  const Decomposition decomposition = inspect_pieces(surface.mesh);
+  const benchmarks::SurfaceDetails details(surface.mesh);
+  if (request.write) io::write_surface(surface.mesh, numbering, input.output.directory, "surface");
   if (!communicator.is_root()) return;
   if (!request.details.empty())
     details.write(request.details, surface.report.cut_angles, stage.cpu_seconds_of_ranks);

@@ -49,7 +49,8 @@ struct ShapeHistograms {
 class SurfaceDetails {
 public:
   /// Collective. One row per piece comes to all ranks.
-  SurfaceDetails(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface) {
+  SurfaceDetails(const mesh::DistributedMesh& surface) {
+    const parallel::Communicator& communicator = surface.communicator;
     ShapeHistograms mine;
     std::vector<PieceShape> shapes;
     for (const mesh::Piece& piece : surface.pieces) shapes.push_back(measure(piece, mine));

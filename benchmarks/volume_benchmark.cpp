@@ -21,19 +21,18 @@ void run(const Communicator& communicator, const cases::Case& input) {
   const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, input.volume};
   parallel::StageClock clock;
   clock.begin("decompose");
-  volume::Decomposition decomposition = volume::decompose(communicator, task);
+  volume::Decomposition decomposition = volume::decompose(task);
   clock.end();
   const volume::DecompositionReport parts = decomposition.report();
   volume::VolumeReport report;
   clock.begin("volume");
-  const mesh::DistributedMesh filled =
-      volume::fill_zones(communicator, task, std::move(decomposition), report);
+  const mesh::DistributedMesh filled = volume::fill_zones(task, std::move(decomposition), report);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
-  const mesh::Numbering numbering = mesh::number_mesh(communicator, filled);
-  const bool valid = mesh::check_volume_mesh(communicator, filled, numbering, &from.surface.mesh).valid();
-  const auto quality = mesh::summarise_quality(communicator, filled, numbering);
-  const std::string hash = mesh::hash_mesh(communicator, filled, numbering);
+  const mesh::Numbering numbering = mesh::number_mesh(filled);
+  const bool valid = mesh::check_volume_mesh(filled, numbering, &from.surface.mesh).valid();
+  const auto quality = mesh::summarise_quality(filled, numbering);
+  const std::string hash = mesh::hash_mesh(filled, numbering);
   if (!communicator.is_root()) return;
   const parallel::StageSummary &points = stages[0], &filling = stages[1];
   const double cpu = (points.cpu_seconds_mean + filling.cpu_seconds_mean) * communicator.size();

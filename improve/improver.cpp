@@ -137,8 +137,8 @@ constexpr cavities::CavityExtent last_extent{2, true};
 /// Trials, so many that they are no burden, for each of the bad ones: one takes about as long as improving
 /// ten thousand tetrahedra. None where more are left than 320 and one in 3,000. What more and fewer gave is
 /// in benchmarks/results/improvement.md.
-int affordable_trials(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                      std::int64_t bad) {
+int affordable_trials(const mesh::DistributedMesh& mesh, std::int64_t bad) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::int64_t cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) cells += piece.cell_count();
   constexpr std::int64_t of_any_mesh = 320, cells_per_trial = 3000;
@@ -147,13 +147,14 @@ int affordable_trials(const parallel::Communicator& communicator, const mesh::Di
 }
 
 /// The rounds in which borders of pieces are inside of cavities.
-void improve_across(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                    const ImproveOptions& options, const MeshSource& source, ImproveReport& total) {
+void improve_across(mesh::DistributedMesh& mesh, const ImproveOptions& options, const MeshSource& source,
+                    ImproveReport& total) {
+  const parallel::Communicator communicator = mesh.communicator;
   if (!options.enabled) return;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const mesh::TetQuality measure(options.target_angle);
-  mesh::SharedVertices shared(communicator, mesh);
-  const std::int64_t border_moves = smooth_borders(communicator, mesh, shared, measure, options.relaxation);
+  mesh::SharedVertices shared(mesh);
+  const std::int64_t border_moves = smooth_borders(mesh, shared, measure, options.relaxation);
   if (communicator.rank() == 0) total.smoothed += border_moves;
   // Where borders stayed as they were, all is known already.
   if (border_moves == 0 && communicator.sum(total.bad_after) == 0) return;
@@ -172,8 +173,8 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
                            static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
       return refilling;
     };
-    bad.update(mesh, cavities::refill_cavities(communicator, mesh, shared, {claims, extent, improve}));
-    shared = mesh::SharedVertices(communicator, mesh);
+    bad.update(mesh, cavities::refill_cavities(mesh, shared, {claims, extent, improve}));
+    shared = mesh::SharedVertices(mesh);
     shared.drop_unshared(mesh);  // cavities name more than borders
   };
   int shift = 0;
@@ -186,7 +187,7 @@ void improve_across(const parallel::Communicator& communicator, mesh::Distribute
   for (; shift < options.shifted_rounds && claim(Effort::sparing) > 0; ++shift) refill({}, 0, shift);
   for (const int end = shift + last_rounds; options.shifted_rounds > 0 && shift < end; ++shift) {
     const std::int64_t left = claim(Effort::unsparing);
-    const int trials = affordable_trials(communicator, mesh, left);
+    const int trials = affordable_trials(mesh, left);
     if (left == 0 || trials == 0) break;
     refill(last_extent, trials, shift);
   }
@@ -218,9 +219,9 @@ ImproveReport improve_or_find(mesh::Piece& piece, const ImproveOptions& options,
 }
 
 /// For one target.
-ImproveReport improve_for_target(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                                 const ImproveOptions& options, const MeshSource& source,
-                                 parallel::TaskStore* tasks) {
+ImproveReport improve_for_target(mesh::DistributedMesh& mesh, const ImproveOptions& options,
+                                 const MeshSource& source, parallel::TaskStore* tasks) {
+  const parallel::Communicator communicator = mesh.communicator;
   parallel::begin_round();
   ImproveReport total;
   total.min_angle_before = total.min_angle_after = 180;
@@ -232,8 +233,8 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (const mesh::Piece& piece : mesh.pieces) work.push_back(expected_work(piece, options));
   });
-  if (options.enabled) mesh::SharedVertices(communicator, mesh).drop_unshared(mesh);
-  if (options.enabled && communicator.size() > 1) balance_pieces(communicator, mesh, work);
+  if (options.enabled) mesh::SharedVertices(mesh).drop_unshared(mesh);
+  if (options.enabled && communicator.size() > 1) balance_pieces(mesh, work);
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     parallel::Progress progress("improve", static_cast<std::int64_t>(mesh.pieces.size()), "tetrahedra");
@@ -254,7 +255,7 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
       progress.advance(1, piece.cell_count());
     }
   });
-  improve_across(communicator, mesh, options, source, total);
+  improve_across(mesh, options, source, total);
   for (std::int64_t* count : {&total.bad_before, &total.bad_after, &total.smoothed, &total.slid,
                               &total.replaced, &total.changed_triangles}) {
     *count = communicator.sum(*count);
@@ -265,8 +266,8 @@ ImproveReport improve_for_target(const parallel::Communicator& communicator, mes
 }
 
 /// The fraction of all tetrahedra with a smaller angle. Collective.
-double fraction_below(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                      double angle) {
+double fraction_below(const mesh::DistributedMesh& mesh, double angle) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::int64_t below = 0, cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
     cells += piece.cell_count();
@@ -282,8 +283,9 @@ double fraction_below(const parallel::Communicator& communicator, const mesh::Di
 }
 
 /// Brings what a report says about the target up to date after further work. Collective.
-void examine_again(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                   const mesh::TetQuality& measure, ImproveReport& report) {
+void examine_again(const mesh::DistributedMesh& mesh, const mesh::TetQuality& measure,
+                   ImproveReport& report) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::int64_t bad = 0;
   double least = 180;
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -297,23 +299,22 @@ void examine_again(const parallel::Communicator& communicator, const mesh::Distr
 
 }  // namespace
 
-ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const ImproveOptions& options, const MeshSource& source,
-                           parallel::TaskStore* tasks) {
+ImproveReport improve_mesh(mesh::DistributedMesh& mesh, const ImproveOptions& options,
+                           const MeshSource& source, parallel::TaskStore* tasks) {
   constexpr double largest_target =
       50;  // degrees; a regular tetrahedron has 70.5, those of the lattice 60 and 90; chosen
-  ImproveReport total = improve_for_target(communicator, mesh, options, source, tasks);
+  ImproveReport total = improve_for_target(mesh, options, source, tasks);
   if (!options.enabled || options.percentiles.empty()) return total;
   std::vector<PercentileTarget> targets = options.percentiles;
   std::sort(targets.begin(), targets.end(),
             [](const PercentileTarget& a, const PercentileTarget& b) { return a.angle < b.angle; });
   for (const PercentileTarget& target : targets) {
-    if (fraction_below(communicator, mesh, target.angle) <= target.fraction) continue;
+    if (fraction_below(mesh, target.angle) <= target.fraction) continue;
     ImproveOptions more = options;
     more.target_angle = std::min(target.angle, largest_target);
-    total.add_changes(improve_for_target(communicator, mesh, more, source, tasks));
+    total.add_changes(improve_for_target(mesh, more, source, tasks));
   }
-  examine_again(communicator, mesh, mesh::TetQuality(options.target_angle), total);
+  examine_again(mesh, mesh::TetQuality(options.target_angle), total);
   return total;
 }
 

@@ -33,8 +33,7 @@ ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, c
 /// it once more for percentiles that are missed. The report counts the whole mesh, the same on every rank.
 /// Pieces found in `tasks`, whose context stands for the source and the options, are not improved again on
 /// their own; those improved are kept there. Collective. Throws CollectiveError.
-ImproveReport improve_mesh(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                           const ImproveOptions& options, const MeshSource& source = {},
-                           parallel::TaskStore* tasks = nullptr);
+ImproveReport improve_mesh(mesh::DistributedMesh& mesh, const ImproveOptions& options,
+                           const MeshSource& source = {}, parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::improve

@@ -285,10 +285,10 @@ Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, cons
   result.unnamed_faces = matched.unnamed;
   result.left_out_faces += matched.left_out;
   items.faces = std::move(matched.items);
+  matched.names.communicator = communicator;
   matched.names.piece_count = parts;
-  result.mesh =
-      file_mesh_of(communicator, mesh::build_pieces(communicator, std::move(items), {store},
-                                                    mesh::Ownership::by_number, std::move(matched.names)));
+  result.mesh = file_mesh_of(
+      mesh::build_pieces(std::move(items), {store}, mesh::Ownership::by_number, std::move(matched.names)));
   return result;
 }
 

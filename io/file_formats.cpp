@@ -48,19 +48,17 @@ std::string msh_name(const std::string& path) {
   return without(written_path(FileFormat::msh_parts, path), "_1.msh") + ".msh";
 }
 
-void write_vtu(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
-               const WriteOptions& options) {
+void write_vtu(const FileMesh& mesh, const std::string& path, const WriteOptions& options) {
   const fs::path file = without(written_path(FileFormat::vtu, path), ".pvtu");
   const std::string folder = file.parent_path().string(), name = file.filename().string();
-  write_volume(communicator, mesh, folder, name, options.compression);
+  write_volume(mesh, folder, name, options.compression);
   if (!options.surface) return;
-  write_surface(communicator, mesh, folder, name + "_surface", options.compression);
+  write_surface(mesh, folder, name + "_surface", options.compression);
   const bool has_interfaces = std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const auto& patch) {
     return patch.type == mesh::PatchType::interior;
   });
   if (has_interfaces) {
-    write_surface(communicator, mesh, folder, name + "_interfaces", options.compression,
-                  SurfaceFaces::between_regions);
+    write_surface(mesh, folder, name + "_interfaces", options.compression, SurfaceFaces::between_regions);
   }
 }
 
@@ -90,35 +88,36 @@ void warn_of_losses(const FileMesh& mesh, FileFormat format, const std::string& 
 }
 
 /// The case is the folder of the file, which viewers open and which holds nothing.
-void write_foam(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+void write_foam(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const fs::path folder = fs::path(path).parent_path();
-  write_openfoam(communicator, mesh, folder.empty() ? "." : folder.string());
+  write_openfoam(mesh, folder.empty() ? "." : folder.string());
   parallel::write_shared_file(communicator, path, [](parallel::SharedFile&) {});
 }
 
-void write_parts_as_they_are(const parallel::Communicator& communicator, const FileMesh& mesh,
-                             FileFormat format, const std::string& path, const WriteOptions& options) {
+void write_parts_as_they_are(const FileMesh& mesh, FileFormat format, const std::string& path,
+                             const WriteOptions& options) {
   switch (format) {
     case FileFormat::vtu:
-      return write_vtu(communicator, mesh, path, options);
+      return write_vtu(mesh, path, options);
     case FileFormat::vtkhdf:
-      write_vtkhdf(communicator, mesh, path);
-      return write_vtkhdf_surface(communicator, mesh, without(path, ".vtkhdf") + "_surface.vtkhdf");
+      write_vtkhdf(mesh, path);
+      return write_vtkhdf_surface(mesh, without(path, ".vtkhdf") + "_surface.vtkhdf");
     case FileFormat::cgns:
-      return write_cgns(communicator, mesh, path);
+      return write_cgns(mesh, path);
     case FileFormat::meshb:
-      return write_medit(communicator, mesh, path);
+      return write_medit(mesh, path);
     case FileFormat::ugrid:
     case FileFormat::ugrid64:
-      return write_ugrid(communicator, mesh, path);
+      return write_ugrid(mesh, path);
     case FileFormat::su2:
-      return write_su2(communicator, mesh, path);
+      return write_su2(mesh, path);
     case FileFormat::su2b:
-      return write_su2b(communicator, mesh, path);
+      return write_su2b(mesh, path);
     case FileFormat::msh:
-      return write_msh(communicator, mesh, path);
+      return write_msh(mesh, path);
     case FileFormat::msh_parts:
-      return write_msh_parts(communicator, mesh, msh_name(path));
+      return write_msh_parts(mesh, msh_name(path));
     case FileFormat::openfoam:
       break;
   }
@@ -158,24 +157,24 @@ std::string written_path(FileFormat format, const std::string& path) {
   return path;
 }
 
-void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
-                const std::string& path, const WriteOptions& options) {
+void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
+                const WriteOptions& options) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const std::int32_t parts = options.parts > 0 ? options.parts : mesh.part_count;
   const bool cut = has_parts(format) && (parts != mesh.part_count || (options.recut && parts > 1));
   if (cut) {
     WriteOptions as_they_are = options;
     as_they_are.recut = false;
-    return write_mesh(communicator, repartition(communicator, mesh, parts), format, path, as_they_are);
+    return write_mesh(repartition(mesh, parts), format, path, as_they_are);
   }
   // A case is a folder with files of its user.
-  if (format == FileFormat::openfoam) return write_foam(communicator, mesh, path);
+  if (format == FileFormat::openfoam) return write_foam(mesh, path);
   const fs::path file = written_path(format, path);
   if (communicator.is_root()) warn_of_losses(mesh, format, file.filename().string());
-  write_together(communicator, file.parent_path().string(), file.filename().string(),
-                 [&](const std::string& staging) {
-                   write_parts_as_they_are(communicator, mesh, format,
-                                           (fs::path(staging) / file.filename()).string(), options);
-                 });
+  write_together(
+      communicator, file.parent_path().string(), file.filename().string(), [&](const std::string& staging) {
+        write_parts_as_they_are(mesh, format, (fs::path(staging) / file.filename()).string(), options);
+      });
   if (format == FileFormat::msh_parts) remove_later_msh_parts(communicator, msh_name(path), mesh.part_count);
 }
 

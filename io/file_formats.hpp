@@ -74,7 +74,7 @@ struct WriteOptions {
 /// repartition() where the mesh has others. Never gathers; the files depend on the parts, not on ranks.
 /// Collective; throws CollectiveError (files) where something cannot be written, (input) where the format
 /// cannot hold the mesh.
-void write_mesh(const parallel::Communicator& communicator, const FileMesh& mesh, FileFormat format,
-                const std::string& path, const WriteOptions& options);
+void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
+                const WriteOptions& options);
 
 }  // namespace aeroloom::io

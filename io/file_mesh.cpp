@@ -90,7 +90,8 @@ void place_parts(FileMesh& mesh, std::vector<CountRow> rows) {
 }
 
 /// Counts, offsets and totals of a mesh whose parts are set. Collective.
-void finish(const parallel::Communicator& communicator, FileMesh& mesh) {
+void finish(FileMesh& mesh) {
+  const parallel::Communicator communicator = mesh.pieces->communicator;
   const std::vector<CountRow> mine = count_rows(mesh);
   const std::vector<CountRow> all = communicator.all_gather_items(std::span<const CountRow>(mine));
   parallel::agree(communicator, [&] { place_parts(mesh, all); });
@@ -108,7 +109,8 @@ struct SplitPatches {
   std::vector<std::int32_t> target;
 };
 
-SplitPatches split_patches(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh) {
+SplitPatches split_patches(const mesh::DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   const std::size_t count = mesh.patches.size();
   std::vector<std::uint8_t> used(2 * count, 0);
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -252,37 +254,35 @@ GlobalIndex FileMesh::face_count(FaceShape shape) const {
   return count;
 }
 
-FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                      const mesh::Numbering& numbering) {
+FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering) {
+  const parallel::Communicator& communicator = mesh.communicator;
   parallel::agree(communicator, [&] { require_fitting(mesh, numbering); });
   FileMesh result;
   result.pieces = &mesh;
   result.numbering = &numbering;
   result.part_count = mesh.piece_count;
   result.regions = mesh.regions.empty() ? std::vector<std::string>{"fluid"} : mesh.regions;
-  SplitPatches split = split_patches(communicator, mesh);
+  SplitPatches split = split_patches(mesh);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
     result.parts.push_back(part_of(mesh, numbering, i, split));
   result.patches = std::move(split.patches);
   const bool layers_here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
                                        [](const mesh::Piece& piece) { return !piece.layers.empty(); });
   result.has_layers = communicator.maximum(std::int64_t{layers_here}) > 0;
-  finish(communicator, result);
+  finish(result);
   parallel::agree(communicator, [&] { require_numbers(result); });
   return result;
 }
 
-FileMesh file_mesh_of(const parallel::Communicator& communicator, mesh::NumberedMesh mesh) {
+FileMesh file_mesh_of(mesh::NumberedMesh mesh) {
   const auto held = std::make_shared<const mesh::NumberedMesh>(std::move(mesh));
-  FileMesh result = file_mesh_of(communicator, held->mesh, held->numbering);
+  FileMesh result = file_mesh_of(held->mesh, held->numbering);
   result.held = held;
   return result;
 }
 
-FileMesh repartition(const parallel::Communicator& communicator, const FileMesh& mesh, std::int32_t parts,
-                     mesh::PieceRegions regions) {
-  return file_mesh_of(communicator,
-                      mesh::repartition(communicator, *mesh.pieces, *mesh.numbering, parts, regions));
+FileMesh repartition(const FileMesh& mesh, std::int32_t parts, mesh::PieceRegions regions) {
+  return file_mesh_of(mesh::repartition(*mesh.pieces, *mesh.numbering, parts, regions));
 }
 
 }  // namespace aeroloom::io

@@ -113,12 +113,11 @@ struct FileMesh {
 /// former called NAME_interior. `mesh` and `numbering` must outlive the result, which holds them itself where
 /// it gets both. Throws CollectiveError (bug) where the arrays of a piece do not fit together, or owned
 /// vertices are not numbered one after another. Collective.
-FileMesh file_mesh_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                      const mesh::Numbering& numbering);
-FileMesh file_mesh_of(const parallel::Communicator& communicator, mesh::NumberedMesh mesh);
+FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering);
+FileMesh file_mesh_of(mesh::NumberedMesh mesh);
 
 /// A mesh of a file in `parts` parts (mesh/transfer/repartition.hpp). Collective.
-FileMesh repartition(const parallel::Communicator& communicator, const FileMesh& mesh, std::int32_t parts,
+FileMesh repartition(const FileMesh& mesh, std::int32_t parts,
                      mesh::PieceRegions regions = mesh::PieceRegions::several);
 
 }  // namespace aeroloom::io

@@ -30,9 +30,8 @@ std::vector<TouchingBall> balls_on(const WallShare& wall, const Directions& dire
 }
 
 /// No column takes more than its room in the gap.
-void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& wall,
-                   const Directions& directions, ColumnLimits& limits) {
-  std::vector<double> gaps = find_gaps(communicator, wall, balls_on(wall, directions, limits));
+void limit_by_gaps(const WallShare& wall, const Directions& directions, ColumnLimits& limits) {
+  std::vector<double> gaps = find_gaps(wall, balls_on(wall, directions, limits));
   wall.spread(gaps);
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
@@ -44,22 +43,23 @@ void limit_by_gaps(const parallel::Communicator& communicator, const WallShare& 
 
 }  // namespace
 
-Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, const PlaneRemesher& remesh_planes) {
+Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
+                    const PlaneRemesher& remesh_planes) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
   parallel::add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
-  const WallShare walls(communicator, wall.mesh, options);
-  const Fans fans = gather_fans(communicator, walls);
+  const WallShare walls(wall.mesh, options);
+  const Fans fans = gather_fans(walls);
   const Directions directions = find_directions(walls, fans);
   ColumnLimits limits(walls, options, fans, directions);
   limits.converge(communicator);
-  limit_by_gaps(communicator, walls, directions, limits);
+  limit_by_gaps(walls, directions, limits);
   limits.converge(communicator);
   Layers layers;
-  layers.report.validity_rounds = shrink_to_good(communicator, walls, directions, limits);
-  layers.front = FrontClearing(communicator, walls, directions, remesh_planes).run(limits, layers.report);
+  layers.report.validity_rounds = shrink_to_good(walls, directions, limits);
+  layers.front = FrontClearing(walls, directions, remesh_planes).run(limits, layers.report);
   layers.columns = make_columns(walls, directions, limits);
-  layers.report.patches = report_patches(communicator, walls, limits, options.elements);
+  layers.report.patches = report_patches(walls, limits, options.elements);
   return layers;
 }
 

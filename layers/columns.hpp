@@ -137,7 +137,7 @@ constexpr mesh::LocalIndex wall_piece_triangles = 1'000;
 /// Heights only ever shrink on the way, and at zero the front is the wall: so there is a result for every
 /// mesh. `remesh_planes` is called, maybe several times, where layers end on planes; their pieces have no
 /// triangles of other faces then. Collective. Throws CollectiveError where options do not fit the mesh.
-Layers build_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                    const LayerOptions& options, const PlaneRemesher& remesh_planes = {});
+Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
+                    const PlaneRemesher& remesh_planes = {});
 
 }  // namespace aeroloom::layers

@@ -57,8 +57,8 @@ struct LargestTriangle {
 };
 
 /// The normal of the largest triangle that the lowest piece of each face has of it.
-std::vector<Vec3> reference_normals(const parallel::Communicator& communicator,
-                                    const mesh::DistributedMesh& mesh, const LayerOptions& options) {
+std::vector<Vec3> reference_normals(const mesh::DistributedMesh& mesh, const LayerOptions& options) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<LargestTriangle> mine;
   for_each_candidate(mesh, options, [&](const mesh::Piece& piece, mesh::LocalIndex t, std::size_t face) {
     const Vec3 area = area_vector(piece, t);
@@ -81,10 +81,10 @@ std::vector<Vec3> reference_normals(const parallel::Communicator& communicator,
 
 }  // namespace
 
-std::vector<Vec3> find_end_planes(const parallel::Communicator& communicator,
-                                  const mesh::DistributedMesh& mesh, const LayerOptions& options) {
+std::vector<Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const LayerOptions& options) {
+  const parallel::Communicator& communicator = mesh.communicator;
   if (!options.ends_on_planes) return std::vector<Vec3>(mesh.faces.size());
-  std::vector<Vec3> normals = reference_normals(communicator, mesh, options);
+  std::vector<Vec3> normals = reference_normals(mesh, options);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::vector<double> ends(6 * normals.size(), infinity), agreement(normals.size(), 1);
   for_each_candidate(mesh, options, [&](const mesh::Piece& piece, mesh::LocalIndex t, std::size_t face) {

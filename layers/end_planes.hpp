@@ -12,8 +12,7 @@ namespace aeroloom::layers {
 /// These are the planar faces of patches of symmetry, slip, inlet or outlet without layers, if options say
 /// so. Faces whose vertices agree in all bits of a coordinate have exact normals. Collective, the same on
 /// every rank.
-std::vector<geometry::Vec3> find_end_planes(const parallel::Communicator& communicator,
-                                            const mesh::DistributedMesh& mesh, const LayerOptions& options);
+std::vector<geometry::Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const LayerOptions& options);
 
 /// The part of a direction along planes with these normals, one or two: of two, along their line. Where a
 /// normal points along an axis, that component is -0: adding any multiple of it leaves all bits of a

@@ -130,8 +130,8 @@ void append_normals(std::span<const FanTriangle> fan, std::span<const Vec3> plan
 }
 
 /// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
-std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& communicator,
-                                               const WallShare& wall) {
+std::vector<FanAnswer> meet_at_shared_vertices(const WallShare& wall) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<FanGuest> guests;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const PieceFans of_piece(wall, p);
@@ -159,8 +159,8 @@ std::vector<FanAnswer> meet_at_shared_vertices(const parallel::Communicator& com
 
 }  // namespace
 
-Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wall) {
-  const std::vector<FanAnswer> met = meet_at_shared_vertices(communicator, wall);
+Fans gather_fans(const WallShare& wall) {
+  const std::vector<FanAnswer> met = meet_at_shared_vertices(wall);
   Fans fans;
   fans.first.reserve(wall.points.size() + 1);
   fans.first.push_back(0);

@@ -38,6 +38,6 @@ struct Fans {
 };
 
 /// What pieces know of a shared vertex is brought together once. Collective.
-Fans gather_fans(const parallel::Communicator& communicator, const WallShare& wall);
+Fans gather_fans(const WallShare& wall);
 
 }  // namespace aeroloom::layers

@@ -86,9 +86,12 @@ private:
   std::int64_t _lowered = 0;
 };
 
-FrontClearing::FrontClearing(const parallel::Communicator& communicator, const WallShare& wall,
-                             const Directions& directions, const PlaneRemesher& remesh_planes)
-    : _communicator(communicator), _wall(wall), _directions(directions), _remesh_planes(remesh_planes) {
+FrontClearing::FrontClearing(const WallShare& wall, const Directions& directions,
+                             const PlaneRemesher& remesh_planes)
+    : _communicator(wall.mesh.communicator),
+      _wall(wall),
+      _directions(directions),
+      _remesh_planes(remesh_planes) {
   std::vector<std::int32_t> on_plane;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const auto roles =
@@ -96,7 +99,7 @@ FrontClearing::FrontClearing(const parallel::Communicator& communicator, const W
             .subspan(wall.first_triangle[p], wall.first_triangle[p + 1] - wall.first_triangle[p]);
     on_plane.push_back(std::count(roles.begin(), roles.end(), WallRole::plane) > 0);
   }
-  on_plane = mesh::gather_by_piece(communicator, wall.mesh, on_plane);
+  on_plane = mesh::gather_by_piece(wall.mesh, on_plane);
   for (mesh::PieceId piece = 0; piece < wall.mesh.piece_count; ++piece) {
     if (on_plane[piece] == 0) _kept.push_back(piece);
   }
@@ -132,7 +135,7 @@ void FrontClearing::lower_around_parts(const mesh::DistributedMesh& front, Lower
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
       ends[_wall.first_vertex[p] + v] = piece.point(v);
   }
-  const std::vector<std::int32_t> swallowing = find_swallowing_triangles(_communicator, _wall, ends);
+  const std::vector<std::int32_t> swallowing = find_swallowing_triangles(_wall, ends);
   for (const std::int32_t t : swallowing) lower.add_triangle(t);
   report.swallowing += _communicator.sum(static_cast<std::int64_t>(swallowing.size()));
 }
@@ -146,7 +149,7 @@ bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower,
     lower_on_planes(at_fault, lower);
     return false;
   }
-  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(_communicator, front);
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(front);
   const auto add = [&](mesh::PieceId piece, mesh::LocalIndex cell) {
     if (static_cast<std::size_t>(piece) < _kept.size()) lower.add(_kept[piece], cell);
   };
@@ -169,7 +172,7 @@ mesh::DistributedMesh FrontClearing::run(ColumnLimits& limits, LayerReport& repo
     if (round > rounds_of_thirds) report.zeroed_by_force += _communicator.sum(lower.lowered_here());
     limits.limit_counts(lower.take(), LayerLimit::crossing);
     limits.converge(_communicator);
-    report.validity_rounds += shrink_to_good(_communicator, _wall, _directions, limits);
+    report.validity_rounds += shrink_to_good(_wall, _directions, limits);
   }
 }
 

@@ -17,8 +17,7 @@ mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Column
 class FrontClearing {
 public:
   /// Refers to all of them. Where layers end on planes `remesh_planes` is not empty. Collective.
-  FrontClearing(const parallel::Communicator& communicator, const WallShare& wall,
-                const Directions& directions, const PlaneRemesher& remesh_planes);
+  FrontClearing(const WallShare& wall, const Directions& directions, const PlaneRemesher& remesh_planes);
 
   /// Where triangles of the front meet or close around a part, or planes cannot be meshed again, counts of
   /// their columns fall by a third, neighbours follow, cells are made good again, until no triangles meet.

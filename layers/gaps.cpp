@@ -95,8 +95,8 @@ std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator
 }
 
 /// The triangles of this rank, and those of others that its balls may meet.
-std::vector<NearTriangle> fetch_triangles(const parallel::Communicator& communicator, const WallShare& wall,
-                                          const std::vector<BallBatch>& batches) {
+std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vector<BallBatch>& batches) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<Box> boxes;
   boxes.reserve(batches.size());
   for (const BallBatch& batch : batches) boxes.push_back(batch.box);
@@ -150,10 +150,9 @@ double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
   return diameter;
 }
 
-std::vector<double> find_gaps(const parallel::Communicator& communicator, const WallShare& wall,
-                              const std::vector<TouchingBall>& balls) {
-  const std::vector<NearTriangle> triangles =
-      fetch_triangles(communicator, wall, gather_batches(communicator, balls));
+std::vector<double> find_gaps(const WallShare& wall, const std::vector<TouchingBall>& balls) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
+  const std::vector<NearTriangle> triangles = fetch_triangles(wall, gather_batches(communicator, balls));
   std::vector<Box> boxes(triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     for (const Vec3 corner : triangles[t].corners) boxes[t].add(corner);

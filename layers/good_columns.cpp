@@ -34,8 +34,8 @@ TriangleColumns columns_over(const WallShare& wall, const Directions& directions
   return columns;
 }
 
-int shrink_to_good(const parallel::Communicator& communicator, const WallShare& wall,
-                   const Directions& directions, ColumnLimits& limits) {
+int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLimits& limits) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<std::uint8_t> seen(wall.triangles.size(), 0);
   for (int rounds = 0;; ++rounds) {
     std::vector<double> totals(wall.points.size(), std::numeric_limits<double>::infinity());

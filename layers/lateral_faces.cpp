@@ -50,8 +50,8 @@ std::vector<WallEdge> edges_of_faces(const mesh::NumberedMesh& wall, const Colum
 
 }  // namespace
 
-std::vector<LateralEdge> find_lateral_edges(const parallel::Communicator& communicator,
-                                            const mesh::NumberedMesh& wall, const Columns& columns) {
+std::vector<LateralEdge> find_lateral_edges(const mesh::NumberedMesh& wall, const Columns& columns) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   const mesh::Rendezvous meeting(communicator, edges_of_faces(wall, columns), &WallEdge::ends,
                                  &WallEdge::place);
   std::vector<LateralEdge> found =

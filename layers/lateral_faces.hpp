@@ -24,7 +24,6 @@ struct LateralEdge {
 
 /// The edges between a triangle that bears layers and one of a patch that bears none, with a column at an
 /// end. Those of the pieces on this rank, by piece and half-edge. Collective.
-std::vector<LateralEdge> find_lateral_edges(const parallel::Communicator& communicator,
-                                            const mesh::NumberedMesh& wall, const Columns& columns);
+std::vector<LateralEdge> find_lateral_edges(const mesh::NumberedMesh& wall, const Columns& columns);
 
 }  // namespace aeroloom::layers

@@ -52,8 +52,9 @@ struct FrontVertex {
 };
 using FrontTable = mesh::DistributedTable<FrontVertex>;
 
-FrontTable make_table(const Communicator& communicator, const Columns& columns, const NamedFront& front,
+FrontTable make_table(const Columns& columns, const NamedFront& front,
                       const std::vector<std::optional<std::size_t>>& places) {
+  const Communicator& communicator = front.mesh.communicator;
   std::vector<const PieceColumns*> columns_of(front.mesh.pieces.size(), nullptr);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
@@ -223,9 +224,10 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 
 }  // namespace
 
-NamedFront name_front(const Communicator& communicator, mesh::DistributedMesh front) {
+NamedFront name_front(mesh::DistributedMesh front) {
+  const Communicator communicator = front.communicator;
   NamedFront named{{std::move(front), {}}, {}};
-  named.numbering = mesh::number_mesh(communicator, named.mesh);
+  named.numbering = mesh::number_mesh(named.mesh);
   parallel::agree(communicator, [&] {
     if (named.numbering.vertex_count > std::numeric_limits<std::int32_t>::max())
       throw std::runtime_error("layers: the surface has more vertices than 2^31");
@@ -239,17 +241,18 @@ NamedFront name_front(const Communicator& communicator, mesh::DistributedMesh fr
   return named;
 }
 
-void append_layers(const Communicator& communicator, const mesh::NumberedMesh& wall, const Columns& columns,
-                   const NamedFront& front, const LayerCellOptions& options, mesh::DistributedMesh& volume) {
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& front,
+                   const LayerCellOptions& options, mesh::DistributedMesh& volume) {
+  const Communicator& communicator = wall.mesh.communicator;
   const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
-  BehindFront(wall.mesh, make_table(communicator, columns, front, places), volume).join(volume);
-  const std::vector<LateralEdge> laterals = find_lateral_edges(communicator, wall, columns);
+  BehindFront(wall.mesh, make_table(columns, front, places), volume).join(volume);
+  const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
   parallel::agree(communicator, [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
-  const std::vector<GlobalIndex> first = mesh::first_by_piece(communicator, wall.mesh, counts);
+  const std::vector<GlobalIndex> first = mesh::first_by_piece(wall.mesh, counts);
   for (std::size_t p = 0; p < made.size(); ++p) {
     auto id = static_cast<PieceId>(volume.piece_count + first[p]);
     for (Piece& piece : made[p]) {
@@ -258,7 +261,7 @@ void append_layers(const Communicator& communicator, const mesh::NumberedMesh& w
     }
   }
   volume.piece_count += static_cast<PieceId>(first.back());
-  mesh::SharedVertices shared(communicator, volume);
+  mesh::SharedVertices shared(volume);
   shared.drop_unshared(volume);
   if (communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0) classify_on_planes(shared, volume);
 }

@@ -17,7 +17,7 @@ struct NamedFront : mesh::NumberedMesh {
 };
 
 /// Throws CollectiveError where the front has more vertices than entities can be counted by. Collective.
-NamedFront name_front(const parallel::Communicator& communicator, mesh::DistributedMesh front);
+NamedFront name_front(mesh::DistributedMesh front);
 
 struct LayerCellOptions {
   std::int64_t most_cells_per_piece = 0;  ///< where a triangle does not have more itself
@@ -44,9 +44,8 @@ struct LayerCellOptions {
 /// other patches stay, and what layers end on there (a plane of symmetry) gets quadrilaterals and triangles
 /// of its CAD face and patch. Vertices get their classification back; those off the wall lie in their region,
 /// or on the plane that layers end on. Collective.
-void append_layers(const parallel::Communicator& communicator, const mesh::NumberedMesh& wall,
-                   const Columns& columns, const NamedFront& front, const LayerCellOptions& options,
-                   mesh::DistributedMesh& volume);
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& front,
+                   const LayerCellOptions& options, mesh::DistributedMesh& volume);
 
 /// Whether triangles of the patch get cells: those of walls.
 inline bool bears_layers(const mesh::DistributedMesh& wall, std::int32_t patch) {

@@ -67,8 +67,9 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 
 }  // namespace
 
-std::vector<PatchLayers> report_patches(const parallel::Communicator& communicator, const WallShare& wall,
-                                        const ColumnLimits& limits, LayerElements elements) {
+std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimits& limits,
+                                        LayerElements elements) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<PieceRow> rows;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     std::vector<PatchLayers> patches(wall.mesh.patches.size());

@@ -42,7 +42,8 @@ void keep_first_of_each_face(std::vector<FacePoint>& points) {
 }
 
 /// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.
-std::vector<FacePoint> points_of_faces(const parallel::Communicator& communicator, const WallShare& wall) {
+std::vector<FacePoint> points_of_faces(const WallShare& wall) {
+  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<FacePoint> points;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
@@ -86,9 +87,8 @@ bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) 
 
 }  // namespace
 
-std::vector<std::int32_t> find_swallowing_triangles(const parallel::Communicator& communicator,
-                                                    const WallShare& wall, const std::vector<Vec3>& ends) {
-  const std::vector<FacePoint> points = points_of_faces(communicator, wall);
+std::vector<std::int32_t> find_swallowing_triangles(const WallShare& wall, const std::vector<Vec3>& ends) {
+  const std::vector<FacePoint> points = points_of_faces(wall);
   std::vector<Box> boxes;
   boxes.reserve(points.size());
   for (const FacePoint& each : points) boxes.push_back({each.point, each.point});

@@ -12,8 +12,7 @@ namespace aeroloom::layers {
 /// nothing can have a whole part behind it: then every face of that part is there, so one point of each face
 /// tells. Where a front meets a part, this says nothing. `ends`: of the columns, by vertex of the wall.
 /// Collective.
-std::vector<std::int32_t> find_swallowing_triangles(const parallel::Communicator& communicator,
-                                                    const WallShare& wall,
+std::vector<std::int32_t> find_swallowing_triangles(const WallShare& wall,
                                                     const std::vector<geometry::Vec3>& ends);
 
 }  // namespace aeroloom::layers

@@ -42,11 +42,10 @@ std::vector<WallRole> roles_of_patches(const mesh::DistributedMesh& mesh, const 
 
 }  // namespace
 
-WallShare::WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                     const LayerOptions& options)
+WallShare::WallShare(const mesh::DistributedMesh& surface, const LayerOptions& options)
     : mesh((require_fitting(surface, options), surface)),
-      end_planes(find_end_planes(communicator, surface, options)),
-      shared(communicator, surface) {
+      end_planes(find_end_planes(surface, options)),
+      shared(surface) {
   const std::vector<WallRole> of_patches = roles_of_patches(mesh, options);
   for (const mesh::Piece& piece : mesh.pieces) {
     const std::int32_t base = vertex_count();

@@ -26,8 +26,7 @@ struct WallShare {
   using Corners = std::array<std::int32_t, 3>;
 
   /// Refers to the mesh. Throws CollectiveError where options do not fit it. Collective.
-  WallShare(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-            const LayerOptions& options);
+  WallShare(const mesh::DistributedMesh& mesh, const LayerOptions& options);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(points.size()); }
   std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }

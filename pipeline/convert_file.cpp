@@ -39,7 +39,7 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
   io::WriteOptions options = conversion.options;
   options.recut = true;
   options.surface = true;
-  io::write_mesh(communicator, mesh, *format, conversion.to, options);
+  io::write_mesh(mesh, *format, conversion.to, options);
   if (communicator.is_root()) {
     parallel::log_info(fmt::format("wrote '{}' ({}) in {:.2f} s", io::written_path(*format, conversion.to),
                                    io::name_of(*format), parallel::wall_seconds() - read));

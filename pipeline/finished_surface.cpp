@@ -15,8 +15,8 @@ using parallel::Communicator;
 namespace {
 
 /// Areas and counts by face; sums run in the order of the pieces, whatever rank they live on.
-std::vector<report::FaceRow> table_of_faces(const Communicator& communicator, const cad::Model& model,
-                                            const mesh::DistributedMesh& surface) {
+std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh::DistributedMesh& surface) {
+  const Communicator& communicator = surface.communicator;
   struct PieceRow {
     mesh::PieceId piece;
     cad::FaceId face;
@@ -74,12 +74,12 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 }  // namespace
 
-void inspect_surface(const Communicator& communicator, const cad::Model& model, const std::string& what,
-                     const mesh::NumberedMesh& surface, report::RunRecord& record) {
+void inspect_surface(const cad::Model& model, const std::string& what, const mesh::NumberedMesh& surface,
+                     report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  require_valid(what, mesh::check_surface_mesh(communicator, surface.mesh, surface.numbering));
-  record.surface_quality = mesh::summarise_quality(communicator, surface.mesh, surface.numbering);
-  record.face_table = table_of_faces(communicator, model, surface.mesh);
+  require_valid(what, mesh::check_surface_mesh(surface.mesh, surface.numbering));
+  record.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
+  record.face_table = table_of_faces(model, surface.mesh);
   // A patch whose faces were all closed is gone from the model, and those after it have other numbers.
   record.patch_types.clear();
   for (const std::string& patch : model.patches())
@@ -87,12 +87,11 @@ void inspect_surface(const Communicator& communicator, const cad::Model& model, 
   record.patches = table_of_patches(model, record.face_table, record.patch_types);
 }
 
-void adopt_boundary(const Communicator& communicator, const cad::Model& model,
-                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record) {
-  surface.mesh = mesh::boundary_mesh(communicator, volume, numbering);
-  surface.numbering = mesh::number_mesh(communicator, surface.mesh);
-  inspect_surface(communicator, model, "the improved surface mesh", surface, record);
+void adopt_boundary(const cad::Model& model, const mesh::DistributedMesh& volume,
+                    const mesh::Numbering& numbering, FinishedSurface& surface, report::RunRecord& record) {
+  surface.mesh = mesh::boundary_mesh(volume, numbering);
+  surface.numbering = mesh::number_mesh(surface.mesh);
+  inspect_surface(model, "the improved surface mesh", surface, record);
 }
 
 }  // namespace aeroloom::pipeline

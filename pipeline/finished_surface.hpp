@@ -18,12 +18,11 @@ struct FinishedSurface : mesh::NumberedMesh {
 
 /// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
 /// require_valid().
-void inspect_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                     const std::string& what, const mesh::NumberedMesh& surface, report::RunRecord& record);
+void inspect_surface(const cad::Model& model, const std::string& what, const mesh::NumberedMesh& surface,
+                     report::RunRecord& record);
 
 /// The surface follows a volume whose boundary was improved. Collective.
-void adopt_boundary(const parallel::Communicator& communicator, const cad::Model& model,
-                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record);
+void adopt_boundary(const cad::Model& model, const mesh::DistributedMesh& volume,
+                    const mesh::Numbering& numbering, FinishedSurface& surface, report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

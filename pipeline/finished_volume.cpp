@@ -21,9 +21,9 @@ using parallel::Communicator;
 namespace {
 
 /// Tetrahedra by region, with the volumes that the check has found.
-std::vector<report::RegionRow> table_of_regions(const Communicator& communicator,
-                                                const mesh::DistributedMesh& volume,
+std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& volume,
                                                 const std::vector<double>& volumes) {
+  const Communicator& communicator = volume.communicator;
   std::vector<report::RegionRow> regions;
   for (std::size_t r = 0; r < volume.regions.size(); ++r) {
     std::int64_t count = 0;
@@ -36,19 +36,17 @@ std::vector<report::RegionRow> table_of_regions(const Communicator& communicator
 }
 
 /// Tells the elements that the CAD forces from those that improvement could not mend.
-void list_pinned(const Communicator& communicator, const cases::Case& input,
-                 const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                 const mesh::CellsOutside& suspects, report::RunRecord& record) {
-  record.pinned = attribution::find_pinned(communicator, volume, numbering, input.improve.target_angle,
-                                           suspects, input.improve.boundary_may_change);
+void list_pinned(const cases::Case& input, const mesh::DistributedMesh& volume,
+                 const mesh::Numbering& numbering, const mesh::CellsOutside& suspects,
+                 report::RunRecord& record) {
+  record.pinned = attribution::find_pinned(volume, numbering, input.improve.target_angle, suspects,
+                                           input.improve.boundary_may_change);
   log_pinned(record);
 }
 
 /// Measures that compare neighbours and edges. Collective.
-mesh::MixedQuality measure_cells(const Communicator& communicator, const mesh::DistributedMesh& volume,
-                                 const mesh::Numbering& numbering) {
-  return mesh::measure_quality(communicator, volume, numbering,
-                               mesh::link_faces(communicator, volume, numbering));
+mesh::MixedQuality measure_cells(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering) {
+  return mesh::measure_quality(volume, numbering, mesh::link_faces(volume, numbering));
 }
 
 }  // namespace
@@ -60,35 +58,34 @@ void require_valid(const std::string& what, const mesh::ValidityReport& report) 
   throw std::runtime_error(text);
 }
 
-void improve_volume(const Communicator& communicator, const cases::Case& input,
-                    const improve::MeshSource& source, mesh::DistributedMesh& volume,
-                    report::RunRecord& record, parallel::TaskStore* tasks) {
+void improve_volume(const cases::Case& input, const improve::MeshSource& source,
+                    mesh::DistributedMesh& volume, report::RunRecord& record, parallel::TaskStore* tasks) {
   if (!input.improve.enabled) return;
   improve::ImproveOptions options = input.improve;
   options.percentiles = cases::percentile_targets(input.gate);
-  record.improve = improve::improve_mesh(communicator, volume, options, source, tasks);
+  record.improve = improve::improve_mesh(volume, options, source, tasks);
   log_improve(record);
 }
 
-void inspect_volume(const Communicator& communicator, const cases::Case& input,
-                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    const mesh::DistributedMesh* surface, report::RunRecord& record) {
+void inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
+                    const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
+                    report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  const mesh::ValidityReport validity = mesh::check_volume_mesh(communicator, volume, numbering, surface);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, numbering, surface);
   require_valid("the volume mesh", validity);
   record.mesh_volume = validity.volume;
-  record.counts = mesh::count_mesh(communicator, volume, numbering);
-  record.regions_filled = table_of_regions(communicator, volume, validity.region_volumes);
+  record.counts = mesh::count_mesh(volume, numbering);
+  record.regions_filled = table_of_regions(volume, validity.region_volumes);
   mesh::CellsOutside suspects;
   if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
-  record.quality = mesh::summarise_quality(communicator, volume, numbering, &suspects);
-  if (input.gate.asks_for_cells()) record.cells = measure_cells(communicator, volume, numbering);
-  if (input.improve.enabled) list_pinned(communicator, input, volume, numbering, suspects, record);
-  record.hash = mesh::hash_mesh(communicator, volume, numbering);
+  record.quality = mesh::summarise_quality(volume, numbering, &suspects);
+  if (input.gate.asks_for_cells()) record.cells = measure_cells(volume, numbering);
+  if (input.improve.enabled) list_pinned(input, volume, numbering, suspects, record);
+  record.hash = mesh::hash_mesh(volume, numbering);
 }
 
-std::vector<report::PatchRow> table_of_patches(const Communicator& communicator,
-                                               const mesh::DistributedMesh& volume) {
+std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume) {
+  const Communicator& communicator = volume.communicator;
   struct PatchArea {
     mesh::PieceId piece;
     std::int32_t patch;

@@ -16,23 +16,22 @@ namespace aeroloom::pipeline {
 void require_valid(const std::string& what, const mesh::ValidityReport& report);
 
 /// Improves the mesh as the case asks for; `tasks` as in improve::improve_mesh. Collective.
-void improve_volume(const parallel::Communicator& communicator, const cases::Case& input,
-                    const improve::MeshSource& source, mesh::DistributedMesh& volume,
-                    report::RunRecord& record, parallel::TaskStore* tasks = nullptr);
+void improve_volume(const cases::Case& input, const improve::MeshSource& source,
+                    mesh::DistributedMesh& volume, report::RunRecord& record,
+                    parallel::TaskStore* tasks = nullptr);
 
 /// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
 /// on record; `surface` may be null. Collective. Throws as require_valid().
-void inspect_volume(const parallel::Communicator& communicator, const cases::Case& input,
-                    const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    const mesh::DistributedMesh* surface, report::RunRecord& record);
+void inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
+                    const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
+                    report::RunRecord& record);
 
 /// Adds the volumes of the regions of the model, for comparison.
 void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);
 
 /// Triangles and areas of the patches of a mesh from a file; there is no CAD to compare them with.
 /// Collective.
-std::vector<report::PatchRow> table_of_patches(const parallel::Communicator& communicator,
-                                               const mesh::DistributedMesh& volume);
+std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume);
 
 /// The warning about a region that misses the volume of the CAD's by more than the gate allows, but is
 /// so few of the smallest elements wide that these explain it. Empty where there is none.

@@ -16,7 +16,8 @@ namespace aeroloom::pipeline {
 namespace {
 
 /// Tetrahedra of boundary layers are flat on purpose: improvement takes them for bad ones. Collective.
-void warn_of_layers(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume) {
+void warn_of_layers(const mesh::DistributedMesh& volume) {
+  const parallel::Communicator& communicator = volume.communicator;
   constexpr double flat_deg = 1, share_of_layers = 0.1;  // chosen, not measured
   std::int64_t flat = 0, all = 0;
   for (const mesh::Piece& piece : volume.pieces) {
@@ -47,22 +48,21 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
     return imported::import_mesh(communicator, file, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
-  warn_of_layers(communicator, volume);
-  run_stage(record, "improve", report::ExitCode::volume,
-            [&] { improve_volume(communicator, fixed, {}, volume, record); });
+  warn_of_layers(volume);
+  run_stage(record, "improve", report::ExitCode::volume, [&] { improve_volume(fixed, {}, volume, record); });
   const mesh::Numbering numbering = run_stage(record, "inspect", report::ExitCode::volume, [&] {
-    mesh::Numbering finished = mesh::number_mesh(communicator, volume);
-    inspect_volume(communicator, fixed, volume, finished, nullptr, record);
-    record.patches = table_of_patches(communicator, volume);
+    mesh::Numbering finished = mesh::number_mesh(volume);
+    inspect_volume(fixed, volume, finished, nullptr, record);
+    record.patches = table_of_patches(volume);
     return finished;
   });
   run_stage(record, "output", report::ExitCode::files, [&] {
     if (!wants_vtk(input.output) && !input.output.pictures)
-      return write_outputs(communicator, volume, numbering, nullptr, input.output);
-    const mesh::DistributedMesh surface = mesh::boundary_mesh(communicator, volume, numbering);
-    const mesh::Numbering surface_numbers = mesh::number_mesh(communicator, surface);
+      return write_outputs(volume, numbering, nullptr, input.output);
+    const mesh::DistributedMesh surface = mesh::boundary_mesh(volume, numbering);
+    const mesh::Numbering surface_numbers = mesh::number_mesh(surface);
     const SurfaceView view{surface, surface_numbers};
-    write_outputs(communicator, volume, numbering, &view, input.output);
+    write_outputs(volume, numbering, &view, input.output);
     if (!input.output.pictures) return;
     record.pictures = report::pictures_or_warning(communicator, &volume,
                                                   {surface, surface_numbers, volume.patch_types, ""});

@@ -59,7 +59,8 @@ int parts_named_in(const std::string& file) {
   return parts;
 }
 
-geometry::Box bounds_of(const Communicator& communicator, const io::FileMesh& mesh) {
+geometry::Box bounds_of(const io::FileMesh& mesh) {
+  const Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
   for (const io::FilePart& part : mesh.parts) {
     for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
@@ -90,7 +91,7 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
 
 void show_mesh(const Communicator& communicator, const InfoRequest& request) {
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
-  MeshFileFacts facts{format_in_words(request.file), 0, bounds_of(communicator, file.mesh)};
+  MeshFileFacts facts{format_in_words(request.file), 0, bounds_of(file.mesh)};
   if (communicator.is_root()) facts.parts = parts_named_in(request.file);
   parallel::agree(communicator,
                   [&] { show(communicator, request, info_json(file, facts), info_text(file, facts)); });

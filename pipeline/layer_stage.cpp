@@ -75,11 +75,10 @@ std::vector<sizing::SizeSource> sizes_of_front(const mesh::DistributedMesh& wall
 }
 
 /// Ascending.
-std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communicator,
-                                         const mesh::DistributedMesh& wall,
+std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
                                          const layers::LayerOptions& options) {
   std::vector<cad::FaceId> faces;
-  const std::vector<Vec3> normals = layers::find_end_planes(communicator, wall, options);
+  const std::vector<Vec3> normals = layers::find_end_planes(wall, options);
   for (std::size_t face = 0; face < normals.size(); ++face) {
     if (!(normals[face] == Vec3{})) faces.push_back(static_cast<cad::FaceId>(face));
   }
@@ -88,35 +87,34 @@ std::vector<cad::FaceId> faces_of_planes(const parallel::Communicator& communica
 
 }  // namespace
 
-LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
-                            const cad::Model& model, FinishedSurface& surface, report::RunRecord& record) {
+LayeredSurface build_layers(const cases::Case& input, const cad::Model& model, FinishedSurface& surface,
+                            report::RunRecord& record) {
+  const parallel::Communicator communicator = surface.mesh.communicator;
   surface.mesh.patch_types = record.patch_types;
   const layers::LayerOptions options =
       cases::layer_options(input.layers, input.sizing, surface.mesh.patches, record.patch_types);
-  const surface::PlanesToRemesh planes{faces_of_planes(communicator, surface.mesh, options), input.surface};
+  const surface::PlanesToRemesh planes{faces_of_planes(surface.mesh, options), input.surface};
   static_cast<mesh::NumberedMesh&>(surface) =
-      mesh::split_pieces(communicator, surface.mesh, layers::wall_piece_triangles, planes.faces);
+      mesh::split_pieces(surface.mesh, layers::wall_piece_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
-    surface::PlaneConflicts conflicts =
-        surface::remesh_planes(communicator, model, surface.field, planes, front);
+    surface::PlaneConflicts conflicts = surface::remesh_planes(model, surface.field, planes, front);
     return std::move(conflicts.vertices);
   };
-  layers::Layers made = layers::build_layers(communicator, surface, options, remesh);
+  layers::Layers made = layers::build_layers(surface, options, remesh);
   record.layers.emplace(report::LayerRecord{options, std::move(made.report), !planes.faces.empty()});
   log_layers(record);
   const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
   sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(communicator, sizes)
                                 : surface.field;
-  return {std::move(made.columns), layers::name_front(communicator, std::move(made.front)), std::move(field)};
+  return {std::move(made.columns), layers::name_front(std::move(made.front)), std::move(field)};
 }
 
-void append_layers(const parallel::Communicator& communicator, const cases::Case& input,
-                   const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
                    mesh::DistributedMesh& volume, report::RunRecord& record) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-  layers::append_layers(communicator, surface, layered.columns, layered.front,
+  layers::append_layers(surface, layered.columns, layered.front,
                         {input.volume.piece_tets.value_or(most_cells), input.layers.elements}, volume);
 }
 

@@ -17,12 +17,11 @@ struct LayeredSurface {
 
 /// Columns on the walls of the surface; planes that layers end on are meshed again. Collective. Throws
 /// std::invalid_argument for layers of patches that there are not.
-LayeredSurface build_layers(const parallel::Communicator& communicator, const cases::Case& input,
-                            const cad::Model& model, FinishedSurface& surface, report::RunRecord& record);
+LayeredSurface build_layers(const cases::Case& input, const cad::Model& model, FinishedSurface& surface,
+                            report::RunRecord& record);
 
 /// Puts the layers before the tetrahedra behind their front. Collective.
-void append_layers(const parallel::Communicator& communicator, const cases::Case& input,
-                   const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
                    mesh::DistributedMesh& volume, report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

@@ -88,8 +88,8 @@ std::string show_quality(const parallel::Communicator& communicator, const Quali
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
   const mesh::DistributedMesh& pieces = *file.mesh.pieces;
   const mesh::Numbering& numbering = *file.mesh.numbering;
-  const mesh::MixedQuality quality = mesh::measure_quality(communicator, pieces, numbering,
-                                                           mesh::link_faces(communicator, pieces, numbering));
+  const mesh::MixedQuality quality =
+      mesh::measure_quality(pieces, numbering, mesh::link_faces(pieces, numbering));
   std::string missed = cases::missed_limits(gate, quality);
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;

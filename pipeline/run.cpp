@@ -201,9 +201,9 @@ private:
   /// Numbers it, checks it, tells of it.
   FinishedSurface finish_surface(const cad::Model& model, surface::SurfaceMesh surface) {
     _record.surface = std::move(surface.report);
-    mesh::Numbering numbering = mesh::number_mesh(_communicator, surface.mesh);
+    mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
     FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
-    inspect_surface(_communicator, model, "the surface mesh", finished, _record);
+    inspect_surface(model, "the surface mesh", finished, _record);
     log_surface(_record);
     if (_communicator.is_root()) log_needles(_record);
     return finished;
@@ -255,12 +255,11 @@ private:
   mesh::DistributedMesh find_or_build_volume(const cad::Model& model, FinishedSurface& surface) {
     VolumeStages stages(_communicator, _input, _record, *_checkpoints);
     if (!_input.layers.given) return stages.find_or_build(model, {surface, surface.field});
-    const LayeredSurface layered = stage("layers", report::ExitCode::surface, [&] {
-      return build_layers(_communicator, _input, model, surface, _record);
-    });
+    const LayeredSurface layered = stage("layers", report::ExitCode::surface,
+                                         [&] { return build_layers(_input, model, surface, _record); });
     mesh::DistributedMesh volume = stages.find_or_build(model, {layered.front, layered.field});
     stage("layers", report::ExitCode::volume,
-          [&] { append_layers(_communicator, _input, surface, layered, volume, _record); });
+          [&] { append_layers(_input, surface, layered, volume, _record); });
     return volume;
   }
 
@@ -268,15 +267,13 @@ private:
 
   mesh::Numbering inspect(const cad::Model& model, const mesh::DistributedMesh& volume,
                           FinishedSurface& surface) {
-    mesh::Numbering numbering = mesh::number_mesh(_communicator, volume);
-    if (_record.improve.changed_triangles > 0)
-      adopt_boundary(_communicator, model, volume, numbering, surface, _record);
+    mesh::Numbering numbering = mesh::number_mesh(volume);
+    if (_record.improve.changed_triangles > 0) adopt_boundary(model, volume, numbering, surface, _record);
     const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
-    inspect_volume(_communicator, _input, volume, numbering, is_of_surface ? &surface.mesh : nullptr,
-                   _record);
+    inspect_volume(_input, volume, numbering, is_of_surface ? &surface.mesh : nullptr, _record);
     add_cad_volumes(model, _record.regions_filled);
     const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-    _record.conformity = attribution::measure_conformity(_communicator, volume, surface.field);
+    _record.conformity = attribution::measure_conformity(volume, surface.field);
     return numbering;
   }
 
@@ -286,7 +283,7 @@ private:
     const SurfaceView view{surface.mesh, surface.numbering, is_of_surface};
     {
       const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-      write_outputs(_communicator, volume, numbering, &view, _input.output);
+      write_outputs(volume, numbering, &view, _input.output);
     }
     if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files();
     if (_communicator.is_root()) {

@@ -23,8 +23,9 @@ std::vector<CheckpointDraft::Item> draft_pieces(const mesh::DistributedMesh& mes
 }
 
 /// Items go as their pieces come.
-mesh::DistributedMesh make_mesh(mesh::MeshFacts facts, std::vector<CheckpointContent::Item> items) {
-  mesh::DistributedMesh mesh{std::move(facts), {}};
+mesh::DistributedMesh make_mesh(const parallel::Communicator& communicator, mesh::MeshFacts facts,
+                                std::vector<CheckpointContent::Item> items) {
+  mesh::DistributedMesh mesh(communicator, std::move(facts));
   for (CheckpointContent::Item& item : items)
     mesh.pieces.push_back(from_wire<mesh::Piece>(std::exchange(item.bytes, Bytes())));
   return mesh;
@@ -136,7 +137,7 @@ std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator&
   if (!record.sizes.empty()) sized = unpack_sizes(communicator, {std::move(record.sizes), {}}, domain);
   if (record.sized != digest_of(sized)) return std::nullopt;
   return surface::SurfaceMesh{
-      make_mesh(std::move(record.mesh), std::move(content.items)), std::move(record.report),
+      make_mesh(communicator, std::move(record.mesh), std::move(content.items)), std::move(record.report),
       record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)};
 }
 
@@ -146,9 +147,9 @@ CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
   return {to_wire(VolumeRecord{decomposition, volume, improve, mesh}), draft_pieces(mesh)};
 }
 
-VolumeProduct unpack_volume(CheckpointContent content) {
+VolumeProduct unpack_volume(const parallel::Communicator& communicator, CheckpointContent content) {
   auto record = from_wire<VolumeRecord>(content.common);
-  return {make_mesh(std::move(record.mesh), std::move(content.items)), record.decomposition,
+  return {make_mesh(communicator, std::move(record.mesh), std::move(content.items)), record.decomposition,
           std::move(record.volume), record.improve};
 }
 

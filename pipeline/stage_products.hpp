@@ -49,6 +49,6 @@ struct VolumeProduct {
 io::CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
                                 const volume::DecompositionReport& decomposition,
                                 const volume::VolumeReport& volume, const improve::ImproveReport& improve);
-VolumeProduct unpack_volume(io::CheckpointContent content);
+VolumeProduct unpack_volume(const parallel::Communicator& communicator, io::CheckpointContent content);
 
 }  // namespace aeroloom::pipeline

@@ -76,7 +76,7 @@ mesh::DistributedMesh VolumeStages::build(const VolumeBoundary& boundary) {
 
 mesh::DistributedMesh VolumeStages::adopt(io::CheckpointContent content) {
   VolumeProduct product;
-  parallel::agree(_communicator, [&] { product = unpack_volume(std::move(content)); });
+  parallel::agree(_communicator, [&] { product = unpack_volume(_communicator, std::move(content)); });
   _record.decomposition = product.decomposition;
   _record.volume = std::move(product.volume);
   _record.improve = product.improve;
@@ -97,7 +97,7 @@ volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
 }
 
 volume::Decomposition VolumeStages::decompose(const VolumeBoundary& boundary) {
-  volume::Decomposition decomposition = volume::decompose(_communicator, input_of(boundary));
+  volume::Decomposition decomposition = volume::decompose(input_of(boundary));
   _record.decomposition = decomposition.report();
   log_decompose(_record);
   if (_communicator.is_root()) warn_of_count(_record);
@@ -107,7 +107,7 @@ volume::Decomposition VolumeStages::decompose(const VolumeBoundary& boundary) {
 mesh::DistributedMesh VolumeStages::fill(const VolumeBoundary& boundary,
                                          volume::Decomposition decomposition) {
   try {
-    return volume::fill_zones(_communicator, input_of(boundary), std::move(decomposition), _record.volume);
+    return volume::fill_zones(input_of(boundary), std::move(decomposition), _record.volume);
   } catch (const volume::VolumeFailure& failure) {
     point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
   }
@@ -117,7 +117,7 @@ void VolumeStages::improve(const cad::Model& model, const VolumeBoundary& bounda
                            mesh::DistributedMesh& volume) {
   if (!_input.improve.enabled) return;
   cad::PointLocator locator(model);
-  improve_volume(_communicator, _input, {&locator, &boundary.field}, volume, _record,
+  improve_volume(_input, {&locator, &boundary.field}, volume, _record,
                  _checkpoints.tasks(SavedStage::improve));
   keep(SavedStage::improve, volume);
 }

@@ -60,11 +60,11 @@ std::vector<std::string> EarlierFiles::left(const std::string& hash) const {
 
 namespace {
 
-void write_volume(const parallel::Communicator& communicator, const io::FileMesh& mesh, io::FileFormat format,
-                  const cases::OutputOptions& output, const std::string& path) {
+void write_volume(const io::FileMesh& mesh, io::FileFormat format, const cases::OutputOptions& output,
+                  const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const double begin = parallel::wall_seconds();
-  io::write_mesh(communicator, mesh, format, path,
-                 {static_cast<std::int32_t>(output.parts), output.compression});
+  io::write_mesh(mesh, format, path, {static_cast<std::int32_t>(output.parts), output.compression});
   if (communicator.is_root() && output.formats.size() > 1) {
     parallel::log_info(
         fmt::format("wrote '{}' in {:.2f} s", path_of(output, format), parallel::wall_seconds() - begin));
@@ -73,47 +73,42 @@ void write_volume(const parallel::Communicator& communicator, const io::FileMesh
 
 /// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions. Both
 /// are of the volume where that has another boundary.
-void write_surfaces(const parallel::Communicator& communicator, const SurfaceView& surface,
-                    const io::FileMesh& volume, const std::string& folder, io::Compression compression) {
+void write_surfaces(const SurfaceView& surface, const io::FileMesh& volume, const std::string& folder,
+                    io::Compression compression) {
   if (!surface.is_boundary) {
-    io::write_surface(communicator, volume, folder, "surface", compression);
+    io::write_surface(volume, folder, "surface", compression);
     if (surface.mesh.has_inner_faces()) {
-      io::write_surface(communicator, volume, folder, "interfaces", compression,
-                        io::SurfaceFaces::between_regions);
+      io::write_surface(volume, folder, "interfaces", compression, io::SurfaceFaces::between_regions);
     }
     return;
   }
   if (!surface.mesh.has_inner_faces()) {
-    io::write_surface(communicator, surface.mesh, surface.numbering, folder, "surface", compression);
+    io::write_surface(surface.mesh, surface.numbering, folder, "surface", compression);
     return;
   }
   for (const bool inner : {false, true}) {
     const mesh::DistributedMesh part = mesh::part_of_surface(
         surface.mesh, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside);
-    io::write_surface(communicator, part, mesh::number_mesh(communicator, part), folder,
-                      inner ? "interfaces" : "surface", compression);
+    io::write_surface(part, mesh::number_mesh(part), folder, inner ? "interfaces" : "surface", compression);
   }
 }
 
 }  // namespace
 
-void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
-                   const mesh::Numbering& numbering, const SurfaceView* surface,
-                   const cases::OutputOptions& output) {
-  const io::FileMesh mesh = io::file_mesh_of(communicator, volume, numbering);
+void write_outputs(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                   const SurfaceView* surface, const cases::OutputOptions& output) {
+  const parallel::Communicator& communicator = volume.communicator;
+  const io::FileMesh mesh = io::file_mesh_of(volume, numbering);
   io::write_together(communicator, output.directory, "mesh", [&](const std::string& staging) {
     cases::OutputOptions staged = output;
     staged.directory = staging;
     for (const io::FileFormat format : output.formats) {
-      if (format != io::FileFormat::openfoam)
-        write_volume(communicator, mesh, format, output, path_of(staged, format));
+      if (format != io::FileFormat::openfoam) write_volume(mesh, format, output, path_of(staged, format));
     }
-    if (surface != nullptr && wants_vtk(output))
-      write_surfaces(communicator, *surface, mesh, staging, output.compression);
+    if (surface != nullptr && wants_vtk(output)) write_surfaces(*surface, mesh, staging, output.compression);
     // Last, for what may fail has not: its folder is its user's, too.
     if (wants(output, io::FileFormat::openfoam)) {
-      write_volume(communicator, mesh, io::FileFormat::openfoam, output,
-                   path_of(output, io::FileFormat::openfoam));
+      write_volume(mesh, io::FileFormat::openfoam, output, path_of(output, io::FileFormat::openfoam));
     }
   });
   if (wants(output, io::FileFormat::msh_parts)) {

@@ -24,9 +24,8 @@ struct SurfaceView {
 /// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. With VTK files,
 /// and where a surface is given: surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies
 /// between regions where there is any. All appear together, or none does. Collective; throws CollectiveError.
-void write_outputs(const parallel::Communicator& communicator, const mesh::DistributedMesh& volume,
-                   const mesh::Numbering& numbering, const SurfaceView* surface,
-                   const cases::OutputOptions& output);
+void write_outputs(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                   const SurfaceView* surface, const cases::OutputOptions& output);
 
 /// Files of meshes as runs name them, of any format, that are in the output directory now. Rank 0 calls it.
 class EarlierFiles {

@@ -230,7 +230,7 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
 }
 
 mesh::DistributedMesh PiecePool::assemble() const {
-  mesh::DistributedMesh surface;
+  mesh::DistributedMesh surface(_communicator);
   surface.kind = mesh::CellKind::triangle;
   surface.patches = _model.patches();
   std::vector<mesh::PieceId> first{0};

@@ -39,7 +39,7 @@ public:
 
   /// Pieces of all faces, unless there are conflicts.
   PlaneConflicts mesh(const mesh::DistributedMesh& surface) {
-    _loops = gather_loops(_communicator, surface, _faces);
+    _loops = gather_loops(surface, _faces);
     parallel::agree(_communicator, [&] {
       const ScopedCpu cpu(ScopedCpu::As::task);
       for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
@@ -181,7 +181,7 @@ private:
       std::int32_t dimension, entity;
       static constexpr auto fields() { return std::tuple(&Place::dimension, &Place::entity); }
     };
-    const mesh::SharedVertices shared(_communicator, surface);
+    const mesh::SharedVertices shared(surface);
     std::vector<Place> places(shared.size());
     shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
       const mesh::Piece& piece = surface.pieces[p];
@@ -212,9 +212,9 @@ private:
 
 }  // namespace
 
-PlaneConflicts remesh_planes(const parallel::Communicator& communicator, const cad::Model& model,
-                             const sizing::SizeField& field, const PlanesToRemesh& planes,
-                             mesh::DistributedMesh& surface) {
+PlaneConflicts remesh_planes(const cad::Model& model, const sizing::SizeField& field,
+                             const PlanesToRemesh& planes, mesh::DistributedMesh& surface) {
+  const parallel::Communicator communicator = surface.communicator;
   if (planes.faces.empty()) return {};
   PlaneRemesher remesher(communicator, model, field, planes);
   PlaneConflicts conflicts = remesher.mesh(surface);

@@ -38,8 +38,7 @@ struct PlaneConflicts {
 /// it was, and the vertices of the edges at fault are returned: those of them that moved must move less.
 ///
 /// Collective. Throws SurfaceError or CollectiveError, the same on all ranks.
-PlaneConflicts remesh_planes(const parallel::Communicator& communicator, const cad::Model& model,
-                             const sizing::SizeField& field, const PlanesToRemesh& planes,
-                             mesh::DistributedMesh& surface);
+PlaneConflicts remesh_planes(const cad::Model& model, const sizing::SizeField& field,
+                             const PlanesToRemesh& planes, mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::surface

@@ -28,8 +28,8 @@ using sizing::SizeField;
 using sizing::SizeSource;
 
 /// The CAD face of each piece of the whole mesh, on every rank. Collective.
-std::vector<cad::FaceId> faces_of_pieces(const parallel::Communicator& communicator,
-                                         const mesh::DistributedMesh& surface) {
+std::vector<cad::FaceId> faces_of_pieces(const mesh::DistributedMesh& surface) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::vector<std::array<std::int32_t, 2>> mine;
   for (const mesh::Piece& piece : surface.pieces) mine.push_back({piece.id, piece.common_face()});
   std::vector<cad::FaceId> faces(surface.piece_count, cad::no_entity);
@@ -95,13 +95,12 @@ std::string complain(const cad::Model& model, const SizeField& field,
 
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
 /// pieces make intersect is left whole. Collective, the same on every rank.
-Conflicts find_conflicts(const parallel::Communicator& communicator, const cad::Model& model,
-                         const SizeField& field, const mesh::DistributedMesh& surface,
-                         const PiecePool& pool) {
+Conflicts find_conflicts(const cad::Model& model, const SizeField& field,
+                         const mesh::DistributedMesh& surface, const PiecePool& pool) {
   Conflicts conflicts;
-  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(communicator, surface);
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(surface);
   if (hits.empty()) return conflicts;
-  const std::vector<cad::FaceId> faces = faces_of_pieces(communicator, surface);
+  const std::vector<cad::FaceId> faces = faces_of_pieces(surface);
   for (const mesh::TriangleHit& hit : hits) {
     const cad::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
     if (first == second && pool.is_divided(first)) {
@@ -179,12 +178,11 @@ private:
     const CurveMesh curves = discretise_curves(_communicator, _model, _field, _short_legs);
     Conflicts conflicts = gather_conflicts(_communicator, _pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
-    mesh::DistributedMesh surface;
+    mesh::DistributedMesh surface(_communicator);
     if (conflicts.complaint.empty()) {
       surface = _pool.assemble();
-      _closed_tips =
-          close_cusp_tips(_communicator, _model, curves, sizing::closing_gap(_field.options()), surface);
-      conflicts = find_conflicts(_communicator, _model, _field, surface, _pool);
+      _closed_tips = close_cusp_tips(_model, curves, sizing::closing_gap(_field.options()), surface);
+      conflicts = find_conflicts(_model, _field, surface, _pool);
     }
     if (!conflicts.complaint.empty()) return !mend(conflicts);
     const NeedleRemedies remedies = accept(curves, std::move(surface));
@@ -241,12 +239,12 @@ private:
       const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
       needles = find_needles(_model, curves, surface);
     }
-    std::vector<NeedleGroup> groups = group_needles(_communicator, surface, needles);
+    std::vector<NeedleGroup> groups = group_needles(surface, needles);
     const std::int64_t unforced = count_unforced(groups);
     if (_accepted && unforced >= count_unforced(_accepted->report.needles)) return {};
     NeedleRemedies remedies;
     if (unforced > 0 && _rounds < _options.mending_rounds && _needle_rounds++ < _options.needle_rounds) {
-      remedies = find_needle_remedies(_communicator, surface, needles, _field);
+      remedies = find_needle_remedies(surface, needles, _field);
       parallel::log_verbose(
           fmt::format("surface: {} needles; sizes fall in {} places, {} corners get shorter legs", unforced,
                       remedies.sizes.size(), remedies.short_legs.size()));

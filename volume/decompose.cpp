@@ -20,7 +20,8 @@ using parallel::ScopedCpu;
 namespace {
 
 /// The box of the surface, the same on every rank.
-geometry::Box box_of(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface) {
+geometry::Box box_of(const mesh::DistributedMesh& surface) {
+  const parallel::Communicator& communicator = surface.communicator;
   geometry::Box box;
   for (const mesh::Piece& piece : surface.pieces) {
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
@@ -46,9 +47,9 @@ std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::Distri
 }
 
 /// The surface near each rank's blocks.
-void fetch_surface(const parallel::Communicator& communicator, const VolumeInput& input,
-                   Decomposition::Data& data) {
-  data.triangles = deliver_surface(communicator, *data.frame, *data.tree, input.surface, input.numbering);
+void fetch_surface(const VolumeInput& input, Decomposition::Data& data) {
+  const parallel::Communicator& communicator = input.surface.communicator;
+  data.triangles = deliver_surface(*data.frame, *data.tree, input.surface, input.numbering);
   {
     const ScopedCpu task(ScopedCpu::As::task);
     data.table = tabulate_surface(*data.frame, *data.tree, data.triangles);
@@ -85,7 +86,8 @@ void keep_own_triangles(const parallel::Communicator& communicator, Decompositio
 }
 
 /// Zones of equal expected size.
-void divide(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data) {
+void divide(const VolumeInput& input, Decomposition::Data& data) {
+  const parallel::Communicator& communicator = input.surface.communicator;
   const ShellShare& shell = data.shell;
   std::vector<Load> loads;
   for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b)
@@ -121,8 +123,8 @@ void divide(const parallel::Communicator& communicator, const VolumeInput& input
 }
 
 /// Decides what zones know, and who fills them.
-void plan_all(const parallel::Communicator& communicator, const VolumeInput& input,
-              Decomposition::Data& data) {
+void plan_all(const VolumeInput& input, Decomposition::Data& data) {
+  const parallel::Communicator& communicator = input.surface.communicator;
   std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
   const std::vector<double> widths(all.size(), input.options.halo);
@@ -146,8 +148,8 @@ const DecompositionReport& Decomposition::report() const {
   return _data->report;
 }
 
-std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                                        Decomposition::Data& data) {
+std::vector<BlockIndex> make_all_points(const VolumeInput& input, Decomposition::Data& data) {
+  const parallel::Communicator& communicator = input.surface.communicator;
   const BlockIndex first = data.tree->first(), last = data.tree->last();
   BlockPoints points;
   std::vector<SurfaceTriangle> again;
@@ -175,24 +177,25 @@ std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicat
   return changed;
 }
 
-Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input) {
+Decomposition decompose(const VolumeInput& input) {
+  const parallel::Communicator& communicator = input.surface.communicator;
   auto data = std::make_unique<Decomposition::Data>();
-  const geometry::Box box = box_of(communicator, input.surface);
+  const geometry::Box box = box_of(input.surface);
   data->frame = std::make_unique<LatticeFrame>(input.field, box);
   data->tree = std::make_unique<LatticeTree>(communicator, *data->frame, input.field, box,
                                              keys_of(*data->frame, input.surface));
   data->squares = std::make_unique<CoreSquares>(*data->frame);
   data->report.blocks = data->tree->total();
-  fetch_surface(communicator, input, *data);
+  fetch_surface(input, *data);
   BlockRegions regions =
       find_block_regions(communicator, data->known(), {data->triangles, *data->surface, data->radii});
   if (regions.contradiction)
-    refuse_surface(communicator, *regions.contradiction, data->triangles, *data->surface, input.surface);
+    refuse_surface(*regions.contradiction, data->triangles, *data->surface, input.surface);
   data->regions = std::move(regions.of_block);
-  make_all_points(communicator, input, *data);
+  make_all_points(input, *data);
   keep_own_triangles(communicator, *data);
-  divide(communicator, input, *data);
-  plan_all(communicator, input, *data);
+  divide(input, *data);
+  plan_all(input, *data);
   return Decomposition(std::move(data));
 }
 

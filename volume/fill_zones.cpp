@@ -24,13 +24,12 @@ using parallel::ScopedCpu;
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
 public:
-  ZoneFiller(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
-             VolumeReport& report)
-      : _communicator(communicator),
+  ZoneFiller(const VolumeInput& input, Decomposition::Data& data, VolumeReport& report)
+      : _communicator(input.surface.communicator),
         _input(input),
         _data(data),
         _report(report),
-        _ladder(communicator, input, data, report),
+        _ladder(input, data, report),
         _budget(data.zones->count()) {}
 
   mesh::DistributedMesh run() {
@@ -160,7 +159,7 @@ private:
       _report.steiner_points += result.steiner_points;
     }
     mesh::DistributedMesh mesh =
-        assemble_mesh(_communicator, _input.surface, _results, std::move(core.pieces), _data.zones->count());
+        assemble_mesh(_input.surface, _results, std::move(core.pieces), _data.zones->count());
     _report.tetrahedra = _communicator.sum(_report.tetrahedra);
     _report.steiner_points = _communicator.sum(_report.steiner_points);
     return mesh;
@@ -183,9 +182,9 @@ private:
 
 }  // namespace
 
-mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
-                                 Decomposition decomposition, VolumeReport& report) {
-  return ZoneFiller(communicator, input, decomposition.data(), report).run();
+mesh::DistributedMesh fill_zones(const VolumeInput& input, Decomposition decomposition,
+                                 VolumeReport& report) {
+  return ZoneFiller(input, decomposition.data(), report).run();
 }
 
 }  // namespace aeroloom::volume

@@ -44,7 +44,7 @@ private:
 
 /// Makes the lattice and divides it into zones. A function of surface, sizes and options, whatever the ranks.
 /// Collective. Throws CollectiveError, VolumeFailure where the surface contradicts itself.
-Decomposition decompose(const parallel::Communicator& communicator, const VolumeInput& input);
+Decomposition decompose(const VolumeInput& input);
 
 /// Fills the zones, scheduled largest first, and proves that they fit together. A zone that cannot be filled
 /// gets a wider halo, then other perturbations of its points, then points farther off the surface, and at
@@ -53,7 +53,6 @@ Decomposition decompose(const parallel::Communicator& communicator, const Volume
 /// region. The triangles of a face between two regions belong to pieces of its front region. `input` is that
 /// of decompose(); `report` starts empty. Collective. Throws CollectiveError, VolumeFailure where there are
 /// triangles to look at.
-mesh::DistributedMesh fill_zones(const parallel::Communicator& communicator, const VolumeInput& input,
-                                 Decomposition decomposition, VolumeReport& report);
+mesh::DistributedMesh fill_zones(const VolumeInput& input, Decomposition decomposition, VolumeReport& report);
 
 }  // namespace aeroloom::volume

@@ -91,9 +91,9 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
   return found != edges.end() && *found == edge ? found - edges.begin() : -1;
 }
 
-std::vector<EdgeWedge> measure_wedges(const parallel::Communicator& communicator,
-                                      const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
                                       const std::vector<EdgeName>& edges) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<EdgeShare> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)

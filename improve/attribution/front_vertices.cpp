@@ -7,8 +7,8 @@
 
 namespace aeroloom::attribution {
 
-std::vector<std::vector<std::uint8_t>> find_front_vertices(const parallel::Communicator& communicator,
-                                                           const mesh::DistributedMesh& mesh) {
+std::vector<std::vector<std::uint8_t>> find_front_vertices(const mesh::DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<std::vector<std::uint8_t>> on_front;
   bool layered = false;
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -20,7 +20,7 @@ std::vector<std::vector<std::uint8_t>> find_front_vertices(const parallel::Commu
     layered = layered || of_layers;
   }
   if (communicator.maximum(std::int64_t{layered}) == 0) return on_front;
-  const mesh::SharedVertices shared(communicator, mesh);
+  const mesh::SharedVertices shared(mesh);
   std::vector<std::uint8_t> copies(shared.size());
   shared.for_each(
       [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { copies[copy] = on_front[p][v]; });

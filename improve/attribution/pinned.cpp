@@ -41,17 +41,16 @@ double corner_angle(Vec3 apex, Vec3 a, Vec3 b) {
 
 class PinnedSearch {
 public:
-  PinnedSearch(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-               const mesh::Numbering& numbering, double target, const mesh::CellsOutside& suspects,
-               bool surface_may_change)
-      : _communicator(communicator),
+  PinnedSearch(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, double target,
+               const mesh::CellsOutside& suspects, bool surface_may_change)
+      : _communicator(mesh.communicator),
         _mesh(mesh),
         _numbering(numbering),
         _suspects(suspects),
         _target(target),
         _surface_may_change(surface_may_change),
         _measure(target),
-        _vertex_faces(communicator, mesh),
+        _vertex_faces(mesh.communicator, mesh),
         _walls(_vertex_faces) {
     _report.smallest_angle = target;
     _report.largest_angle = largest_allowed(target);
@@ -60,10 +59,10 @@ public:
 
   PinnedReport run() {
     collect_edges();
-    _wedges = measure_wedges(_communicator, _mesh, _numbering, _edges);
+    _wedges = measure_wedges(_mesh, _numbering, _edges);
     list_sharp_curves();
-    _strips = find_strip_edges(_communicator, _mesh, _numbering, _edges);
-    if (!_surface_may_change) _on_front = find_front_vertices(_communicator, _mesh);
+    _strips = find_strip_edges(_mesh, _numbering, _edges);
+    if (!_surface_may_change) _on_front = find_front_vertices(_mesh);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
     return merge();
   }
@@ -364,10 +363,9 @@ mesh::DihedralRange suspect_angles(double target_angle) {
   return {target_angle + angle_slack, largest_allowed(target_angle) - angle_slack};
 }
 
-PinnedReport find_pinned(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                         const mesh::Numbering& numbering, double target_angle,
-                         const mesh::CellsOutside& suspects, bool surface_may_change) {
-  return PinnedSearch(communicator, mesh, numbering, target_angle, suspects, surface_may_change).run();
+PinnedReport find_pinned(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                         double target_angle, const mesh::CellsOutside& suspects, bool surface_may_change) {
+  return PinnedSearch(mesh, numbering, target_angle, suspects, surface_may_change).run();
 }
 
 }  // namespace aeroloom::attribution

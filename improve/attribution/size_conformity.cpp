@@ -9,8 +9,8 @@ namespace aeroloom::attribution {
 
 using mesh::LocalIndex;
 
-SizeConformity measure_conformity(const parallel::Communicator& communicator,
-                                  const mesh::DistributedMesh& mesh, const sizing::SizeField& field) {
+SizeConformity measure_conformity(const mesh::DistributedMesh& mesh, const sizing::SizeField& field) {
+  const parallel::Communicator& communicator = mesh.communicator;
   // In sizes: an edge halved at the longest is as long as the shortest. What lies between conforms.
   constexpr double shortest = 0.7, longest = 1.4;
   constexpr double fairly_short = 0.5, fairly_long = 2;  // a factor that solvers bear, as users name it

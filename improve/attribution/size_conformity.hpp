@@ -17,7 +17,6 @@ struct SizeConformity {
 };
 
 /// Collective. A report: sums depend on how pieces are spread over ranks in the last bits.
-SizeConformity measure_conformity(const parallel::Communicator& communicator,
-                                  const mesh::DistributedMesh& mesh, const sizing::SizeField& field);
+SizeConformity measure_conformity(const mesh::DistributedMesh& mesh, const sizing::SizeField& field);
 
 }  // namespace aeroloom::attribution

@@ -12,10 +12,10 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-std::vector<StripEdge> find_strip_edges(const parallel::Communicator& communicator,
-                                        const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
                                         const std::vector<EdgeName>& edges) {
-  const auto triangles = find_strip_triangles(communicator, mesh, numbering);
+  const parallel::Communicator& communicator = mesh.communicator;
+  const auto triangles = find_strip_triangles(mesh, numbering);
   std::vector<StripEdge> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];

@@ -34,8 +34,7 @@ struct StripEdge {
 
 /// The edges (ascending, the same on every rank) that belong to strip triangles and run from one
 /// curve to the other: by number, each once, the same on every rank. Collective.
-std::vector<StripEdge> find_strip_edges(const parallel::Communicator& communicator,
-                                        const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
                                         const std::vector<EdgeName>& edges);
 
 /// The one with the number, null where there is none.

@@ -71,9 +71,9 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
 }
 
 /// Curves are known by their edges: those at which triangles of two CAD faces meet.
-std::vector<CurveAtVertex> curves_at_vertices(const parallel::Communicator& communicator,
-                                              const mesh::DistributedMesh& mesh,
+std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
                                               const mesh::Numbering& numbering) {
+  const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
     std::sort(edges.begin(), edges.end(),
               [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) < edge_key(b); });
@@ -174,10 +174,9 @@ std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<Curve
 
 }  // namespace
 
-std::vector<std::vector<StripTriangle>> find_strip_triangles(const parallel::Communicator& communicator,
-                                                             const mesh::DistributedMesh& mesh,
+std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::DistributedMesh& mesh,
                                                              const mesh::Numbering& numbering) {
-  const std::vector<CurveAtVertex> curves = curves_at_vertices(communicator, mesh, numbering);
+  const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh, numbering);
   std::vector<std::vector<StripTriangle>> strips;
   for (const Piece& piece : mesh.pieces) strips.push_back(strips_of(piece, curves));
   return strips;

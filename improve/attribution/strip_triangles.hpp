@@ -23,8 +23,7 @@ struct StripTriangle {
 /// Per piece of this rank the boundary triangles with two vertices on one curve and the third on another that
 /// has neither of them and runs along, and a height of `strip_fraction` at most. Which curves meet at a CAD
 /// vertex is read off the mesh: a curve is where triangles of two CAD faces meet. Collective.
-std::vector<std::vector<StripTriangle>> find_strip_triangles(const parallel::Communicator& communicator,
-                                                             const mesh::DistributedMesh& mesh,
+std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::DistributedMesh& mesh,
                                                              const mesh::Numbering& numbering);
 
 }  // namespace aeroloom::attribution

@@ -41,7 +41,8 @@ double longest_edge(const std::array<Vec3, 4>& p) {
 
 }  // namespace
 
-VertexFaces::VertexFaces(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh) {
+VertexFaces::VertexFaces(const mesh::DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<Classification>& rows) {
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());

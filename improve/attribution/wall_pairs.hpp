@@ -23,7 +23,7 @@ inline constexpr double gap_fraction = 0.4;
 class VertexFaces {
 public:
   /// Collective; the same on every rank.
-  VertexFaces(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh);
+  VertexFaces(const mesh::DistributedMesh& mesh);
 
   /// Appends the faces of a vertex, ascending; none of a vertex inside a region.
   void list(const mesh::Piece& piece, mesh::LocalIndex vertex, std::vector<std::int32_t>& faces) const;

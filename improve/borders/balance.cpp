@@ -6,8 +6,8 @@
 
 namespace aeroloom::improve {
 
-void balance_pieces(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                    const std::vector<double>& work) {
+void balance_pieces(mesh::DistributedMesh& mesh, const std::vector<double>& work) {
+  const parallel::Communicator communicator = mesh.communicator;
   struct PieceWork {
     mesh::PieceId piece;
     parallel::Rank owner;
@@ -27,7 +27,7 @@ void balance_pieces(const parallel::Communicator& communicator, mesh::Distribute
     now[row.piece] = row.owner;
   }
   const std::vector<parallel::Rank> owner = parallel::rebalance(all, now, communicator.size());
-  if (owner != now) migrate(communicator, mesh, owner);
+  if (owner != now) migrate(mesh, owner);
 }
 
 }  // namespace aeroloom::improve

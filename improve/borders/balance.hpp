@@ -11,7 +11,6 @@ namespace aeroloom::improve {
 /// Deals the pieces out anew by the work expected, `work` per local piece, heaviest first; they stay where
 /// they are while no rank has more than 1.05 times the mean, or nothing would be gained. Which rank holds a
 /// piece changes nothing in the mesh. Collective.
-void balance_pieces(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                    const std::vector<double>& work);
+void balance_pieces(mesh::DistributedMesh& mesh, const std::vector<double>& work);
 
 }  // namespace aeroloom::improve

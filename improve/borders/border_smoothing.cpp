@@ -134,9 +134,9 @@ struct Mover {
 
 class BorderSmoothing {
 public:
-  BorderSmoothing(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                  const mesh::SharedVertices& shared, const mesh::TetQuality& measure)
-      : _communicator(communicator), _mesh(mesh), _shared(shared), _measure(measure) {
+  BorderSmoothing(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                  const mesh::TetQuality& measure)
+      : _communicator(mesh.communicator), _mesh(mesh), _shared(shared), _measure(measure) {
     for (const Piece& piece : mesh.pieces) {
       _stars.emplace_back(piece);
       _moved.emplace_back(piece.vertex_count(), -1);
@@ -335,9 +335,10 @@ void BorderSmoothing::withdraw() {
 
 }  // namespace
 
-std::int64_t smooth_borders(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const mesh::TetQuality& measure, int passes) {
-  BorderSmoothing relaxation(communicator, mesh, shared, measure);
+std::int64_t smooth_borders(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                            const mesh::TetQuality& measure, int passes) {
+  const parallel::Communicator communicator = mesh.communicator;
+  BorderSmoothing relaxation(mesh, shared, measure);
   std::int64_t moves = 0;
   for (int pass = 0; pass < passes; ++pass) {
     for (int group = 0; group < group_count; ++group) moves += relaxation.move(group);

@@ -19,7 +19,7 @@ namespace aeroloom::improve {
 /// chosen by their names, each at once (Jacobi); those of a tetrahedron that would fall below what each of
 /// them allows stay. `passes` is how often each group moves. `shared` are those of the mesh, and stay so.
 /// Returns the number of moves in the whole mesh. Collective.
-std::int64_t smooth_borders(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const mesh::TetQuality& measure, int passes);
+std::int64_t smooth_borders(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                            const mesh::TetQuality& measure, int passes);
 
 }  // namespace aeroloom::improve

@@ -359,8 +359,9 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 
 }  // namespace
 
-CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const RefillRequest& request) {
+CavityRound refill_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                            const RefillRequest& request) {
+  const parallel::Communicator communicator = mesh.communicator;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_key_rounds) throw std::logic_error("refill_cavities: too many rounds");
@@ -387,7 +388,7 @@ CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::Di
   std::sort(outcomes.begin(), outcomes.end(),
             [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
-  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(communicator, mesh, here);
+  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
   const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
   CavityRound result;
   result.changes = update_pieces(mesh, mine, outcomes, delivery);

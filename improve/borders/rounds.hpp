@@ -99,7 +99,7 @@ struct RefillRequest {
 /// cavity, so cavities do not touch in a tetrahedron; the others have to wait for another round with other
 /// claims. Cavities are assigned to ranks by size. At most 255 rounds on one mesh. `shared` are those of the
 /// mesh as it comes in. Collective. Throws CollectiveError.
-CavityRound refill_cavities(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh,
-                            const mesh::SharedVertices& shared, const RefillRequest& request);
+CavityRound refill_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                            const RefillRequest& request);
 
 }  // namespace aeroloom::cavities

@@ -55,7 +55,8 @@ void write_block(SharedFile& file, const cgns::Plan& plan, const FilePart& part,
 
 }  // namespace
 
-void write_cgns(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+void write_cgns(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   cgns::Plan plan;
   std::vector<hdf5::Extent> structure;
   parallel::agree(communicator, [&] {

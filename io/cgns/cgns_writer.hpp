@@ -21,6 +21,6 @@ namespace aeroloom::io {
 /// Left out: parts, faces between regions (one zone has no place for them), patches without faces, the unit
 /// of length (it says UserDefined). Collective; throws CollectiveError (files) where it cannot be written.
 /// The bytes depend on the parts alone.
-void write_cgns(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
+void write_cgns(const FileMesh& mesh, const std::string& path);
 
 }  // namespace aeroloom::io

@@ -197,8 +197,9 @@ void require_small_tags(const FileMesh& mesh) {
 
 }  // namespace
 
-void write_msh(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
-  const std::string head = msh_head(mesh, boxes_of_entities(communicator, mesh), nullptr);
+void write_msh(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const std::string head = msh_head(mesh, boxes_of_entities(mesh), nullptr);
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   const MshLayout layout = lay_out_file(static_cast<std::int64_t>(head.size()), mesh.vertex_count, blocks);
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
@@ -207,10 +208,10 @@ void write_msh(const parallel::Communicator& communicator, const FileMesh& mesh,
   });
 }
 
-void write_msh_parts(const parallel::Communicator& communicator, const FileMesh& mesh,
-                     const std::string& path) {
+void write_msh_parts(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
-  const std::vector<MshBox> boxes = boxes_of_entities(communicator, mesh);
+  const std::vector<MshBox> boxes = boxes_of_entities(mesh);
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   parallel::agree(communicator, [&] {
     require_small_tags(mesh);

@@ -18,14 +18,13 @@ namespace aeroloom::io {
 
 /// One file, whatever the parts; ranks write at once. Collective; throws CollectiveError (files) with the
 /// path.
-void write_msh(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
+void write_msh(const FileMesh& mesh, const std::string& path);
 
 /// Files STEM_1.msh ... STEM_N.msh for `path` STEM.msh, one for each part, with $PartitionedEntities; those
 /// of an earlier run go. Each has all groups and entities of the mesh, the vertices of its part and its
 /// elements, with tags of the whole mesh; no ghosts, and no entities for faces between parts. Collective;
 /// throws CollectiveError (files) with the path.
-void write_msh_parts(const parallel::Communicator& communicator, const FileMesh& mesh,
-                     const std::string& path);
+void write_msh_parts(const FileMesh& mesh, const std::string& path);
 /// Removes STEM_(parts + 1).msh and those that follow it without a gap; other files of such names are not
 /// ours. write_msh_parts() does it where it writes. Collective; throws CollectiveError.
 void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,

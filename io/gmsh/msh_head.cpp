@@ -123,7 +123,8 @@ void grow(std::vector<MshBox>& boxes, std::size_t first, const FilePart& part, c
 
 }  // namespace
 
-std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator, const FileMesh& mesh) {
+std::vector<MshBox> boxes_of_entities(const FileMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   constexpr double far = std::numeric_limits<double>::infinity();
   std::vector<MshBox> boxes(mesh.patches.size() + mesh.regions.size(), {{far, far, far}, {-far, -far, -far}});
   for (const FilePart& part : mesh.parts) {

@@ -17,7 +17,7 @@ struct MshBox {
   static constexpr auto fields() { return std::tuple(&MshBox::least, &MshBox::largest); }
 };
 /// By patch, then by region, of the whole mesh. Collective.
-std::vector<MshBox> boxes_of_entities(const parallel::Communicator& communicator, const FileMesh& mesh);
+std::vector<MshBox> boxes_of_entities(const FileMesh& mesh);
 
 /// The entities that lie in part `part` (from 1), which part files have in addition.
 struct MshPartition {

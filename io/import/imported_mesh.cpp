@@ -22,7 +22,7 @@ using mesh::LocalIndex;
 
 /// Vertices of boundary faces lie on the largest CAD face around them, in whatever piece that is; others in
 /// the region of their piece. Collective.
-void classify_vertices(const parallel::Communicator& communicator, mesh::DistributedMesh& mesh) {
+void classify_vertices(mesh::DistributedMesh& mesh) {
   constexpr std::int32_t none = -1;
   for (mesh::Piece& piece : mesh.pieces) {
     piece.vertex_entity.assign(piece.vertex_count(), none);
@@ -31,7 +31,7 @@ void classify_vertices(const parallel::Communicator& communicator, mesh::Distrib
         piece.vertex_entity[v] = std::max(piece.vertex_entity[v], mesh::cad_face_of(piece, f));
     }
   }
-  const mesh::SharedVertices shared(communicator, mesh);
+  const mesh::SharedVertices shared(mesh);
   std::vector<std::int32_t> faces(shared.size());
   shared.for_each(
       [&](std::size_t p, LocalIndex v, std::size_t copy) { faces[copy] = mesh.pieces[p].vertex_entity[v]; });
@@ -50,8 +50,8 @@ void classify_vertices(const parallel::Communicator& communicator, mesh::Distrib
 
 }  // namespace
 
-mesh::DistributedMesh pieces_of(const parallel::Communicator& communicator, const io::FileMesh& mesh,
-                                const std::string& path, std::optional<std::int64_t> piece_tets) {
+mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& path,
+                                std::optional<std::int64_t> piece_tets) {
   const GlobalIndex tets = mesh.cell_count(io::CellShape::tetrahedron), others = mesh.cell_count() - tets;
   if (others > 0) {
     throw parallel::CollectiveError(
@@ -64,11 +64,11 @@ mesh::DistributedMesh pieces_of(const parallel::Communicator& communicator, cons
   const std::int64_t size = piece_tets.value_or(partition::suitable_piece_tets(static_cast<double>(tets)));
   const bool one = 2 * tets <= 3 * size;
   mesh::DistributedMesh result =
-      mesh::repartition(communicator, *mesh.pieces, *mesh.numbering,
+      mesh::repartition(*mesh.pieces, *mesh.numbering,
                         one ? 1 : static_cast<mesh::PieceId>((tets + size / 2) / size),
                         mesh::PieceRegions::one)
           .mesh;
-  classify_vertices(communicator, result);
+  classify_vertices(result);
   return result;
 }
 
@@ -80,7 +80,7 @@ mesh::DistributedMesh import_mesh(const parallel::Communicator& communicator, co
                                    file.mesh.cell_count(), file.mesh.vertex_count, file.mesh.regions.size(),
                                    file.mesh.patches.size(), io::describe(file)));
   }
-  return pieces_of(communicator, file.mesh, path, piece_tets);
+  return pieces_of(file.mesh, path, piece_tets);
 }
 
 }  // namespace aeroloom::imported

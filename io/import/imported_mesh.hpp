@@ -16,8 +16,8 @@ namespace aeroloom::imported {
 /// it bounds (and each two, between regions), as io/raw_mesh.hpp has it; vertices on it are told so. The same
 /// pieces for any number of ranks. Collective. Throws CollectiveError (input), naming `path`, where there are
 /// pyramids or prisms.
-mesh::DistributedMesh pieces_of(const parallel::Communicator& communicator, const io::FileMesh& mesh,
-                                const std::string& path, std::optional<std::int64_t> piece_tets);
+mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& path,
+                                std::optional<std::int64_t> piece_tets);
 
 /// Reads a file (io/read_mesh.hpp) and cuts it. Collective. Throws CollectiveError when the file cannot be
 /// read or is no conforming mesh of tetrahedra.

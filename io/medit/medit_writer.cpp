@@ -145,8 +145,8 @@ void write_share(const FileMesh& mesh, const MeditLayout& layout, bool is_root, 
 
 }  // namespace
 
-void write_medit(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
-                 const MeditOptions& options) {
+void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptions& options) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension != ".meshb" && extension != ".mesh") {
     throw parallel::CollectiveError(parallel::FailureKind::input,

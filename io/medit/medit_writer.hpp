@@ -21,7 +21,6 @@ struct MeditOptions {
 /// ridges, corners, geometry. Every rank writes its own part of the file through a buffer of 1 MiB.
 /// Collective; the bytes depend on the parts alone. Throws CollectiveError (files); (input) where the name
 /// ends otherwise.
-void write_medit(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
-                 const MeditOptions& options = {});
+void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptions& options = {});
 
 }  // namespace aeroloom::io

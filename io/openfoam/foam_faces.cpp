@@ -105,8 +105,7 @@ struct PartRow {
 };
 
 /// By part. Collective.
-std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, const FileMesh& mesh,
-                                 const FaceLinks& links) {
+std::vector<PartRow> gather_rows(const FileMesh& mesh, const FaceLinks& links) {
   std::vector<PartRow> mine;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const FilePart& part = mesh.parts[i];
@@ -114,7 +113,7 @@ std::vector<PartRow> gather_rows(const parallel::Communicator& communicator, con
                     for_owned_faces(part, links.pieces[i],
                                     [](LocalIndex, std::int32_t, const CellNeighbour&, GlobalIndex) {})});
   }
-  return mesh::gather_by_piece(communicator, *mesh.pieces, mine);
+  return mesh::gather_by_piece(*mesh.pieces, mine);
 }
 
 /// Notes of a part to others about the faces between them.
@@ -300,11 +299,10 @@ FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
   return result;
 }
 
-FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh,
-                    const FaceLinks& links) {
+FoamPlan plan_faces(const FileMesh& mesh, const FaceLinks& links) {
   require_closed(links.defects);
   FoamPlan plan;
-  for (const PartRow& row : gather_rows(communicator, mesh, links)) {
+  for (const PartRow& row : gather_rows(mesh, links)) {
     plan.first_cell.push_back(plan.cells);
     plan.first_inner_face.push_back(plan.faces);
     plan.cells += row.cells;
@@ -317,7 +315,7 @@ FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& 
   }
   std::vector<mesh::Told<FoamFaceNote>> notes;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) add_notes(mesh, mesh.parts[i], links.pieces[i], notes);
-  plan.notes = mesh::tell_cells(communicator, *mesh.pieces, std::move(notes));
+  plan.notes = mesh::tell_cells(*mesh.pieces, std::move(notes));
   return plan;
 }
 

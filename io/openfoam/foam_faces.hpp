@@ -63,8 +63,7 @@ struct FoamPlan {
 };
 
 /// Throws CollectiveError (input) where faces are left open or more than two cells meet. Collective.
-FoamPlan plan_faces(const parallel::Communicator& communicator, const FileMesh& mesh,
-                    const mesh::FaceLinks& links);
+FoamPlan plan_faces(const FileMesh& mesh, const mesh::FaceLinks& links);
 
 /// The faces of one part. Not collective.
 FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const mesh::PieceLinks& links,

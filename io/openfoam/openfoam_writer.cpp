@@ -265,8 +265,8 @@ private:
   fs::path _folder;
 };
 
-FoamFormat format_of(const parallel::Communicator& communicator, const FileMesh& mesh, const FoamPlan& plan,
-                     const OpenFoamOptions& options) {
+FoamFormat format_of(const FileMesh& mesh, const FoamPlan& plan, const OpenFoamOptions& options) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   GlobalIndex corners = 0;
   for (const FilePart& part : mesh.parts) {
     corners = std::max<GlobalIndex>(corners, 12 * GlobalIndex{part.cells[0].count()} +
@@ -290,14 +290,12 @@ int foam_label_bits(GlobalIndex cells, GlobalIndex faces, GlobalIndex points, Gl
   return largest > std::numeric_limits<std::int32_t>::max() ? 64 : 32;
 }
 
-void write_openfoam(const parallel::Communicator& communicator, const FileMesh& mesh,
-                    const std::string& folder, const OpenFoamOptions& options) {
-  const mesh::FaceLinks links = mesh::link_faces(communicator, *mesh.pieces, *mesh.numbering);
-  const FoamPlan plan = plan_faces(communicator, mesh, links);
-  const FoamMesh whole{mesh,
-                       plan,
-                       {foam_patches(mesh.patches), foam_words(mesh.regions)},
-                       format_of(communicator, mesh, plan, options)};
+void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces, *mesh.numbering);
+  const FoamPlan plan = plan_faces(mesh, links);
+  const FoamMesh whole{
+      mesh, plan, {foam_patches(mesh.patches), foam_words(mesh.regions)}, format_of(mesh, plan, options)};
   const FoamCase foam_case{folder, mesh.part_count};
   const bool is_external =
       std::any_of(mesh.patches.begin(), mesh.patches.end(),

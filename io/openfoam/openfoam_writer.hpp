@@ -28,8 +28,7 @@ struct OpenFoamOptions {
 /// `folder`: of the case. Meshes of an earlier run in it go. Throws CollectiveError: files with the path,
 /// also where processor folders beyond the parts hold results; input where faces of the mesh are open.
 /// Nothing stays half written. A rank holds the face order of one part at a time. Collective.
-void write_openfoam(const parallel::Communicator& communicator, const FileMesh& mesh,
-                    const std::string& folder, const OpenFoamOptions& options = {});
+void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options = {});
 
 /// 32, or 64 where a number of the mesh, or of the corners of faces of one part, needs it.
 int foam_label_bits(mesh::GlobalIndex cells, mesh::GlobalIndex faces, mesh::GlobalIndex points,

@@ -155,9 +155,9 @@ void remove_markers(const parallel::Communicator& communicator, const std::strin
   });
 }
 
-void write_markers(const parallel::Communicator& communicator, const std::string& mesh_path,
-                   const FileMesh& mesh, const BoundaryPatches& patches,
+void write_markers(const std::string& mesh_path, const FileMesh& mesh, const BoundaryPatches& patches,
                    const std::vector<std::string>& names) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const std::string text = markers_text(mesh_path, mesh, patches, names);
   parallel::write_shared_file(communicator, markers_path_of(mesh_path), [&](parallel::SharedFile& file) {
     if (communicator.is_root()) file.write_items(0, std::span<const char>(text));

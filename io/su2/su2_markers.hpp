@@ -29,8 +29,7 @@ void remove_markers(const parallel::Communicator& communicator, const std::strin
 /// condition. Walls are MARKER_HEATFLUX (adiabatic), slip MARKER_EULER, symmetry MARKER_SYM, farfield
 /// MARKER_FAR; inlets and outlets stand in comments, as values of their own must be filled in. Collective;
 /// throws CollectiveError (files).
-void write_markers(const parallel::Communicator& communicator, const std::string& mesh_path,
-                   const FileMesh& mesh, const BoundaryPatches& patches,
+void write_markers(const std::string& mesh_path, const FileMesh& mesh, const BoundaryPatches& patches,
                    const std::vector<std::string>& names);
 
 /// Gives patches the conditions that NAME_markers.cfg has for their names, where there is one; comments that

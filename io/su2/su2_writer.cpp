@@ -150,7 +150,8 @@ std::vector<std::int64_t> place(const std::vector<std::string>& headings, std::v
 
 }  // namespace
 
-void write_su2(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+void write_su2(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const std::vector<std::string> headings = headings_of(mesh, patches, names);
@@ -175,7 +176,7 @@ void write_su2(const parallel::Communicator& communicator, const FileMesh& mesh,
     }
     writer.flush();
   });
-  write_markers(communicator, path, mesh, patches, names);
+  write_markers(path, mesh, patches, names);
 }
 
 }  // namespace aeroloom::io

@@ -20,7 +20,7 @@ namespace aeroloom::io {
 
 /// The bytes depend on the parts alone; text is made twice, to know its length, and never held. Collective;
 /// throws CollectiveError (files) where it cannot be written.
-void write_su2(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
-void write_su2b(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
+void write_su2(const FileMesh& mesh, const std::string& path);
+void write_su2b(const FileMesh& mesh, const std::string& path);
 
 }  // namespace aeroloom::io

@@ -142,7 +142,8 @@ void write_share(const FileMesh& mesh, const BoundaryPatches& patches, const std
 
 }  // namespace
 
-void write_su2b(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+void write_su2b(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const bool is_narrow = su2b_layout(counts_of(mesh, patches)).integer_bytes == 4;
@@ -156,7 +157,7 @@ void write_su2b(const parallel::Communicator& communicator, const FileMesh& mesh
       write_share<std::uint64_t>(mesh, patches, names, is_root, writer);
     }
   });
-  write_markers(communicator, path, mesh, patches, names);
+  write_markers(path, mesh, patches, names);
 }
 
 }  // namespace aeroloom::io

@@ -122,7 +122,8 @@ NormalAxis normal_axis_of(const geometry::Box& box) {
 }
 
 /// The box around a patch. Collective.
-geometry::Box box_of(const parallel::Communicator& communicator, const FileMesh& mesh, std::int32_t patch) {
+geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
   for (const FilePart& part : mesh.parts) {
     for (const Block& block : part.faces) {
@@ -142,8 +143,7 @@ geometry::Box box_of(const parallel::Communicator& communicator, const FileMesh&
 }
 
 /// Collective.
-std::string mapbc_text(const parallel::Communicator& communicator, const FileMesh& mesh,
-                       const BoundaryPatches& patches) {
+std::string mapbc_text(const FileMesh& mesh, const BoundaryPatches& patches) {
   std::vector<std::string> names;
   for (const std::int32_t id : patches.ids) names.push_back(mesh.patches[id].name);
   // List-directed reads of Fortran end a name at a comma, a semicolon or a slash, and take quotes and stars
@@ -152,9 +152,8 @@ std::string mapbc_text(const parallel::Communicator& communicator, const FileMes
   std::string text = fmt::format("{}\n", patches.size());
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const mesh::PatchType type = mesh.patches[patches.ids[i]].type;
-    const NormalAxis axis = type == mesh::PatchType::symmetry
-                                ? normal_axis_of(box_of(communicator, mesh, patches.ids[i]))
-                                : NormalAxis::none;
+    const NormalAxis axis =
+        type == mesh::PatchType::symmetry ? normal_axis_of(box_of(mesh, patches.ids[i])) : NormalAxis::none;
     text += fmt::format("{} {} {}\n", i + 1, mapbc_code_of(type, axis), names[i]);
   }
   return text;
@@ -162,7 +161,8 @@ std::string mapbc_text(const parallel::Communicator& communicator, const FileMes
 
 }  // namespace
 
-void write_ugrid(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+void write_ugrid(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   UgridKind kind;
   parallel::agree(communicator, [&] {
     kind = ugrid_kind_of(path);
@@ -179,7 +179,7 @@ void write_ugrid(const parallel::Communicator& communicator, const FileMesh& mes
       write_parts_of_rank<std::int64_t>(mesh, patches, communicator.is_root(), writer);
     }
   });
-  const std::string text = mapbc_text(communicator, mesh, patches);
+  const std::string text = mapbc_text(mesh, patches);
   parallel::write_shared_file(communicator, mapbc_path_of(path), [&](parallel::SharedFile& file) {
     if (communicator.is_root()) file.write_items(0, std::span<const char>(text));
   });

@@ -19,6 +19,6 @@ namespace aeroloom::io {
 
 /// The bytes depend on the parts alone. Collective; throws CollectiveError: input where the name has no UGRID
 /// suffix or the mesh does not fit its integers, files where it cannot be written.
-void write_ugrid(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
+void write_ugrid(const FileMesh& mesh, const std::string& path);
 
 }  // namespace aeroloom::io

@@ -149,9 +149,9 @@ SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
 
 }  // namespace
 
-void write_surface(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                   const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
-                   Compression compression) {
+void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                   const std::string& directory, const std::string& name, Compression compression) {
+  const parallel::Communicator& communicator = surface.communicator;
   const PartFiles files{directory, name, "pvtp", "vtp"};
   const std::size_t parts =
       write_parts(communicator, pieces_of(surface, numbering), PartContent::faces, faces_per_part, files,
@@ -165,9 +165,9 @@ void write_surface(const parallel::Communicator& communicator, const mesh::Distr
               index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
-void write_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
-                   const std::string& directory, const std::string& name, Compression compression,
-                   SurfaceFaces faces) {
+void write_surface(const FileMesh& mesh, const std::string& directory, const std::string& name,
+                   Compression compression, SurfaceFaces faces) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const PartFiles files{directory, name, "pvtp", "vtp"};
   const SelectedFaces selected = select_faces(mesh, faces);
   const std::size_t parts =

@@ -126,8 +126,9 @@ void write_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, cons
 
 }  // namespace
 
-void write_volume(const parallel::Communicator& communicator, const FileMesh& mesh,
-                  const std::string& directory, const std::string& name, Compression compression) {
+void write_volume(const FileMesh& mesh, const std::string& directory, const std::string& name,
+                  Compression compression) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const PartFiles files{directory, name, "pvtu", "vtu"};
   const std::size_t parts =
       write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file(mesh.cell_count()),
@@ -142,10 +143,9 @@ void write_volume(const parallel::Communicator& communicator, const FileMesh& me
               index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
-void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                  const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
-                  Compression compression) {
-  write_volume(communicator, file_mesh_of(communicator, mesh, numbering), directory, name, compression);
+void write_volume(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                  const std::string& directory, const std::string& name, Compression compression) {
+  write_volume(file_mesh_of(mesh, numbering), directory, name, compression);
 }
 
 }  // namespace aeroloom::io

@@ -33,27 +33,25 @@ constexpr mesh::GlobalIndex cells_per_vtk_file(mesh::GlobalIndex cells) {
 /// (global ids, CellShape's direction) and `boundary_offsets` (k + 1, from 0). Vertices that no cell uses are
 /// left out. One part is in VTK's form at a time on each rank. The files are the same bytes for any number of
 /// ranks. Collective; throws CollectiveError (files) when a file cannot be written.
-void write_volume(const parallel::Communicator& communicator, const FileMesh& mesh,
-                  const std::string& directory, const std::string& name,
+void write_volume(const FileMesh& mesh, const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
 /// Writes a mesh of tetrahedra.
-void write_volume(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh,
-                  const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
+void write_volume(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+                  const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
 
 /// Writes DIRECTORY/NAME.pvtp and its parts in DIRECTORY/NAME/. Cell arrays `face` and `patch` (ids),
 /// `quality`; field arrays `face_names` and `patch_names`; point array `global_id`. Collective, as
 /// write_volume.
-void write_surface(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                   const mesh::Numbering& numbering, const std::string& directory, const std::string& name,
+void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+                   const std::string& directory, const std::string& name,
                    Compression compression = Compression::none);
 /// Of the patches of a mesh.
 enum class SurfaceFaces { outside, between_regions };
 /// The boundary faces of a mesh, or those between its regions: triangles and quadrilaterals by part, then
 /// shape, then patch. Cell arrays `piece` and `patch`; field arrays `patch_names` and `patch_types` (of all
 /// patches); point array `global_id`, of the volume mesh. Collective, as write_volume.
-void write_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
-                   const std::string& directory, const std::string& name,
+void write_surface(const FileMesh& mesh, const std::string& directory, const std::string& name,
                    Compression compression = Compression::none, SurfaceFaces faces = SurfaceFaces::outside);
 
 /// Writes single triangles, e.g. offenders of a failure, to one .vtp file. Not collective.

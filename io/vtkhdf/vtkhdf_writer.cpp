@@ -31,8 +31,8 @@ GridCounts counts_of(std::int64_t points, const std::array<Block, N>& blocks) {
 }
 
 /// One row per part of the whole mesh, by its id.
-std::vector<GridCounts> gather_rows(const parallel::Communicator& communicator, const FileMesh& mesh,
-                                    const std::vector<GridCounts>& mine) {
+std::vector<GridCounts> gather_rows(const FileMesh& mesh, const std::vector<GridCounts>& mine) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   struct PartCounts {
     std::int64_t part;
     GridCounts counts;
@@ -165,15 +165,16 @@ void write_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const GridC
 
 }  // namespace
 
-void write_vtkhdf(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path) {
+void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::vector<GridCounts> cells, faces;
   for (const FilePart& part : mesh.parts) {
     cells.push_back(counts_of(part.vertex_count(), part.cells));
     faces.push_back(counts_of(0, part.faces));
   }
-  const std::vector<GridCounts> rows = gather_rows(communicator, mesh, cells);
+  const std::vector<GridCounts> rows = gather_rows(mesh, cells);
   const std::vector<GridCounts> before = vtkhdf::sums_before(rows);
-  const std::vector<GridCounts> faces_before = vtkhdf::sums_before(gather_rows(communicator, mesh, faces));
+  const std::vector<GridCounts> faces_before = vtkhdf::sums_before(gather_rows(mesh, faces));
   vtkhdf::GridPlaces grid;
   vtkhdf::BoundaryPlaces boundary;
   std::vector<hdf5::Extent> structure;
@@ -196,13 +197,13 @@ void write_vtkhdf(const parallel::Communicator& communicator, const FileMesh& me
   });
 }
 
-void write_vtkhdf_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
-                          const std::string& path) {
+void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::vector<GridCounts> faces;
   for (const FilePart& part : mesh.parts) {
     faces.push_back(counts_of(static_cast<std::int64_t>(vertices_of_faces(part).size()), part.faces));
   }
-  const std::vector<GridCounts> rows = gather_rows(communicator, mesh, faces);
+  const std::vector<GridCounts> rows = gather_rows(mesh, faces);
   const std::vector<GridCounts> before = vtkhdf::sums_before(rows);
   vtkhdf::GridPlaces grid;
   std::vector<hdf5::Extent> structure;

@@ -17,13 +17,12 @@ namespace aeroloom::io {
 /// are there too): Connectivity (by global_id), Offsets (faces + 1), Types (VTK's 5 and 9), Patch (index of
 /// PatchNames and PatchTypes, the latter in the words of mesh::PatchType). Collective; throws CollectiveError
 /// (files) where it cannot be written. The bytes depend on the parts alone.
-void write_vtkhdf(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path);
+void write_vtkhdf(const FileMesh& mesh, const std::string& path);
 
 /// Writes the boundary faces and those between regions to `path` as a /VTKHDF grid of their own, for viewers:
 /// partitions, points and `global_id` are laid out as in write_vtkhdf, with cell data `part` and `patch`,
 /// field data `patch_names` and `patch_types`. Collective; throws CollectiveError (files) where the file
 /// cannot be written.
-void write_vtkhdf_surface(const parallel::Communicator& communicator, const FileMesh& mesh,
-                          const std::string& path);
+void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path);
 
 }  // namespace aeroloom::io

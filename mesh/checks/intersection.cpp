@@ -294,8 +294,8 @@ std::vector<VertexName> name_vertices(const Piece& piece) {
   return names;
 }
 
-std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const DistributedMesh& surface) {
+std::vector<TriangleHit> find_intersections(const DistributedMesh& surface) {
+  const parallel::Communicator& communicator = surface.communicator;
   using parallel::ScopedCpu;
   std::vector<Batch> batches;
   std::vector<Triangles> contents;

@@ -32,7 +32,6 @@ std::vector<VertexName> name_vertices(const Piece& piece);
 /// All hits, ascending, the same on every rank. Triangles are spread over ranks by place for the test.
 /// Vertices are the same when their shared-vertex keys are (across pieces) or their indices (within one).
 /// Collective.
-std::vector<TriangleHit> find_intersections(const parallel::Communicator& communicator,
-                                            const DistributedMesh& surface);
+std::vector<TriangleHit> find_intersections(const DistributedMesh& surface);
 
 }  // namespace aeroloom::mesh

@@ -77,8 +77,9 @@ bool are_same_in_order(const DistributedMesh& mesh, const DistributedMesh& surfa
 
 }  // namespace
 
-void check_same_triangles(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                          const DistributedMesh& surface, Findings& in_mesh, Findings& in_surface) {
+void check_same_triangles(const DistributedMesh& mesh, const DistributedMesh& surface, Findings& in_mesh,
+                          Findings& in_surface) {
+  const parallel::Communicator& communicator = mesh.communicator;
   parallel::agree(communicator, [&] {
     for (const Piece& piece : surface.pieces) require_consistent_arrays(piece);
   });

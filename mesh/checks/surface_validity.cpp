@@ -39,8 +39,7 @@ void check_degenerate(const DistributedMesh& mesh, Findings& findings) {
   }
 }
 
-void check_repeated(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                    const Numbering& numbering, Findings& findings) {
+void check_repeated(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
   const auto triangles = [](const Piece& piece, const auto& sink) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
@@ -51,28 +50,27 @@ void check_repeated(const parallel::Communicator& communicator, const Distribute
   const auto judge = [](std::span<const Member> members) {
     return members.size() > 1 ? std::optional(Violation::repeated_triangle) : std::nullopt;
   };
-  match_all<3>(communicator, mesh, numbering,
+  match_all<3>(mesh, numbering,
                Matching{{Entity::boundary_face, Entity::boundary_face}, triangles, no_label, judge},
                findings);
 }
 
 }  // namespace
 
-ValidityReport check_surface_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                  const Numbering& numbering) {
-  require_checkable(communicator, mesh, CellKind::triangle, numbering);
+ValidityReport check_surface_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
+  require_checkable(mesh, CellKind::triangle, numbering);
   ValidityReport report;
   Findings findings;
   check_finite_coordinates(mesh, numbering, findings);
-  check_shared_coordinates(communicator, mesh, numbering, findings);
+  check_shared_coordinates(mesh, numbering, findings);
   check_orphans(mesh, numbering, findings);
   check_labels(mesh, findings);
   check_degenerate(mesh, findings);
-  check_repeated(communicator, mesh, numbering, findings);
-  check_boundary_edges(communicator, mesh, numbering, findings);
-  report.violations = findings.sentences(communicator, mesh);
+  check_repeated(mesh, numbering, findings);
+  check_boundary_edges(mesh, numbering, findings);
+  report.violations = findings.sentences(mesh);
 
-  report.region_volumes = enclosed_volumes(communicator, mesh);
+  report.region_volumes = enclosed_volumes(mesh);
   for (RegionId region = 0; region < mesh.region_count(); ++region) {
     const double volume = report.region_volumes[region];
     report.volume += volume;

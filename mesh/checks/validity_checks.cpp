@@ -89,8 +89,8 @@ void for_each_run(const DistributedMesh& mesh, const Piece& piece, Visit&& visit
 }
 
 /// The centre of the box around the finite points of each region's boundary: sums taken about it lose least.
-std::vector<Vec3> centers_of_regions(const parallel::Communicator& communicator,
-                                     const DistributedMesh& mesh) {
+std::vector<Vec3> centers_of_regions(const DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   struct RegionBox {
     RegionId region;
     geometry::Box box;
@@ -133,8 +133,8 @@ double cone_volume6(const Piece& piece, LocalIndex face, Vec3 apex) {
 
 }  // namespace
 
-void require_checkable(const parallel::Communicator& communicator, const DistributedMesh& mesh, CellKind kind,
-                       const Numbering& numbering) {
+void require_checkable(const DistributedMesh& mesh, CellKind kind, const Numbering& numbering) {
+  const parallel::Communicator& communicator = mesh.communicator;
   parallel::agree(communicator, [&] {
     if (mesh.kind != kind) throw std::logic_error("the mesh has cells of another kind");
     bool fits = numbering.vertices.size() == mesh.pieces.size();
@@ -187,8 +187,8 @@ void check_labels(const DistributedMesh& mesh, Findings& findings) {
   }
 }
 
-void check_shared_coordinates(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                              const Numbering& numbering, Findings& findings) {
+void check_shared_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<SharedPoint> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
@@ -209,8 +209,7 @@ void check_shared_coordinates(const parallel::Communicator& communicator, const 
   });
 }
 
-void check_boundary_edges(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                          const Numbering& numbering, Findings& findings) {
+void check_boundary_edges(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
   const auto edges = [&](const Piece& piece, const auto& sink) {
     std::uint32_t item = 0;
     for (LocalIndex f = 0; f < boundary_face_count(piece); ++f) {
@@ -227,7 +226,7 @@ void check_boundary_edges(const parallel::Communicator& communicator, const Dist
     const FaceSides sides = mesh.sides_of(cad_face_of(piece, face_at_edge(piece, item).face));
     return role == front_role ? sides.front : sides.back;
   };
-  match_all<2>(communicator, mesh, numbering,
+  match_all<2>(mesh, numbering,
                Matching{{Entity::boundary_edge, Entity::boundary_edge}, edges, region, judge_edge}, findings);
 }
 
@@ -237,8 +236,8 @@ void CompensatedSum::add(double term) {
   _sum = sum;
 }
 
-std::vector<double> sum_by_region(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                  const std::vector<RegionTerm>& terms) {
+std::vector<double> sum_by_region(const DistributedMesh& mesh, const std::vector<RegionTerm>& terms) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<RegionTerm> all = communicator.all_gather_items(std::span<const RegionTerm>(terms));
   std::sort(all.begin(), all.end(), [](const RegionTerm& a, const RegionTerm& b) {
     return std::tie(a.region, a.piece) < std::tie(b.region, b.piece);
@@ -251,9 +250,8 @@ std::vector<double> sum_by_region(const parallel::Communicator& communicator, co
   return values;
 }
 
-std::vector<double> enclosed_volumes(const parallel::Communicator& communicator,
-                                     const DistributedMesh& mesh) {
-  const std::vector<Vec3> centers = centers_of_regions(communicator, mesh);
+std::vector<double> enclosed_volumes(const DistributedMesh& mesh) {
+  const std::vector<Vec3> centers = centers_of_regions(mesh);
   std::vector<RegionTerm> terms;
   for (const Piece& piece : mesh.pieces) {
     std::map<RegionId, CompensatedSum> sums;
@@ -263,7 +261,7 @@ std::vector<double> enclosed_volumes(const parallel::Communicator& communicator,
     });
     for (const auto& [region, sum] : sums) terms.push_back({region, piece.id, sum.value()});
   }
-  return sum_by_region(communicator, mesh, terms);
+  return sum_by_region(mesh, terms);
 }
 
 std::string region_prefix(const DistributedMesh& mesh, RegionId region) {

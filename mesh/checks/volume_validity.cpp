@@ -148,8 +148,7 @@ void enumerate_faces(const Piece& piece, const Sink& sink) {
 
 /// Triangles with N = 3, those of tetrahedra among them; quadrilaterals with N = 4.
 template <std::size_t N>
-void check_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                 const Numbering& numbering, Findings& findings) {
+void check_faces(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
   const auto faces = [](const Piece& piece, const auto& sink) { enumerate_faces<N>(piece, sink); };
   const auto label = [](const Piece& piece, int role, std::int64_t item) {
     if (role != cell_role) return cad_face_of(piece, static_cast<LocalIndex>(item));
@@ -164,7 +163,7 @@ void check_faces(const parallel::Communicator& communicator, const DistributedMe
     const FaceSides sides = parts.triangle ? mesh.sides_of(parts.triangle->label) : FaceSides{};
     return parts.cells == 1 ? judge_one_cell(parts, sides) : judge_two_cells(parts, sides);
   };
-  match_all<N>(communicator, mesh, numbering,
+  match_all<N>(mesh, numbering,
                Matching{{Entity::cell_face, Entity::boundary_face},
                         faces,
                         label,
@@ -174,19 +173,20 @@ void check_faces(const parallel::Communicator& communicator, const DistributedMe
 }
 
 /// Whether any piece has cells or faces of other shapes than tetrahedra and triangles. Collective.
-bool has_other_shapes(const parallel::Communicator& communicator, const DistributedMesh& mesh) {
+bool has_other_shapes(const DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   const bool here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
                                 [](const Piece& piece) { return !piece.has_tetrahedra_alone(); });
   return communicator.maximum(std::int64_t{here}) > 0;
 }
 
 /// Sums the cells and the divergence integral over the boundary, and compares, region by region.
-void check_volumes(const parallel::Communicator& communicator, const DistributedMesh& mesh, const char* cells,
-                   ValidityReport& report, Findings& findings) {
+void check_volumes(const DistributedMesh& mesh, const char* cells, ValidityReport& report,
+                   Findings& findings) {
   std::vector<RegionTerm> of_cells;
   for (const Piece& piece : mesh.pieces) measure_cells(piece, of_cells, findings);
-  report.region_volumes = sum_by_region(communicator, mesh, of_cells);
-  const std::vector<double> enclosed = enclosed_volumes(communicator, mesh);
+  report.region_volumes = sum_by_region(mesh, of_cells);
+  const std::vector<double> enclosed = enclosed_volumes(mesh);
   for (RegionId region = 0; region < mesh.region_count(); ++region) {
     const double filled = report.region_volumes[region], surrounded = enclosed[region];
     report.volume += filled;
@@ -200,25 +200,26 @@ void check_volumes(const parallel::Communicator& communicator, const Distributed
 
 }  // namespace
 
-ValidityReport check_volume_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const Numbering& numbering, const DistributedMesh* surface) {
-  require_checkable(communicator, mesh, CellKind::tetrahedron, numbering);
+ValidityReport check_volume_mesh(const DistributedMesh& mesh, const Numbering& numbering,
+                                 const DistributedMesh* surface) {
+  const parallel::Communicator& communicator = mesh.communicator;
+  require_checkable(mesh, CellKind::tetrahedron, numbering);
   ValidityReport report;
   Findings in_mesh, in_surface;
   check_finite_coordinates(mesh, numbering, in_mesh);
-  check_shared_coordinates(communicator, mesh, numbering, in_mesh);
+  check_shared_coordinates(mesh, numbering, in_mesh);
   check_orphans(mesh, numbering, in_mesh);
   check_labels(mesh, in_mesh);
-  const bool mixed = has_other_shapes(communicator, mesh);
-  check_volumes(communicator, mesh, mixed ? "cells" : "tetrahedra", report, in_mesh);
-  check_faces<3>(communicator, mesh, numbering, in_mesh);
-  if (mixed) check_faces<4>(communicator, mesh, numbering, in_mesh);
+  const bool mixed = has_other_shapes(mesh);
+  check_volumes(mesh, mixed ? "cells" : "tetrahedra", report, in_mesh);
+  check_faces<3>(mesh, numbering, in_mesh);
+  if (mixed) check_faces<4>(mesh, numbering, in_mesh);
   // The boundary of a boundary is nothing: where all faces are sound, the triangles around a region close.
-  if (in_mesh.any(communicator)) check_boundary_edges(communicator, mesh, numbering, in_mesh);
-  if (surface != nullptr) check_same_triangles(communicator, mesh, *surface, in_mesh, in_surface);
-  std::vector<std::string> sentences = in_mesh.sentences(communicator, mesh);
+  if (in_mesh.any(communicator)) check_boundary_edges(mesh, numbering, in_mesh);
+  if (surface != nullptr) check_same_triangles(mesh, *surface, in_mesh, in_surface);
+  std::vector<std::string> sentences = in_mesh.sentences(mesh);
   if (surface != nullptr) {
-    for (auto& sentence : in_surface.sentences(communicator, *surface)) sentences.push_back(sentence);
+    for (auto& sentence : in_surface.sentences(*surface)) sentences.push_back(sentence);
   }
   if (numbering.cell_count == 0) sentences.push_back("the mesh has no tetrahedra");
   report.violations.insert(report.violations.begin(), sentences.begin(), sentences.end());

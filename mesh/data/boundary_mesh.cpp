@@ -63,9 +63,9 @@ std::vector<LocalIndex> triangles_by_face(const Piece& piece) {
   return order;
 }
 
-DistributedMesh boundary_mesh(const parallel::Communicator& communicator, const DistributedMesh& volume,
-                              const Numbering& numbering) {
-  DistributedMesh surface;
+DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& numbering) {
+  const parallel::Communicator& communicator = volume.communicator;
+  DistributedMesh surface(communicator);
   surface.kind = CellKind::triangle;
   surface.patches = volume.patches;
   surface.faces = volume.faces;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -38,9 +39,16 @@ struct MeshFacts {
   }
 };
 
-/// The pieces of one mesh that live on this rank. Data and queries; algorithms are free functions.
+/// The pieces of one mesh that live on this rank, and the ranks that have all of them. Data and queries;
+/// algorithms are free functions, collective over the ranks of the mesh where they say "Collective.".
 struct DistributedMesh : MeshFacts {
-  std::vector<Piece> pieces;  ///< on this rank, ascending id
+  /// Of no ranks: only to be assigned to.
+  DistributedMesh() = default;
+  explicit DistributedMesh(parallel::Communicator ranks, MeshFacts facts = {})
+      : MeshFacts(std::move(facts)), communicator(std::move(ranks)) {}
+
+  parallel::Communicator communicator;  ///< the ranks that have the pieces
+  std::vector<Piece> pieces;            ///< on this rank, ascending id
 
   RegionId region_count() const { return regions.empty() ? 1 : static_cast<RegionId>(regions.size()); }
   FaceSides sides_of(std::int32_t face) const {
@@ -75,17 +83,14 @@ class SharedVertices;
 /// Collective. Pieces that share a shared-vertex key must agree on its coordinates bit for bit; a mismatch
 /// throws on all ranks. `shared` are those of the mesh (mesh/exchange/shared_vertices.hpp), where somebody
 /// has them.
-Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh);
-Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                      const SharedVertices& shared);
+Numbering number_mesh(const DistributedMesh& mesh);
+Numbering number_mesh(const DistributedMesh& mesh, const SharedVertices& shared);
 
 /// The number of each local piece's first cell, and of all cells. Collective.
-void number_cells(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                  Numbering& numbering);
+void number_cells(const DistributedMesh& mesh, Numbering& numbering);
 
 /// Moves pieces so that piece p lives on rank owner[p]; `owner` is the same on every rank. Collective.
-void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
-             const std::vector<parallel::Rank>& owner);
+void migrate(DistributedMesh& mesh, const std::vector<parallel::Rank>& owner);
 
 /// Counts of the whole mesh: cells of all shapes, boundary triangles and quadrilaterals of the domain, and
 /// those of faces between two regions.
@@ -94,13 +99,11 @@ struct MeshCounts {
   GlobalIndex pyramids = 0, prisms = 0, boundary_quads = 0, inner_quads = 0;
 };
 /// Collective.
-MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                      const Numbering& numbering);
+MeshCounts count_mesh(const DistributedMesh& mesh, const Numbering& numbering);
 
 /// The 128-bit hash of the mesh as 32 hexadecimal digits: coordinate bits, cells, classification, patches and
 /// boundary faces in global numbering, regions. Independent of ranks; flipping any one bit changes it.
 /// Collective.
-std::string hash_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                      const Numbering& numbering);
+std::string hash_mesh(const DistributedMesh& mesh, const Numbering& numbering);
 
 }  // namespace aeroloom::mesh

@@ -19,8 +19,8 @@ using parallel::deliver;
 /// mesh.pieces. Throws CollectiveError when the pieces of all ranks are not exactly 0 .. piece_count - 1.
 /// Collective.
 template <parallel::Flat Row>
-std::vector<Row> gather_by_piece(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const std::vector<Row>& rows) {
+std::vector<Row> gather_by_piece(const DistributedMesh& mesh, const std::vector<Row>& rows) {
+  const parallel::Communicator& communicator = mesh.communicator;
   struct Tagged {
     Row row;
     PieceId piece;
@@ -51,12 +51,10 @@ inline std::size_t position_of(const DistributedMesh& mesh, PieceId id) {
 
 /// Sums over the pieces of lower id, per local piece; the total comes last. `counts` as
 /// rows of gather_by_piece. Collective.
-inline std::vector<GlobalIndex> first_by_piece(const parallel::Communicator& communicator,
-                                               const DistributedMesh& mesh,
+inline std::vector<GlobalIndex> first_by_piece(const DistributedMesh& mesh,
                                                const std::vector<GlobalIndex>& counts) {
   std::vector<GlobalIndex> first(1, 0);
-  for (const GlobalIndex count : gather_by_piece(communicator, mesh, counts))
-    first.push_back(first.back() + count);
+  for (const GlobalIndex count : gather_by_piece(mesh, counts)) first.push_back(first.back() + count);
   std::vector<GlobalIndex> result;
   for (const Piece& piece : mesh.pieces) result.push_back(first[piece.id]);
   result.push_back(first.back());

@@ -158,8 +158,8 @@ Findings::Table Findings::over_all_ranks(const parallel::Communicator& communica
   return total;
 }
 
-std::vector<std::string> Findings::sentences(const parallel::Communicator& communicator,
-                                             const DistributedMesh& mesh) const {
+std::vector<std::string> Findings::sentences(const DistributedMesh& mesh) const {
+  const parallel::Communicator& communicator = mesh.communicator;
   const Table table = over_all_ranks(communicator);
   std::vector<OffenderPlace> mine;
   for (std::size_t v = 0; v < violation_count; ++v) {

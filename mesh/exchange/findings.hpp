@@ -63,8 +63,7 @@ public:
 
   /// One sentence per broken rule, the same on every rank: its count over all ranks, and piece and
   /// coordinates of the first offender. `mesh` is the one the offenders belong to. Collective.
-  std::vector<std::string> sentences(const parallel::Communicator& communicator,
-                                     const DistributedMesh& mesh) const;
+  std::vector<std::string> sentences(const DistributedMesh& mesh) const;
 
 private:
   struct Finding {

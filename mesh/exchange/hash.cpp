@@ -156,20 +156,19 @@ void add_regions(const DistributedMesh& mesh, Sum128& sum) {
 }
 
 /// Global number of each local piece's first boundary face of a shape; the total comes last.
-std::vector<GlobalIndex> first_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                     FaceShape shape) {
+std::vector<GlobalIndex> first_faces(const DistributedMesh& mesh, FaceShape shape) {
   std::vector<GlobalIndex> counts;
   for (const Piece& piece : mesh.pieces)
     counts.push_back(static_cast<GlobalIndex>(cad_faces_of(piece, shape).size()));
-  return first_by_piece(communicator, mesh, counts);
+  return first_by_piece(mesh, counts);
 }
 
 }  // namespace
 
-std::string hash_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                      const Numbering& numbering) {
-  const std::vector<GlobalIndex> first_triangle = first_faces(communicator, mesh, FaceShape::triangle),
-                                 first_quad = first_faces(communicator, mesh, FaceShape::quadrilateral);
+std::string hash_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
+  const parallel::Communicator& communicator = mesh.communicator;
+  const std::vector<GlobalIndex> first_triangle = first_faces(mesh, FaceShape::triangle),
+                                 first_quad = first_faces(mesh, FaceShape::quadrilateral);
   Sum128 mine;
   if (mesh.kind == CellKind::tetrahedron) add_regions(mesh, mine);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {

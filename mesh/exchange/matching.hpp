@@ -91,8 +91,8 @@ public:
   Matcher(const Matching<Enumerate, Label, Judge>& what, Findings& findings)
       : _what(what), _findings(findings) {}
 
-  void match(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-             const Numbering& numbering) {
+  void match(const DistributedMesh& mesh, const Numbering& numbering) {
+    const parallel::Communicator& communicator = mesh.communicator;
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i) match_inside(mesh.pieces[i], numbering.vertices[i]);
     match_across(communicator);
   }
@@ -261,10 +261,9 @@ private:
 
 /// Matches and judges all faces (N = 3, 4) or edges (N = 2). See Matcher. Collective.
 template <std::size_t N, class Enumerate, class Label, class Judge>
-void match_all(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-               const Numbering& numbering, const Matching<Enumerate, Label, Judge>& what,
-               Findings& findings) {
-  Matcher<N, Enumerate, Label, Judge>(what, findings).match(communicator, mesh, numbering);
+void match_all(const DistributedMesh& mesh, const Numbering& numbering,
+               const Matching<Enumerate, Label, Judge>& what, Findings& findings) {
+  Matcher<N, Enumerate, Label, Judge>(what, findings).match(mesh, numbering);
 }
 
 }  // namespace aeroloom::mesh

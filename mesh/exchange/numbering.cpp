@@ -26,8 +26,8 @@ struct Knower {
 };
 
 /// Throws on all ranks, with the lowest offending vertex, when two pieces disagree on a coordinate bit.
-void require_agreement(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                       const SharedVertices& shared) {
+void require_agreement(const DistributedMesh& mesh, const SharedVertices& shared) {
+  const parallel::Communicator& communicator = mesh.communicator;
   struct Clash {
     Knower first, second;
     static constexpr auto fields() { return std::tuple(&Clash::first, &Clash::second); }
@@ -78,11 +78,10 @@ Numbering mark_owned(const DistributedMesh& mesh, const SharedVertices& shared) 
 }
 
 /// Vertices in turn, in the order of piece ids.
-void number_owned(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                  Numbering& numbering) {
+void number_owned(const DistributedMesh& mesh, Numbering& numbering) {
   std::vector<GlobalIndex> counts;
   for (const auto& owned : numbering.owned) counts.push_back(std::count(owned.begin(), owned.end(), 1));
-  const std::vector<GlobalIndex> first = first_by_piece(communicator, mesh, counts);
+  const std::vector<GlobalIndex> first = first_by_piece(mesh, counts);
   numbering.vertex_count = first.back();
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     GlobalIndex next = first[i];
@@ -104,34 +103,33 @@ void spread_numbers(const SharedVertices& shared, Numbering& numbering) {
 
 }  // namespace
 
-Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh) {
+Numbering number_mesh(const DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   parallel::agree(communicator, [&] {
     for (const Piece& piece : mesh.pieces) require_consistent_arrays(piece);
   });
-  return number_mesh(communicator, mesh, SharedVertices(communicator, mesh));
+  return number_mesh(mesh, SharedVertices(mesh));
 }
 
-Numbering number_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                      const SharedVertices& shared) {
-  require_agreement(communicator, mesh, shared);
+Numbering number_mesh(const DistributedMesh& mesh, const SharedVertices& shared) {
+  require_agreement(mesh, shared);
   Numbering numbering = mark_owned(mesh, shared);
-  number_owned(communicator, mesh, numbering);
-  number_cells(communicator, mesh, numbering);
+  number_owned(mesh, numbering);
+  number_cells(mesh, numbering);
   spread_numbers(shared, numbering);
   return numbering;
 }
 
-void number_cells(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                  Numbering& numbering) {
+void number_cells(const DistributedMesh& mesh, Numbering& numbering) {
   std::vector<GlobalIndex> counts;
   for (const Piece& piece : mesh.pieces) counts.push_back(piece.total_cell_count());
-  numbering.first_cell = first_by_piece(communicator, mesh, counts);
+  numbering.first_cell = first_by_piece(mesh, counts);
   numbering.cell_count = numbering.first_cell.back();
   numbering.first_cell.pop_back();
 }
 
-MeshCounts count_mesh(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                      const Numbering& numbering) {
+MeshCounts count_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
+  const parallel::Communicator& communicator = mesh.communicator;
   MeshCounts mine{numbering.vertex_count, numbering.cell_count};
   for (const Piece& piece : mesh.pieces) {
     for (const std::int32_t face : piece.triangle_face)

@@ -52,8 +52,8 @@ struct SharedVertices::Link {
   }
 };
 
-SharedVertices::SharedVertices(const parallel::Communicator& communicator, const DistributedMesh& mesh)
-    : SharedVertices(communicator, keyed_by_vertex_keys(mesh)) {}
+SharedVertices::SharedVertices(const DistributedMesh& mesh)
+    : SharedVertices(mesh.communicator, keyed_by_vertex_keys(mesh)) {}
 
 SharedVertices::SharedVertices(const parallel::Communicator& communicator,
                                std::span<const KeyedVertices> pieces)

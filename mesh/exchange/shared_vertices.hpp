@@ -28,7 +28,7 @@ struct KeyedVertices {
 class SharedVertices {
 public:
   /// From the shared-vertex keys of the mesh, whose arrays fit together. Collective.
-  SharedVertices(const parallel::Communicator& communicator, const DistributedMesh& mesh);
+  explicit SharedVertices(const DistributedMesh& mesh);
   /// From other keys; pieces in any order, each on one rank. Collective. Both throw CollectiveError when a
   /// piece has a key twice.
   SharedVertices(const parallel::Communicator& communicator, std::span<const KeyedVertices> pieces);

@@ -98,8 +98,8 @@ std::vector<Introduction> introduce(const parallel::Communicator& communicator,
 
 }  // namespace
 
-FaceLinks link_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                     const Numbering& numbering) {
+FaceLinks link_faces(const DistributedMesh& mesh, const Numbering& numbering) {
+  const parallel::Communicator& communicator = mesh.communicator;
   FaceLinks links;
   std::vector<LoneSide> lone;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)

@@ -47,8 +47,7 @@ struct FaceLinks {
 
 /// Matches the faces of all cells by the numbers of their vertices; only sides that find no other cell in
 /// their piece travel. Takes 16 bytes a side: the checks of mesh/checks/validity.hpp do without. Collective.
-FaceLinks link_faces(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                     const Numbering& numbering);
+FaceLinks link_faces(const DistributedMesh& mesh, const Numbering& numbering);
 
 /// Something that a cell, or its piece, is told.
 template <parallel::Flat T>
@@ -61,10 +60,10 @@ struct Told {
 /// Takes what cells are told to where they live. Returns what those of this rank are told, by cell and side.
 /// Collective.
 template <parallel::Flat T>
-std::vector<Told<T>> tell_cells(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                std::vector<Told<T>> words) {
-  const std::vector<parallel::Rank> rank_of = gather_by_piece(
-      communicator, mesh, std::vector<parallel::Rank>(mesh.pieces.size(), communicator.rank()));
+std::vector<Told<T>> tell_cells(const DistributedMesh& mesh, std::vector<Told<T>> words) {
+  const parallel::Communicator& communicator = mesh.communicator;
+  const std::vector<parallel::Rank> rank_of =
+      gather_by_piece(mesh, std::vector<parallel::Rank>(mesh.pieces.size(), communicator.rank()));
   words = deliver(communicator, std::move(words),
                   [&](const Told<T>& word) { return rank_of[static_cast<std::size_t>(word.cell.piece)]; });
   std::sort(words.begin(), words.end(), [](const Told<T>& a, const Told<T>& b) { return a.cell < b.cell; });

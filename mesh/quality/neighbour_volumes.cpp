@@ -24,8 +24,7 @@ std::vector<double> volumes_of(const Piece& piece) {
 
 }  // namespace
 
-NeighbourVolumes compare_volumes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const FaceLinks& links) {
+NeighbourVolumes compare_volumes(const DistributedMesh& mesh, const FaceLinks& links) {
   NeighbourVolumes result;
   for (const Piece& piece : mesh.pieces) {
     result.volumes.push_back(volumes_of(piece));
@@ -51,7 +50,7 @@ NeighbourVolumes compare_volumes(const parallel::Communicator& communicator, con
       }
     }
   }
-  for (const auto& [cell, volume] : tell_cells(communicator, mesh, std::move(volumes)))
+  for (const auto& [cell, volume] : tell_cells(mesh, std::move(volumes)))
     meet(position_of(mesh, cell.piece), cell.cell, volume);
   return result;
 }

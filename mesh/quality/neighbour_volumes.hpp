@@ -15,7 +15,6 @@ struct NeighbourVolumes {
 };
 
 /// Collective.
-NeighbourVolumes compare_volumes(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const FaceLinks& links);
+NeighbourVolumes compare_volumes(const DistributedMesh& mesh, const FaceLinks& links);
 
 }  // namespace aeroloom::mesh

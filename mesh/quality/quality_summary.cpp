@@ -127,12 +127,13 @@ Distribution distribution_of(const parallel::Communicator& communicator, Accumul
 
 }  // namespace
 
-QualitySummary summarise_quality(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                 const Numbering& numbering, CellsOutside* outside) {
+QualitySummary summarise_quality(const DistributedMesh& mesh, const Numbering& numbering,
+                                 CellsOutside* outside) {
+  const parallel::Communicator& communicator = mesh.communicator;
   CellsOutside nobody_asks;
   LocalSummary local = summarise_local(mesh, numbering, outside != nullptr ? *outside : nobody_asks);
   Values sums{};
-  for (const Values& piece : gather_by_piece(communicator, mesh, local.sums)) {
+  for (const Values& piece : gather_by_piece(mesh, local.sums)) {
     for (int m = 0; m < measures; ++m) sums.of[m] += piece.of[m];
   }
   const auto distribution = [&](SummaryMeasure m) {

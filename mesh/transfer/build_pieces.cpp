@@ -159,8 +159,9 @@ void order_vertices(Piece& piece, std::vector<GlobalIndex>& numbers, std::vector
 
 }  // namespace
 
-NumberedMesh build_pieces(const parallel::Communicator& communicator, PieceItems items,
-                          const VertexTables& vertices, Ownership ownership, DistributedMesh names) {
+NumberedMesh build_pieces(PieceItems items, const VertexTables& vertices, Ownership ownership,
+                          DistributedMesh names) {
+  const parallel::Communicator communicator = names.communicator;
   NumberedMesh result{std::move(names), {}};
   DistributedMesh& mesh = result.mesh;
   Numbering& numbering = result.numbering;
@@ -182,9 +183,9 @@ NumberedMesh build_pieces(const parallel::Communicator& communicator, PieceItems
   }
   items = {};
   fetch_vertices(vertices, known, mesh.pieces);
-  SharedVertices shared(communicator, mesh);
+  SharedVertices shared(mesh);
   if (ownership == Ownership::by_piece) {
-    numbering = number_mesh(communicator, mesh, shared);
+    numbering = number_mesh(mesh, shared);
     shared.drop_unshared(mesh);
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
       order_vertices(mesh.pieces[i], numbering.vertices[i], numbering.owned[i]);
@@ -198,7 +199,7 @@ NumberedMesh build_pieces(const parallel::Communicator& communicator, PieceItems
   }
   numbering.vertices = std::move(known);
   numbering.vertex_count = count;
-  number_cells(communicator, mesh, numbering);
+  number_cells(mesh, numbering);
   return result;
 }
 

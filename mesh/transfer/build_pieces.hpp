@@ -81,7 +81,7 @@ struct VertexTables {
 /// Sends the items to the ranks of their pieces and puts these together: cells by region, faces by patch,
 /// each in their order; vertices ascend by number, shared-vertex keys are the numbers that `items` came with.
 /// `names` is the mesh without pieces. Collective; the same for any number of ranks.
-NumberedMesh build_pieces(const parallel::Communicator& communicator, PieceItems items,
-                          const VertexTables& vertices, Ownership ownership, DistributedMesh names);
+NumberedMesh build_pieces(PieceItems items, const VertexTables& vertices, Ownership ownership,
+                          DistributedMesh names);
 
 }  // namespace aeroloom::mesh

@@ -10,8 +10,8 @@ namespace aeroloom::mesh {
 
 namespace {
 
-void require_valid_owners(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                          const std::vector<parallel::Rank>& owner) {
+void require_valid_owners(const DistributedMesh& mesh, const std::vector<parallel::Rank>& owner) {
+  const parallel::Communicator& communicator = mesh.communicator;
   if (owner.size() != static_cast<std::size_t>(mesh.piece_count)) {
     throw std::logic_error("migrate: not one owner per piece");
   }
@@ -21,9 +21,9 @@ void require_valid_owners(const parallel::Communicator& communicator, const Dist
 
 }  // namespace
 
-void migrate(const parallel::Communicator& communicator, DistributedMesh& mesh,
-             const std::vector<parallel::Rank>& owner) {
-  parallel::agree(communicator, [&] { require_valid_owners(communicator, mesh, owner); });
+void migrate(DistributedMesh& mesh, const std::vector<parallel::Rank>& owner) {
+  const parallel::Communicator communicator = mesh.communicator;
+  parallel::agree(communicator, [&] { require_valid_owners(mesh, owner); });
   std::vector<Piece> staying;
   std::map<parallel::Rank, parallel::Packer> leaving;
   for (Piece& piece : mesh.pieces) {

@@ -18,7 +18,8 @@ namespace {
 /// Places along the curve, over the box of the whole mesh.
 class Curve {
 public:
-  Curve(const parallel::Communicator& communicator, const DistributedMesh& mesh) {
+  Curve(const DistributedMesh& mesh) {
+    const parallel::Communicator& communicator = mesh.communicator;
     constexpr double huge = std::numeric_limits<double>::infinity();
     std::array<double, 3> low{huge, huge, huge}, high{-huge, -huge, -huge};
     for (const Piece& piece : mesh.pieces) {
@@ -97,8 +98,8 @@ private:
 };
 
 /// Cells by region, of all ranks. Collective.
-std::vector<GlobalIndex> cells_by_region(const parallel::Communicator& communicator,
-                                         const DistributedMesh& mesh) {
+std::vector<GlobalIndex> cells_by_region(const DistributedMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<GlobalIndex> cells(static_cast<std::size_t>(mesh.region_count()), 0);
   for (const Piece& piece : mesh.pieces) {
     for (const CellShape shape : cell_shapes) {
@@ -116,10 +117,9 @@ struct RegionShare {
   PieceId first = 0, count = 1;
 };
 
-std::vector<RegionShare> share_out(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                                   PieceId pieces, PieceRegions regions) {
+std::vector<RegionShare> share_out(const DistributedMesh& mesh, PieceId pieces, PieceRegions regions) {
   if (regions == PieceRegions::several) return {{0, pieces}};
-  const std::vector<GlobalIndex> cells = cells_by_region(communicator, mesh);
+  const std::vector<GlobalIndex> cells = cells_by_region(mesh);
   const GlobalIndex all =
       std::max<GlobalIndex>(1, std::accumulate(cells.begin(), cells.end(), GlobalIndex{0}));
   std::vector<RegionShare> shares;
@@ -136,10 +136,9 @@ std::vector<RegionShare> share_out(const parallel::Communicator& communicator, c
 /// The new piece of each cell on this rank, by local piece and cell.
 class Cutter {
 public:
-  Cutter(const parallel::Communicator& communicator, const DistributedMesh& mesh, PieceId pieces,
-         PieceRegions regions)
-      : _mesh(mesh), _shares(share_out(communicator, mesh, pieces, regions)), _pieces_of(mesh.pieces.size()) {
-    const Curve curve(communicator, mesh);
+  Cutter(const DistributedMesh& mesh, PieceId pieces, PieceRegions regions)
+      : _mesh(mesh), _shares(share_out(mesh, pieces, regions)), _pieces_of(mesh.pieces.size()) {
+    const Curve curve(mesh);
     std::vector<std::vector<std::uint64_t>> keys(_shares.size());
     std::vector<std::vector<std::uint64_t>> of_piece(mesh.pieces.size());
     for_each_cell([&](std::size_t p, CellOfPiece cell, std::size_t group) {
@@ -148,7 +147,7 @@ public:
     });
     std::vector<Cuts> cuts;
     for (std::size_t g = 0; g < _shares.size(); ++g)
-      cuts.emplace_back(communicator, std::move(keys[g]), std::max(1, _shares[g].count));
+      cuts.emplace_back(mesh.communicator, std::move(keys[g]), std::max(1, _shares[g].count));
     for_each_cell([&](std::size_t p, CellOfPiece, std::size_t group) {
       const std::uint64_t key = of_piece[p][_pieces_of[p].size()];
       _pieces_of[p].push_back(_shares[group].first + cuts[group].share(key));
@@ -250,7 +249,7 @@ void for_each_owned(const DistributedMesh& mesh, const Numbering& numbering, con
 }
 
 DistributedMesh names_of(const DistributedMesh& mesh) {
-  DistributedMesh names;
+  DistributedMesh names(mesh.communicator);
   names.patches = mesh.patches;
   names.patch_types = mesh.patch_types;
   names.faces = mesh.faces;
@@ -261,12 +260,13 @@ DistributedMesh names_of(const DistributedMesh& mesh) {
 
 }  // namespace
 
-NumberedMesh repartition(const parallel::Communicator& communicator, const DistributedMesh& mesh,
-                         const Numbering& numbering, PieceId pieces, PieceRegions regions) {
+NumberedMesh repartition(const DistributedMesh& mesh, const Numbering& numbering, PieceId pieces,
+                         PieceRegions regions) {
+  const parallel::Communicator& communicator = mesh.communicator;
   DistributedMesh names = names_of(mesh);
   PieceItems items;
   {
-    const Cutter cutter(communicator, mesh, std::max(1, pieces), regions);
+    const Cutter cutter(mesh, std::max(1, pieces), regions);
     names.piece_count = cutter.piece_count();
     for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
       ItemsOfPiece of_piece(mesh.pieces[p], numbering.vertices[p], items);
@@ -292,7 +292,7 @@ NumberedMesh repartition(const parallel::Communicator& communicator, const Distr
   const bool all_classified = communicator.minimum(std::int64_t{is_classified}) == 1;
   if (!all_classified) classes.clear();
   const VertexClassTable class_table(communicator, ranges, std::move(classes));
-  return build_pieces(communicator, std::move(items), {point_table, all_classified ? &class_table : nullptr},
+  return build_pieces(std::move(items), {point_table, all_classified ? &class_table : nullptr},
                       Ownership::by_piece, std::move(names));
 }
 

@@ -126,18 +126,19 @@ private:
 
 }  // namespace
 
-NumberedMesh split_pieces(const parallel::Communicator& communicator, const DistributedMesh& surface,
-                          LocalIndex most, const std::vector<std::int32_t>& whole) {
+NumberedMesh split_pieces(const DistributedMesh& surface, LocalIndex most,
+                          const std::vector<std::int32_t>& whole) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::vector<std::int32_t> counts;
   for (const Piece& piece : surface.pieces) {
     const bool stays = std::binary_search(whole.begin(), whole.end(), piece.common_face());
     counts.push_back(stays ? 1 : std::max(1, (piece.cell_count() + most - 1) / most));
   }
-  const std::vector<std::int32_t> all_counts = gather_by_piece(communicator, surface, counts);
+  const std::vector<std::int32_t> all_counts = gather_by_piece(surface, counts);
   std::vector<PieceId> first(1, 0);
   for (const std::int32_t count : all_counts) first.push_back(first.back() + count);
   NumberedMesh result;
-  static_cast<MeshFacts&>(result.mesh) = surface;
+  result.mesh = DistributedMesh(communicator, surface);
   result.mesh.piece_count = first.back();
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const Piece& piece = surface.pieces[p];
@@ -154,9 +155,9 @@ NumberedMesh split_pieces(const parallel::Communicator& communicator, const Dist
   }
   std::vector<double> loads;
   for (const Piece& piece : result.mesh.pieces) loads.push_back(piece.cell_count());
-  loads = gather_by_piece(communicator, result.mesh, loads);
-  migrate(communicator, result.mesh, parallel::assign_in_order(loads, communicator.size()));
-  result.numbering = number_mesh(communicator, result.mesh);
+  loads = gather_by_piece(result.mesh, loads);
+  migrate(result.mesh, parallel::assign_in_order(loads, communicator.size()));
+  result.numbering = number_mesh(result.mesh);
   return result;
 }
 

@@ -15,7 +15,7 @@ namespace aeroloom::mesh {
 /// parts of one piece share get new ones. Ranks get runs of pieces, which are
 /// near each other, by their triangles. Collective; the same for any
 /// number of ranks.
-NumberedMesh split_pieces(const parallel::Communicator& communicator, const DistributedMesh& surface,
-                          LocalIndex most, const std::vector<std::int32_t>& whole);
+NumberedMesh split_pieces(const DistributedMesh& surface, LocalIndex most,
+                          const std::vector<std::int32_t>& whole);
 
 }  // namespace aeroloom::mesh

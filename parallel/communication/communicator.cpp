@@ -139,19 +139,24 @@ Communicator Communicator::self() {
   return Communicator(session::self());
 }
 
+const CommunicatorHandle& Communicator::handle() const {
+  if (!_handle) throw std::logic_error("a communicator of no ranks was used");
+  return *_handle;
+}
+
 const CommunicatorHandle& Communicator::usable_handle() const {
   if (!session::is_library_running()) {
     throw std::logic_error("a communicator was used after the end of MPI");
   }
-  return *_handle;
+  return handle();
 }
 
 Rank Communicator::rank() const {
-  return _handle->rank;
+  return handle().rank;
 }
 
 int Communicator::size() const {
-  return _handle->size;
+  return handle().size;
 }
 
 void Communicator::barrier() const {

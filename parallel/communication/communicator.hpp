@@ -29,6 +29,8 @@ struct CommunicatorHandle;
 /// library throw std::runtime_error.
 class Communicator {
 public:
+  /// No group: every member function throws std::logic_error.
+  Communicator() = default;
   /// All ranks of the program. Throws std::logic_error without a living Environment.
   static Communicator world();
   /// This rank alone. Throws std::logic_error unless MPI runs. For the host's own groups see host.hpp.
@@ -85,6 +87,8 @@ public:
 private:
   friend class NodeMemory;
   friend struct HostAccess;
+  const CommunicatorHandle& handle() const;
+  /// While MPI runs.
   const CommunicatorHandle& usable_handle() const;
   /// The number of bytes of every rank.
   std::vector<std::uint64_t> all_sizes(std::uint64_t mine) const;

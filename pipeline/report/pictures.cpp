@@ -82,17 +82,15 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 }
 
 Subject find_subject(const Communicator& communicator, const PictureSource& source) {
-  Subject subject{communicator, source, picture::find_scene(communicator, source.surface, source.types),
-                  {},           {},     {}};
-  subject.neighbours =
-      picture::find_edge_neighbours(communicator, source.surface, source.numbering, subject.scene.shown);
+  Subject subject{communicator, source, picture::find_scene(source.surface, source.types), {}, {}, {}};
+  subject.neighbours = picture::find_edge_neighbours(source.surface, source.numbering, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
 
 /// Collective.
-std::vector<LegendItem> legend_of_cuts(const Communicator& communicator,
-                                       const mesh::DistributedMesh& volume) {
+std::vector<LegendItem> legend_of_cuts(const mesh::DistributedMesh& volume) {
+  const Communicator& communicator = volume.communicator;
   std::vector<LegendItem> legend;
   legend.reserve(picture::angle_classes.size());
   for (const picture::AngleClass& each : picture::angle_classes) {
@@ -313,7 +311,7 @@ Picture painted_cut(const Subject& subject, const mesh::DistributedMesh& volume,
        .caption = std::move(caption),
        .width = camera.window.width,
        .height = camera.window.height,
-       .legend = legend_of_cuts(subject.communicator, volume)},
+       .legend = legend_of_cuts(volume)},
       [&](Canvas& canvas) {
         draw_cut(canvas, camera, volume, plane, 0.8);
         draw_section(canvas, camera, subject.source.surface, subject.scene, plane, 2);
@@ -366,9 +364,9 @@ std::vector<Picture> make_all(const Communicator& communicator, const PictureSou
   const Subject subject = find_subject(communicator, source);
   const auto& surface = source.surface;
   const std::optional<Place> edge =
-      find_leading_edge(communicator, surface, source.numbering, subject.neighbours, subject.scene);
+      find_leading_edge(surface, source.numbering, subject.neighbours, subject.scene);
   const std::optional<Place> junction =
-      find_junction(communicator, surface, source.numbering, subject.neighbours, subject.scene);
+      find_junction(surface, source.numbering, subject.neighbours, subject.scene);
   std::vector<Picture> pictures{body_picture(subject), views_picture(subject)};
   if (edge) pictures.push_back(leading_edge_picture(subject, *edge));
   if (junction) pictures.push_back(junction_picture(subject, *junction));

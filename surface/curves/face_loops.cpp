@@ -88,9 +88,9 @@ std::int32_t FaceLoops::find(SharedVertexKey vertex_key) const {
                                    vertex_keys.begin());
 }
 
-std::map<cad::FaceId, FaceLoops> gather_loops(const parallel::Communicator& communicator,
-                                              const mesh::DistributedMesh& surface,
+std::map<cad::FaceId, FaceLoops> gather_loops(const mesh::DistributedMesh& surface,
                                               std::span<const cad::FaceId> faces) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::vector<EdgeRow> rows;
   for (const mesh::Piece& piece : surface.pieces) list_edges(piece, rows);
   const std::vector<parallel::Rank> owners = deal_faces(communicator, rows, faces);

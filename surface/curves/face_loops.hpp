@@ -28,8 +28,7 @@ struct FaceLoops {
 /// The loops of these faces (ascending, the same on every rank), each on one rank, dealt by their lengths.
 /// An edge belongs to a loop where triangles of several faces meet at it; cuts between pieces are none.
 /// Collective.
-std::map<cad::FaceId, FaceLoops> gather_loops(const parallel::Communicator& communicator,
-                                              const mesh::DistributedMesh& surface,
+std::map<cad::FaceId, FaceLoops> gather_loops(const mesh::DistributedMesh& surface,
                                               std::span<const cad::FaceId> faces);
 
 }  // namespace aeroloom::surface

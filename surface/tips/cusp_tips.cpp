@@ -198,8 +198,7 @@ std::vector<ClosedTip> describe(const CurveMesh& curves, const std::vector<Tip>&
 
 }  // namespace
 
-std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicator, const Model& model,
-                                       const CurveMesh& curves, double widest,
+std::vector<ClosedTip> close_cusp_tips(const Model& model, const CurveMesh& curves, double widest,
                                        mesh::DistributedMesh& surface) {
   std::vector<Tip> tips;
   for (const SharpCorner& corner : curves.sharp_corners) {
@@ -208,7 +207,7 @@ std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicato
     if (!tip.pairs.empty()) tips.push_back(std::move(tip));
   }
   if (tips.empty()) return {};
-  tips = closable_tips(communicator, curves, surface, std::move(tips));
+  tips = closable_tips(curves, surface, std::move(tips));
   if (tips.empty()) return {};
   const ClosedVertices closed(model, curves, tips);
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);

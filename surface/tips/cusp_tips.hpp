@@ -27,8 +27,7 @@ inline constexpr double closing_width = 0.3;
 /// as the curves are apart by less than `widest`. A vertex on several curves counts as part of the CAD
 /// vertex. A tip stays that has vertices between its curves, or whose curves other faces join. By
 /// face, the same on every rank. Collective.
-std::vector<ClosedTip> close_cusp_tips(const parallel::Communicator& communicator, const cad::Model& model,
-                                       const CurveMesh& curves, double widest,
+std::vector<ClosedTip> close_cusp_tips(const cad::Model& model, const CurveMesh& curves, double widest,
                                        mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::surface

@@ -46,9 +46,9 @@ void add_long_legs(const Piece& piece, const LocalIndex* v, const sizing::SizeFi
 
 }  // namespace
 
-NeedleRemedies find_needle_remedies(const parallel::Communicator& communicator,
-                                    const mesh::DistributedMesh& surface, const std::vector<Needle>& needles,
+NeedleRemedies find_needle_remedies(const mesh::DistributedMesh& surface, const std::vector<Needle>& needles,
                                     const sizing::SizeField& field) {
+  const parallel::Communicator& communicator = surface.communicator;
   NeedleRemedies mine;
   for (const Needle& needle : needles) {
     if (needle.cause != NeedleCause::mesh) continue;

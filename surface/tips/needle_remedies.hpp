@@ -18,8 +18,7 @@ struct NeedleRemedies {
 /// Most needles stand on a short segment of a curve amid large elements: twice its length lets elements grow
 /// from it. Others stand along the leg of a sharp corner of a neighbouring face. Collective, the same on
 /// every rank.
-NeedleRemedies find_needle_remedies(const parallel::Communicator& communicator,
-                                    const mesh::DistributedMesh& surface, const std::vector<Needle>& needles,
+NeedleRemedies find_needle_remedies(const mesh::DistributedMesh& surface, const std::vector<Needle>& needles,
                                     const sizing::SizeField& field);
 
 }  // namespace aeroloom::surface

@@ -172,9 +172,9 @@ std::vector<Needle> find_needles(const cad::Model& model, const CurveMesh& curve
   return needles;
 }
 
-std::vector<NeedleGroup> group_needles(const parallel::Communicator& communicator,
-                                       const mesh::DistributedMesh& surface,
+std::vector<NeedleGroup> group_needles(const mesh::DistributedMesh& surface,
                                        const std::vector<Needle>& needles) {
+  const parallel::Communicator& communicator = surface.communicator;
   const auto order = [](const NeedleGroup& a, const NeedleGroup& b) {
     return std::tie(a.face, a.cause, a.degrees, a.at.x, a.at.y, a.at.z) <
            std::tie(b.face, b.cause, b.degrees, b.at.x, b.at.y, b.at.z);

@@ -24,8 +24,7 @@ std::vector<Needle> find_needles(const cad::Model& model, const CurveMesh& curve
                                  const mesh::DistributedMesh& surface);
 
 /// Needles by CAD face and cause, the same on every rank and for any number of ranks. Collective.
-std::vector<NeedleGroup> group_needles(const parallel::Communicator& communicator,
-                                       const mesh::DistributedMesh& surface,
+std::vector<NeedleGroup> group_needles(const mesh::DistributedMesh& surface,
                                        const std::vector<Needle>& needles);
 
 }  // namespace aeroloom::surface

@@ -123,8 +123,9 @@ std::int32_t closable_pairs(const Piece& piece, const Tip& tip, const std::vecto
 }
 
 /// Tips whose pieces let them close, cut to the pairs that do. Collective.
-std::vector<Tip> agree_on_tips(const parallel::Communicator& communicator, const CurveMesh& curves,
-                               const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
+std::vector<Tip> agree_on_tips(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                               std::vector<Tip> tips) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::vector<Closing> mine;
   parallel::agree(communicator, [&] {
     for (const Piece& piece : surface.pieces) {
@@ -263,8 +264,9 @@ private:
 };
 
 /// Without tips that other faces keep open. Collective.
-std::vector<Tip> without_open(const parallel::Communicator& communicator, const CurveMesh& curves,
-                              const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
+std::vector<Tip> without_open(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                              std::vector<Tip> tips) {
+  const parallel::Communicator& communicator = surface.communicator;
   Closure closure(curves.points.size(), tips);
   std::vector<CurveTriangle> triangles =
       communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
@@ -280,10 +282,10 @@ std::vector<Tip> without_open(const parallel::Communicator& communicator, const 
 
 }  // namespace
 
-std::vector<Tip> closable_tips(const parallel::Communicator& communicator, const CurveMesh& curves,
-                               const mesh::DistributedMesh& surface, std::vector<Tip> tips) {
-  tips = agree_on_tips(communicator, curves, surface, std::move(tips));
-  return tips.empty() ? tips : without_open(communicator, curves, surface, std::move(tips));
+std::vector<Tip> closable_tips(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                               std::vector<Tip> tips) {
+  tips = agree_on_tips(curves, surface, std::move(tips));
+  return tips.empty() ? tips : without_open(curves, surface, std::move(tips));
 }
 
 }  // namespace aeroloom::surface

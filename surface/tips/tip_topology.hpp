@@ -29,7 +29,7 @@ std::int32_t level_in_tip(const mesh::LocalIndex* triangle, const std::vector<st
 /// Tips cut to the pairs that can become one, without those that have none: the triangles between the curves
 /// have no other vertices, one triangle ends them, and other faces neither join the two curves nor have
 /// triangles on both that would become one. Collective.
-std::vector<Tip> closable_tips(const parallel::Communicator& communicator, const CurveMesh& curves,
-                               const mesh::DistributedMesh& surface, std::vector<Tip> tips);
+std::vector<Tip> closable_tips(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                               std::vector<Tip> tips);
 
 }  // namespace aeroloom::surface

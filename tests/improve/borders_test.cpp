@@ -21,15 +21,16 @@ DistributedMesh shaken(const Communicator& communicator, std::uint32_t seed) {
   return mesh::examples::distribute(communicator, examples::shaken_cube(6, pieces, 0, seed), pieces);
 }
 
-std::string hash(const Communicator& communicator, const DistributedMesh& mesh) {
-  return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
+std::string hash(const DistributedMesh& mesh) {
+  return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
 }
 
-std::int64_t relax(const Communicator& communicator, DistributedMesh& mesh, int passes) {
-  return smooth_borders(communicator, mesh, mesh::SharedVertices(communicator, mesh), measure, passes);
+std::int64_t relax(DistributedMesh& mesh, int passes) {
+  return smooth_borders(mesh, mesh::SharedVertices(mesh), measure, passes);
 }
 
-double inverse_ratios(const Communicator& communicator, const DistributedMesh& mesh) {
+double inverse_ratios(const DistributedMesh& mesh) {
+  const Communicator& communicator = mesh.communicator;
   double sum = 0;
   for (const Piece& piece : mesh.pieces) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -40,7 +41,8 @@ double inverse_ratios(const Communicator& communicator, const DistributedMesh& m
   return communicator.sum(sum);
 }
 
-double worst(const Communicator& communicator, const DistributedMesh& mesh) {
+double worst(const DistributedMesh& mesh) {
+  const Communicator& communicator = mesh.communicator;
   double least = 1;
   for (const Piece& piece : mesh.pieces) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t)
@@ -53,12 +55,12 @@ TEST(BorderSmoothing, LiftsTheAverageAndNeverTheWorst) {
   const auto world = Communicator::world();
   for (std::uint32_t seed = 0; seed < 5; ++seed) {
     DistributedMesh mesh = shaken(world, seed);
-    double sum = inverse_ratios(world, mesh), least = worst(world, mesh);
+    double sum = inverse_ratios(mesh), least = worst(mesh);
     std::int64_t moves = 0;
     for (int pass = 0; pass < 3; ++pass) {
-      moves += relax(world, mesh, 1);
-      examples::expect_valid(world, mesh);
-      const double sum_after = inverse_ratios(world, mesh), least_after = worst(world, mesh);
+      moves += relax(mesh, 1);
+      examples::expect_valid(mesh);
+      const double sum_after = inverse_ratios(mesh), least_after = worst(mesh);
       EXPECT_LE(sum_after, sum);
       EXPECT_GE(least_after, least);
       sum = sum_after, least = least_after;
@@ -71,7 +73,7 @@ TEST(BorderSmoothing, MovesVerticesThatPiecesShareAndNoOthers) {
   const auto world = Communicator::world();
   DistributedMesh mesh = shaken(world, 11);
   const std::vector<Piece> before = mesh.pieces;
-  const std::int64_t moves = relax(world, mesh, 1);
+  const std::int64_t moves = relax(mesh, 1);
   std::int64_t moved = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
     const Piece& piece = mesh.pieces[p];
@@ -92,9 +94,9 @@ TEST(BorderSmoothing, DoesNotDependOnRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   for (std::uint32_t seed = 20; seed < 25; ++seed) {
     DistributedMesh together = shaken(world, seed), alone = shaken(self, seed);
-    const std::int64_t moves = relax(world, together, 2);
+    const std::int64_t moves = relax(together, 2);
     EXPECT_EQ(relax(self, alone, 2), moves);
-    EXPECT_EQ(hash(world, together), hash(self, alone));
+    EXPECT_EQ(hash(together), hash(self, alone));
   }
 }
 
@@ -190,8 +192,7 @@ TEST(BadCells, FollowRounds) {
     cavities::CavityClaims claims;
     for (int shift = 0; shift < 4; ++shift) {
       if (world.sum(claim_for_bad(mesh, bad, measure, shift, Effort::sparing, claims)) == 0) break;
-      bad.update(mesh, cavities::refill_cavities(world, mesh, mesh::SharedVertices(world, mesh),
-                                                 {claims, {}, improve}));
+      bad.update(mesh, cavities::refill_cavities(mesh, mesh::SharedVertices(mesh), {claims, {}, improve}));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
       BadState all;

@@ -33,11 +33,10 @@ TEST(ImproveMesh, DependsOnThePiecesAlone) {
   const auto self = parallel::Communicator::self();
   const auto improved_hash = [](const parallel::Communicator& communicator, ImproveReport& report) {
     DistributedMesh mesh = mesh::examples::distribute(communicator, examples::shaken_cube(5, 5, 30, 3), 5);
-    report = improve_mesh(communicator, mesh, {});
-    expect_valid(communicator, mesh);
-    EXPECT_EQ(mesh::SharedVertices(communicator, mesh).drop_unshared(mesh), 0)
-        << "vertices of one piece listed as shared";
-    return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
+    report = improve_mesh(mesh, {});
+    expect_valid(mesh);
+    EXPECT_EQ(mesh::SharedVertices(mesh).drop_unshared(mesh), 0) << "vertices of one piece listed as shared";
+    return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
   };
   ImproveReport spread, alone, again;
   const std::string hash = improved_hash(self, alone);
@@ -54,14 +53,14 @@ TEST(ImproveMesh, DependsOnThePiecesAlone) {
 TEST(ImproveMesh, OnlyLooksWhenDisabled) {
   const auto world = parallel::Communicator::world();
   DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(4, 3, 10, 5), 3);
-  const std::string hash = mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh));
+  const std::string hash = mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
   ImproveOptions options;
   options.enabled = false;
-  const ImproveReport report = improve_mesh(world, mesh, options);
+  const ImproveReport report = improve_mesh(mesh, options);
   EXPECT_GT(report.bad_before, 0);
   EXPECT_EQ(report.bad_after, report.bad_before);
   EXPECT_EQ(report.min_angle_after, report.min_angle_before);
-  EXPECT_EQ(mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh)), hash);
+  EXPECT_EQ(mesh::hash_mesh(mesh, mesh::number_mesh(mesh)), hash);
 }
 
 TEST(ImproveMesh, LeavesALatticeAsItIs) {
@@ -104,9 +103,9 @@ TEST(ImproveMesh, LeavesALatticeAsItIs) {
 TEST(ImproveMesh, WorksOnAFewRanksWithoutPieces) {
   const auto world = parallel::Communicator::world();
   DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(4, 1, 10, 6), 1);
-  const ImproveReport report = improve_mesh(world, mesh, {});
+  const ImproveReport report = improve_mesh(mesh, {});
   EXPECT_GT(report.min_angle_after, report.min_angle_before);
-  expect_valid(world, mesh);
+  expect_valid(mesh);
 }
 
 TEST(ImproveMesh, RefusesWhatItCannotDoOnAllRanks) {
@@ -114,10 +113,10 @@ TEST(ImproveMesh, RefusesWhatItCannotDoOnAllRanks) {
   DistributedMesh mesh = mesh::examples::distribute(world, examples::shaken_cube(3, 1, 0, 7), 1);
   ImproveOptions options;
   options.target_angle = 80;
-  EXPECT_THROW(improve_mesh(world, mesh, options), std::runtime_error);
-  DistributedMesh surface;
+  EXPECT_THROW(improve_mesh(mesh, options), std::runtime_error);
+  DistributedMesh surface(world);
   surface.kind = mesh::CellKind::triangle;
-  EXPECT_THROW(improve_mesh(world, surface, {}), std::runtime_error);
+  EXPECT_THROW(improve_mesh(surface, {}), std::runtime_error);
 }
 
 }  // namespace

@@ -133,8 +133,8 @@ TEST(ImproveOnCad, DependsOnThePiecesAlone) {
   const auto improved_hash = [&](const parallel::Communicator& communicator) {
     cad::PointLocator locator(model);
     mesh::DistributedMesh mesh = mesh::examples::distribute(communicator, shaken_on_cad(model, 5, 4), 5);
-    improve_mesh(communicator, mesh, {}, {&locator, nullptr});
-    return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
+    improve_mesh(mesh, {}, {&locator, nullptr});
+    return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
   };
   EXPECT_EQ(improved_hash(world), improved_hash(self));
 }

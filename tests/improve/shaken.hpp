@@ -115,9 +115,8 @@ inline Extremes examine(const std::vector<mesh::Piece>& pieces, double target_an
 }
 
 /// A valid mesh that fills the unit cube.
-inline void expect_valid(const parallel::Communicator& communicator, const mesh::DistributedMesh& mesh) {
-  const auto report =
-      mesh::check_volume_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh), nullptr);
+inline void expect_valid(const mesh::DistributedMesh& mesh) {
+  const auto report = mesh::check_volume_mesh(mesh, mesh::number_mesh(mesh), nullptr);
   EXPECT_TRUE(report.valid()) << report.violations.front();
   EXPECT_NEAR(report.volume, 1, 1e-12);
 }

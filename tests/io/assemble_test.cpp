@@ -53,8 +53,8 @@ RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
   return raw;
 }
 
-void expect_sound(const Communicator& world, const FileMesh& mesh) {
-  const mesh::LinkDefects defects = mesh::link_faces(world, *mesh.pieces, *mesh.numbering).defects;
+void expect_sound(const FileMesh& mesh) {
+  const mesh::LinkDefects defects = mesh::link_faces(*mesh.pieces, *mesh.numbering).defects;
   EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
 }
 
@@ -72,8 +72,8 @@ TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
     EXPECT_EQ(result.mesh.patches, whole.patches);
     EXPECT_EQ(result.mesh.patch_faces, examples::distribute(world, whole, 3).patch_faces);
     EXPECT_EQ(result.mesh.region_cells, examples::distribute(world, whole, 3).region_cells);
-    expect_sound(world, result.mesh);
-    expect_sound(world, repartition(world, result.mesh, 3));
+    expect_sound(result.mesh);
+    expect_sound(repartition(result.mesh, 3));
     for (const FilePart& part : result.mesh.parts) {
       for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
         const geometry::Vec3 p = whole.points[static_cast<std::size_t>(part.numbers[v])];
@@ -88,7 +88,7 @@ TEST(Assemble, OneMeshWhateverTheRanks) {
   const examples::MixedMesh whole(4, 3);
   const Assembled mine = assemble(world, raw_of(world, whole), "file", 5);
   const Assembled all = assemble(self, raw_of(self, whole), "file", 5);
-  const FileMesh cut = repartition(world, mine.mesh, 4), cut_alone = repartition(self, all.mesh, 4);
+  const FileMesh cut = repartition(mine.mesh, 4), cut_alone = repartition(self, all.mesh, 4);
   for (const auto& [some, every] : {std::pair(&mine.mesh, &all.mesh), std::pair(&cut, &cut_alone)}) {
     for (const FilePart& part : some->parts) {
       const FilePart& other = every->parts[static_cast<std::size_t>(part.id)];
@@ -119,7 +119,7 @@ TEST(Assemble, WhatTheFileLeavesOpenGetsAName) {
   EXPECT_EQ(result.mesh.patches[1].name, "lower layer_to_upper");
   EXPECT_EQ(result.mesh.patches[1].type, mesh::PatchType::interior);
   EXPECT_EQ(result.unnamed_faces, static_cast<GlobalIndex>(whole.faces.size()));
-  expect_sound(world, result.mesh);
+  expect_sound(result.mesh);
 }
 
 /// A cell whose neighbours all stand in the share of rank 0, as it does, and in its region.

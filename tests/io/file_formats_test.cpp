@@ -33,7 +33,7 @@ TEST_F(FileFormats, WhatIsReadIsTheMeshThatWasWritten) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
   for (const FormatName& format : format_names) {
     const std::string file = path("some" + std::string(format.extension));
-    write_mesh(world, mesh, format.format, file, {});
+    write_mesh(mesh, format.format, file, {});
     if (format.format == FileFormat::cgns || format.format == FileFormat::openfoam) {
       EXPECT_THROW(read_mesh(world, file, 1), parallel::CollectiveError);
       continue;
@@ -74,14 +74,14 @@ TEST_F(FileFormats, PatchesOfAPieceStandInAnyOrder) {
   const mesh::DistributedMesh straight = mesh::examples::mixed_mesh(world, 4, 3);
   mesh::DistributedMesh turned = straight;
   for (mesh::Piece& piece : turned.pieces) turn_patches_round(piece);
-  const mesh::Numbering numbering = mesh::number_mesh(world, straight);
+  const mesh::Numbering numbering = mesh::number_mesh(straight);
   for (const auto& [name, mesh] : {std::pair("straight", &straight), {"turned", &turned}}) {
-    const FileMesh layout = file_mesh_of(world, *mesh, numbering);
+    const FileMesh layout = file_mesh_of(*mesh, numbering);
     for (const FormatName& format : format_names) {
       const std::filesystem::path to = folder / name / std::string(format.name);
       if (world.is_root()) std::filesystem::create_directories(to);
       world.barrier();
-      write_mesh(world, layout, format.format, (to / ("mesh" + std::string(format.extension))).string(),
+      write_mesh(layout, format.format, (to / ("mesh" + std::string(format.extension))).string(),
                  {.surface = true});
     }
   }
@@ -100,7 +100,7 @@ TEST_F(FileFormats, FilesHaveTheNameThatIsSaid) {
     if (format.format == FileFormat::ugrid || format.format == FileFormat::ugrid64 ||
         format.format == FileFormat::meshb)
       continue;  // their names say more than the format
-    write_mesh(world, mesh, format.format, file, {});
+    write_mesh(mesh, format.format, file, {});
     EXPECT_TRUE(std::filesystem::is_regular_file(written_path(format.format, file))) << format.name;
   }
   EXPECT_EQ(written_path(FileFormat::vtu, "a/b.vtu"), "a/b.pvtu");
@@ -112,8 +112,8 @@ TEST_F(FileFormats, FilesHaveTheNameThatIsSaid) {
 
 TEST_F(FileFormats, SurfacesStandBesideVtuWhereTheyAreWanted) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
-  write_mesh(world, mesh, FileFormat::vtu, path("plain.pvtu"), {});
-  write_mesh(world, mesh, FileFormat::vtu, path("shown.pvtu"), {.surface = true});
+  write_mesh(mesh, FileFormat::vtu, path("plain.pvtu"), {});
+  write_mesh(mesh, FileFormat::vtu, path("shown.pvtu"), {.surface = true});
   world.barrier();
   EXPECT_FALSE(std::filesystem::exists(path("plain_surface.pvtp")));
   EXPECT_TRUE(std::filesystem::exists(path("shown_surface.pvtp")));
@@ -121,11 +121,11 @@ TEST_F(FileFormats, SurfacesStandBesideVtuWhereTheyAreWanted) {
 }
 
 TEST_F(FileFormats, RunsOfAFileAreCutAnewIntoParts) {
-  write_mesh(world, examples::mixed_mesh(world, 4, 3), FileFormat::su2b, path("whole.su2b"), {});
+  write_mesh(examples::mixed_mesh(world, 4, 3), FileFormat::su2b, path("whole.su2b"), {});
   const Assembled file = read_mesh(world, path("whole.su2b"), 3);
-  write_mesh(world, file.mesh, FileFormat::msh_parts, path("asked.msh"), {.parts = 3, .recut = true});
-  write_mesh(world, file.mesh, FileFormat::msh_parts, path("kept.msh"), {.parts = 3});
-  write_mesh(world, repartition(world, file.mesh, 3), FileFormat::msh_parts, path("cut.msh"), {});
+  write_mesh(file.mesh, FileFormat::msh_parts, path("asked.msh"), {.parts = 3, .recut = true});
+  write_mesh(file.mesh, FileFormat::msh_parts, path("kept.msh"), {.parts = 3});
+  write_mesh(repartition(file.mesh, 3), FileFormat::msh_parts, path("cut.msh"), {});
   for (const char* part : {"_1.msh", "_2.msh", "_3.msh"}) {
     const std::string cut = examples::bytes_of(path(std::string("cut") + part));
     EXPECT_FALSE(cut.empty());

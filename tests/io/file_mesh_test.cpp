@@ -46,8 +46,8 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
 TEST(FileMesh, PiecesBecomePartsWithoutCopies) {
   const Communicator world = Communicator::world();
   const mesh::DistributedMesh pieces = mesh::examples::two_tets(world);
-  const mesh::Numbering numbering = mesh::number_mesh(world, pieces);
-  const FileMesh mesh = file_mesh_of(world, pieces, numbering);
+  const mesh::Numbering numbering = mesh::number_mesh(pieces);
+  const FileMesh mesh = file_mesh_of(pieces, numbering);
   EXPECT_EQ(mesh.part_count, 2);
   EXPECT_EQ(mesh.vertex_count, 5);
   EXPECT_EQ(mesh.cell_count(), 2);
@@ -64,9 +64,9 @@ TEST(FileMesh, BrokenMeshesAreRefusedEverywhere) {
   const Communicator world = Communicator::world();
   const auto expect_refused = [&](const auto& spoil) {
     mesh::DistributedMesh pieces = mesh::examples::mixed_mesh(world, 2, 2);
-    mesh::Numbering numbering = mesh::number_mesh(world, pieces);
+    mesh::Numbering numbering = mesh::number_mesh(pieces);
     if (world.is_root()) spoil(pieces.pieces[0], numbering);
-    EXPECT_THROW(file_mesh_of(world, pieces, numbering), std::runtime_error);
+    EXPECT_THROW(file_mesh_of(pieces, numbering), std::runtime_error);
   };
   using mesh::Numbering;
   using mesh::Piece;
@@ -86,8 +86,8 @@ TEST(FileMesh, FacesComeByPatchWhateverTheirOrder) {
     std::rotate(piece.quad_face.begin(), piece.quad_face.begin() + 1, piece.quad_face.end());
     std::rotate(piece.quad_patch.begin(), piece.quad_patch.begin() + 1, piece.quad_patch.end());
   }
-  const mesh::Numbering numbering = mesh::number_mesh(world, pieces);
-  const FileMesh mesh = file_mesh_of(world, pieces, numbering);
+  const mesh::Numbering numbering = mesh::number_mesh(pieces);
+  const FileMesh mesh = file_mesh_of(pieces, numbering);
   const FileMesh plain = examples::mixed_mesh(world, 3, 2);
   EXPECT_EQ(mesh.patch_faces, plain.patch_faces);
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
@@ -106,7 +106,8 @@ TEST(FileMesh, FacesComeByPatchWhateverTheirOrder) {
 }
 
 /// Volumes by region and shape.
-std::vector<double> volumes(const Communicator& world, const FileMesh& mesh) {
+std::vector<double> volumes(const FileMesh& mesh) {
+  const Communicator& world = mesh.pieces->communicator;
   std::vector<double> sums(3 * mesh.regions.size(), 0);
   for (const FilePart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {
@@ -127,15 +128,15 @@ TEST(FileMesh, RepartitionedMeshIsTheSameMesh) {
   constexpr auto several = mesh::PieceRegions::several;
   for (const auto& [parts, of_regions] :
        {std::pair(1, several), {2, several}, {7, several}, {4, mesh::PieceRegions::one}}) {
-    const FileMesh cut = repartition(world, mesh, parts, of_regions);
+    const FileMesh cut = repartition(mesh, parts, of_regions);
     const bool by_region = of_regions == mesh::PieceRegions::one;
     EXPECT_EQ(cut.part_count, parts);
     EXPECT_EQ(cut.vertex_count, mesh.vertex_count);
     EXPECT_EQ(cut.region_cells, mesh.region_cells);
     EXPECT_EQ(cut.patch_faces, mesh.patch_faces);
-    const auto before = volumes(world, mesh), after = volumes(world, cut);
+    const auto before = volumes(mesh), after = volumes(cut);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-9);
-    const mesh::FaceLinks links = mesh::link_faces(world, *cut.pieces, *cut.numbering);
+    const mesh::FaceLinks links = mesh::link_faces(*cut.pieces, *cut.numbering);
     EXPECT_EQ(links.defects.open_faces + links.defects.stray_faces + links.defects.crowded_faces, 0);
     for (const FilePart& part : cut.parts) {
       EXPECT_NEAR(static_cast<double>(part.cell_count()), static_cast<double>(mesh.cell_count()) / parts,

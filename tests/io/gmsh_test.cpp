@@ -23,34 +23,34 @@ using parallel::Communicator;
 
 class Msh : public examples::ScratchFolder {};
 
-void expect_same(const Communicator& world, const FileMesh& found, const FileMesh& expected) {
+void expect_same(const FileMesh& found, const FileMesh& expected) {
   EXPECT_EQ(found.vertex_count, expected.vertex_count);
   EXPECT_EQ(found.patches, expected.patches);
   EXPECT_EQ(found.regions, expected.regions);
   EXPECT_EQ(found.region_cells, expected.region_cells);
   EXPECT_EQ(found.patch_faces, expected.patch_faces);
-  const auto volumes = examples::volumes_of(world, found), wanted = examples::volumes_of(world, expected);
+  const auto volumes = examples::volumes_of(found), wanted = examples::volumes_of(expected);
   for (std::size_t s = 0; s < cell_shape_count; ++s) EXPECT_NEAR(volumes[s], wanted[s], 1e-9);
 }
 
 TEST_F(Msh, ComesBackAsItWas) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
-  write_msh(world, mesh, path("mesh.msh"));
+  write_msh(mesh, path("mesh.msh"));
   const Assembled back = assemble(world, read_msh(world, path("mesh.msh")), path("mesh.msh"), 3);
-  expect_same(world, back.mesh, mesh);
+  expect_same(back.mesh, mesh);
   EXPECT_EQ(back.turned_cells + back.dropped_points + back.unnamed_faces, 0);
 }
 
 TEST_F(Msh, PartsComeBackAsOneMesh) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 4);
-  write_msh_parts(world, mesh, path("mesh.msh"));
+  write_msh_parts(mesh, path("mesh.msh"));
   for (const char* name : {"mesh_1.msh", "mesh_*.msh"}) {
     const Assembled back = assemble(world, read_msh(world, path(name)), path(name), 4);
-    expect_same(world, back.mesh, mesh);
+    expect_same(back.mesh, mesh);
     EXPECT_EQ(back.turned_cells + back.dropped_points + back.unnamed_faces, 0);
   }
   // Fewer parts leave none of the former behind, and a lost part is missed, the second too.
-  write_msh_parts(world, examples::mixed_mesh(world, 4, 3), path("mesh.msh"));
+  write_msh_parts(examples::mixed_mesh(world, 4, 3), path("mesh.msh"));
   EXPECT_FALSE(fs::exists(path("mesh_4.msh")));
   for (const char* lost : {"mesh_3.msh", "mesh_2.msh"}) {
     world.barrier();
@@ -68,8 +68,8 @@ TEST_F(Msh, PartsComeBackAsOneMesh) {
 
 TEST_F(Msh, BytesDoNotDependOnRanks) {
   const FileMesh mesh = examples::mixed_mesh(world, 3, 5);
-  write_msh(world, mesh, path("all/mesh.msh"));
-  write_msh_parts(world, mesh, path("all/mesh.msh"));
+  write_msh(mesh, path("all/mesh.msh"));
+  write_msh_parts(mesh, path("all/mesh.msh"));
   if (world.is_root()) {
     const Communicator self = Communicator::self();
     const FileMesh alone = examples::mixed_mesh(self, 3, 5);
@@ -93,7 +93,7 @@ FileMesh awkward_mesh(const Communicator& world) {
 
 TEST_F(Msh, AwkwardNamesComeBack) {
   const FileMesh mesh = awkward_mesh(world);
-  write_msh(world, mesh, path("mesh.msh"));
+  write_msh(mesh, path("mesh.msh"));
   const RawMesh raw = read_msh(world, path("mesh.msh"));
   EXPECT_EQ(raw.patches, mesh.patches);
   const std::string bytes = examples::bytes_of(path("mesh.msh"));
@@ -246,7 +246,7 @@ TEST_F(Msh, WhatIsNotReadIsSaid) {
 }
 
 TEST_F(Msh, DamageIsSurvived) {
-  write_msh(world, examples::mixed_mesh(world, 2, 2), path("good.msh"));
+  write_msh(examples::mixed_mesh(world, 2, 2), path("good.msh"));
   const auto read = [&](const std::string& damaged) {
     assemble(world, read_msh(world, damaged), damaged, 2);
   };

@@ -11,8 +11,8 @@ int main(int argc, char** argv) {
   const auto world = aeroloom::parallel::Communicator::world();
   const aeroloom::io::FileMesh mesh = aeroloom::io::examples::mixed_mesh(world);
   const std::string folder = argv[1];
-  write_medit(world, mesh, folder + "/narrow.meshb");
-  write_medit(world, mesh, folder + "/wide.meshb", {true});
-  write_medit(world, mesh, folder + "/text.mesh");
+  write_medit(mesh, folder + "/narrow.meshb");
+  write_medit(mesh, folder + "/wide.meshb", {true});
+  write_medit(mesh, folder + "/text.mesh");
   return 0;
 }

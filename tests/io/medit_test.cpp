@@ -22,19 +22,19 @@ namespace {
 using mesh::GlobalIndex;
 using parallel::Communicator;
 
-void expect_sound(const Communicator& world, const FileMesh& mesh) {
-  const mesh::LinkDefects defects = mesh::link_faces(world, *mesh.pieces, *mesh.numbering).defects;
+void expect_sound(const FileMesh& mesh) {
+  const mesh::LinkDefects defects = mesh::link_faces(*mesh.pieces, *mesh.numbering).defects;
   EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
 }
 
-void expect_same(const Communicator& world, const FileMesh& mesh, const Assembled& read) {
+void expect_same(const FileMesh& mesh, const Assembled& read) {
   EXPECT_EQ(read.mesh.vertex_count, mesh.vertex_count);
   EXPECT_EQ(read.mesh.patches, mesh.patches);
   EXPECT_EQ(read.mesh.regions, mesh.regions);
   EXPECT_EQ(read.mesh.region_cells, mesh.region_cells);
   EXPECT_EQ(read.mesh.patch_faces, mesh.patch_faces);
   EXPECT_EQ(read.turned_cells + read.dropped_points + read.unnamed_faces, 0);
-  expect_sound(world, read.mesh);
+  expect_sound(read.mesh);
 }
 
 class Medit : public examples::ScratchFolder {
@@ -60,9 +60,9 @@ TEST_F(Medit, WrittenAndReadAgain) {
   const FileMesh mesh = examples::mixed_mesh(world);
   for (const char* name : {"round.meshb", "round.mesh", "wide.meshb"}) {
     const std::string file = path(name);
-    write_medit(world, mesh, file, {std::string(name) == "wide.meshb"});
+    write_medit(mesh, file, {std::string(name) == "wide.meshb"});
     const Assembled read = assemble(world, read_medit(world, file), file, 2);
-    expect_same(world, mesh, read);
+    expect_same(mesh, read);
     // Coordinates come back with every bit.
     const examples::MixedMesh whole(4, 3);
     for (const FilePart& part : read.mesh.parts) {
@@ -78,7 +78,7 @@ TEST_F(Medit, BytesDependOnThePartsAlone) {
   const Communicator self = Communicator::self();
   for (const std::string name : {"bytes.meshb", "bytes.mesh"}) {
     const std::string together = path(name);
-    write_medit(world, examples::mixed_mesh(world), together);
+    write_medit(examples::mixed_mesh(world), together);
     const std::string alone = path("alone" + std::to_string(world.rank()) + name);
     write_medit(self, examples::mixed_mesh(self), alone);
     EXPECT_EQ(examples::bytes_of(together), examples::bytes_of(alone));
@@ -238,7 +238,7 @@ TEST_F(Medit, WhatCannotBeWrittenOrOpened) {
   for (const std::string name : {"no_folder/a.meshb", "wrong.ending"}) {
     const std::string file = path(name);
     try {
-      write_medit(world, mesh, file);
+      write_medit(mesh, file);
       ADD_FAILURE() << file << " was written";
     } catch (const parallel::CollectiveError& error) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
@@ -257,7 +257,7 @@ TEST_F(Medit, HostileFiles) {
   for (const std::string ending : {".meshb", ".mesh"}) {
     const std::string good = path("good" + ending), hostile = path("hostile" + ending);
     for (const bool wide : {false, true}) {
-      write_medit(world, mesh, good, {wide});
+      write_medit(mesh, good, {wide});
       const std::string bytes = examples::bytes_of(good);
       damage::survive(world, bytes, hostile,
                       [&](const std::string& file) { assemble(world, read_medit(world, file), file, 2); });
@@ -268,7 +268,7 @@ TEST_F(Medit, HostileFiles) {
 
 TEST_F(Medit, NamesOfAnotherMeshAreLeftAlone) {
   const std::string file = path("shared.meshb");
-  write_medit(world, examples::mixed_mesh(world, 2, 2), file);
+  write_medit(examples::mixed_mesh(world, 2, 2), file);
   examples::put_bytes(world, medit_names_path(file),
                       "tetrahedra 1 lower\ntetrahedra 2 upper\ntriangles 1 hull slip\n");
   RawMesh raw = read_medit(world, file);
@@ -282,7 +282,7 @@ TEST_F(Medit, NamesOfAnotherMeshAreLeftAlone) {
 
 TEST_F(Medit, HostileNames) {
   const std::string file = path("named.meshb");
-  write_medit(world, examples::mixed_mesh(world, 2, 2), file);
+  write_medit(examples::mixed_mesh(world, 2, 2), file);
   const std::string names = examples::bytes_of(medit_names_path(file));
   world.barrier();
   damage::survive(world, names, medit_names_path(file),

@@ -28,7 +28,7 @@ protected:
   }
 
   std::string hash_of(const mesh::DistributedMesh& mesh) {
-    return mesh::hash_mesh(world, mesh, mesh::number_mesh(world, mesh));
+    return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
   }
 };
 

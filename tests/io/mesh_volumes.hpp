@@ -22,8 +22,8 @@ inline double volume_of(const FilePart& part, CellShape shape, mesh::LocalIndex 
 }
 
 /// Of all cells of each shape. Collective.
-inline std::array<double, cell_shape_count> volumes_of(const parallel::Communicator& communicator,
-                                                       const FileMesh& mesh) {
+inline std::array<double, cell_shape_count> volumes_of(const FileMesh& mesh) {
+  const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::array<double, cell_shape_count> volumes{};
   for (const FilePart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {

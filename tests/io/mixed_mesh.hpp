@@ -14,8 +14,8 @@ using mesh::examples::WholeFace;
 
 inline FileMesh distribute(const parallel::Communicator& communicator, const MixedMesh& whole, int parts) {
   mesh::DistributedMesh pieces = mesh::examples::distribute(communicator, whole, parts);
-  mesh::Numbering numbering = mesh::number_mesh(communicator, pieces);
-  return file_mesh_of(communicator, {std::move(pieces), std::move(numbering)});
+  mesh::Numbering numbering = mesh::number_mesh(pieces);
+  return file_mesh_of({std::move(pieces), std::move(numbering)});
 }
 
 /// The mesh with `squares` along each side.

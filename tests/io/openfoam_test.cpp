@@ -28,9 +28,9 @@ struct OrderedPart {
   FoamFaces order;
 };
 
-std::vector<OrderedPart> order_all(const Communicator& communicator, const FileMesh& mesh, FoamPlan& plan) {
-  const mesh::FaceLinks links = mesh::link_faces(communicator, *mesh.pieces, *mesh.numbering);
-  plan = plan_faces(communicator, mesh, links);
+std::vector<OrderedPart> order_all(const FileMesh& mesh, FoamPlan& plan) {
+  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces, *mesh.numbering);
+  plan = plan_faces(mesh, links);
   std::vector<OrderedPart> parts;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
     parts.push_back({&mesh.parts[i], order_faces(mesh, mesh.parts[i], links.pieces[i], plan)});
@@ -41,7 +41,7 @@ TEST(FoamFaces, InnerFacesAreUpperTriangularAndPatchesFollow) {
   const Communicator world = Communicator::world();
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
   FoamPlan plan;
-  for (const auto& [part, order] : order_all(world, mesh, plan)) {
+  for (const auto& [part, order] : order_all(mesh, plan)) {
     std::pair<LocalIndex, LocalIndex> last{-1, -1};
     for (LocalIndex f = 0; f < order.inner; ++f) {
       const std::pair here{order.faces[f].cell, order.faces[f].neighbour};
@@ -102,10 +102,10 @@ TEST(FoamFaces, PartsAgreeOnWhatLiesBetweenThem) {
 
 TEST(FoamFaces, ZonesBetweenPartsAreKnownToBoth) {
   const Communicator world = Communicator::world();
-  const FileMesh mesh = repartition(world, examples::mixed_mesh(world, 4, 3), 4, mesh::PieceRegions::one);
+  const FileMesh mesh = repartition(examples::mixed_mesh(world, 4, 3), 4, mesh::PieceRegions::one);
   FoamPlan plan;
   std::int64_t front = 0, back = 0;
-  for (const auto& [part, order] : order_all(world, mesh, plan)) {
+  for (const auto& [part, order] : order_all(mesh, plan)) {
     for (const FoamFace& face : order.faces) {
       if (face.zone >= 0) ++(face.from_front != 0 ? front : back);
     }
@@ -117,7 +117,7 @@ TEST(FoamFaces, ZonesBetweenPartsAreKnownToBoth) {
 TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
   const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
   for (const bool binary : {true, false}) {
-    write_openfoam(world, mesh, path("all"), {binary, 0});
+    write_openfoam(mesh, path("all"), {binary, 0});
     if (!world.is_root()) continue;
     const Communicator self = Communicator::self();
     write_openfoam(self, examples::mixed_mesh(self, 3, 4), path("one"), {binary, 0});
@@ -140,10 +140,10 @@ TEST_F(OpenFoam, FilesOfUsersStay) {
     std::ofstream(path("case/system/controlDict")) << "mine";
   }
   world.barrier();
-  write_openfoam(world, examples::mixed_mesh(world, 4, 3), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 3), path("case"));
   EXPECT_EQ(examples::bytes_of(path("case/system/controlDict")), "mine");
   // Fewer parts: folders of the others go, unless there is more in them.
-  write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 2), path("case"));
   EXPECT_TRUE(fs::exists(path("case/processor1")));
   EXPECT_FALSE(fs::exists(path("case/processor2")));
   world.barrier();
@@ -151,7 +151,7 @@ TEST_F(OpenFoam, FilesOfUsersStay) {
   world.barrier();
   for (const int parts : {2, 1}) {
     try {
-      write_openfoam(world, examples::mixed_mesh(world, 4, parts), path("case"));
+      write_openfoam(examples::mixed_mesh(world, 4, parts), path("case"));
       ADD_FAILURE() << parts;
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -163,13 +163,13 @@ TEST_F(OpenFoam, FilesOfUsersStay) {
   if (world.is_root()) fs::remove_all(folder / "case" / "processor7");
   world.barrier();
   // One part: a mesh that needs no decomposition.
-  write_openfoam(world, examples::mixed_mesh(world, 4, 1), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 1), path("case"));
   EXPECT_TRUE(fs::exists(path("case/constant/polyMesh/owner")));
   EXPECT_FALSE(fs::exists(path("case/processor0")));
 }
 
 TEST_F(OpenFoam, FieldsStandOnceAndThoseOfUsersStay) {
-  write_openfoam(world, examples::mixed_mesh(world, 4, 3), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 3), path("case"));
   EXPECT_NE(examples::bytes_of(path("case/0.orig/U")).find("farfield    { type freestreamVelocity"),
             std::string::npos);
   EXPECT_NE(examples::bytes_of(path("case/processor2/0/U")).find("#include \"../../0.orig/U\""),
@@ -178,18 +178,18 @@ TEST_F(OpenFoam, FieldsStandOnceAndThoseOfUsersStay) {
   EXPECT_NE(examples::bytes_of(path("case/0.orig/conditions")).find("$velocity"), std::string::npos);
   examples::put_bytes(world, path("case/0.orig/p"), "my pressure");
   examples::put_bytes(world, path("case/processor1/0/p"), "my pressure there");
-  write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 2), path("case"));
   EXPECT_EQ(examples::bytes_of(path("case/0.orig/p")), "my pressure");
   EXPECT_EQ(examples::bytes_of(path("case/processor1/0/p")), "my pressure there");
   EXPECT_FALSE(fs::exists(path("case/processor2")));
   world.barrier();
   if (world.is_root()) fs::remove_all(path("case/processor1/0"));
   world.barrier();
-  write_openfoam(world, examples::mixed_mesh(world, 4, 1), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 1), path("case"));
   EXPECT_NE(examples::bytes_of(path("case/0/U")).find("#include \"../0.orig/U\""), std::string::npos);
   // An undivided case has fields of its own: parts get none beside them.
   examples::put_bytes(world, path("case/0/k"), "my turbulence");
-  write_openfoam(world, examples::mixed_mesh(world, 4, 2), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 2), path("case"));
   EXPECT_EQ(examples::bytes_of(path("case/0/k")), "my turbulence");
   EXPECT_FALSE(fs::exists(path("case/0/U")));
   EXPECT_FALSE(fs::exists(path("case/processor0/0")));
@@ -198,13 +198,13 @@ TEST_F(OpenFoam, FieldsStandOnceAndThoseOfUsersStay) {
 TEST_F(OpenFoam, DecompositionsOfOtherCountsAreOfUsersAlone) {
   const std::string dictionary = path("case/system/decomposeParDict");
   for (const int parts : {4, 3, 2}) {
-    write_openfoam(world, examples::mixed_mesh(world, 4, parts), path("case"));
+    write_openfoam(examples::mixed_mesh(world, 4, parts), path("case"));
     EXPECT_NE(examples::bytes_of(dictionary).find("numberOfSubdomains " + std::to_string(parts) + ";"),
               std::string::npos);
   }
   const std::string own = "numberOfSubdomains 7; method simple;\n";
   examples::put_bytes(world, dictionary, own);
-  write_openfoam(world, examples::mixed_mesh(world, 4, 3), path("case"));
+  write_openfoam(examples::mixed_mesh(world, 4, 3), path("case"));
   EXPECT_EQ(examples::bytes_of(dictionary), own);
 }
 
@@ -212,9 +212,9 @@ TEST_F(OpenFoam, OpenMeshesAreRefused) {
   mesh::DistributedMesh open = mesh::examples::mixed_mesh(world, 2, 1);
   for (mesh::Piece& piece : open.pieces)
     piece.boundary = {}, piece.triangle_face = {}, piece.triangle_patch = {};
-  const mesh::Numbering numbering = mesh::number_mesh(world, open);
+  const mesh::Numbering numbering = mesh::number_mesh(open);
   try {
-    write_openfoam(world, file_mesh_of(world, open, numbering), path("case"));
+    write_openfoam(file_mesh_of(open, numbering), path("case"));
     ADD_FAILURE();
   } catch (const CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::input);

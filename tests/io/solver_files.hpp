@@ -40,10 +40,11 @@ inline double volume_below(const FilePart& part, const std::vector<mesh::LocalIn
   return volume;
 }
 
-inline Contents contents_of(const parallel::Communicator& world, const FileMesh& mesh) {
+inline Contents contents_of(const FileMesh& mesh) {
+  const parallel::Communicator& world = mesh.pieces->communicator;
   Contents contents;
   contents.vertices = mesh.vertex_count;
-  contents.volumes = volumes_of(world, mesh);
+  contents.volumes = volumes_of(mesh);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     if (mesh.patches[p].type == mesh::PatchType::interior) continue;
     contents.faces[mesh.patches[p].name] = mesh.patch_faces[p];

@@ -49,8 +49,8 @@ protected:
 };
 
 /// What a file of the mixed mesh must give back: names as SU2 can have them.
-examples::Contents expected(const Communicator& world, const FileMesh& mesh) {
-  return examples::with_plain_names(examples::contents_of(world, mesh));
+examples::Contents expected(const FileMesh& mesh) {
+  return examples::with_plain_names(examples::contents_of(mesh));
 }
 
 TEST_F(Su2, TextAndBinaryReadBackTheSame) {
@@ -62,7 +62,7 @@ TEST_F(Su2, TextAndBinaryReadBackTheSame) {
     EXPECT_EQ(read.turned_cells, 0) << format.suffix;
     EXPECT_EQ(read.unnamed_faces, 0) << format.suffix;
     EXPECT_EQ(read.dropped_points, 0) << format.suffix;
-    examples::expect_same(examples::contents_of(world, read.mesh), expected(world, mesh));
+    examples::expect_same(examples::contents_of(read.mesh), expected(mesh));
   }
 }
 
@@ -83,7 +83,7 @@ TEST_F(Su2, BytesDependOnPartsAlone) {
 
 TEST_F(Su2, TextIsAsDocumentedAndConditionsStandBesideIt) {
   const FileMesh mesh = examples::mixed_mesh(world, 2, 3);
-  write_su2(world, mesh, path("text.su2"));
+  write_su2(mesh, path("text.su2"));
   const std::string text = bytes_of(path("text.su2"));
   EXPECT_TRUE(text.starts_with("NDIME= 3\nNPOIN= " + std::to_string(mesh.vertex_count) + "\n"));
   const std::size_t cells = text.find("\nNELEM= " + std::to_string(mesh.cell_count()) + "\n10 ");
@@ -110,7 +110,7 @@ TEST_F(Su2, ConditionsOfAllTypesComeBack) {
         {std::string("m").append(std::to_string(i)), static_cast<mesh::PatchType>(i % count)});
     patches.ids.push_back(i);
   }
-  write_markers(world, path("types.su2b"), mesh, patches, marker_names(mesh, patches));
+  write_markers(path("types.su2b"), mesh, patches, marker_names(mesh, patches));
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
   set_marker_types(world, path("types.su2"), read);
@@ -139,7 +139,7 @@ TEST_F(Su2, ConditionsOfThousandsOfMarkersComeBack) {
     mesh.patches.push_back({fmt::format("outside_of_the_building_{:08}", i), mesh::PatchType::farfield});
     patches.ids.push_back(i);
   }
-  write_markers(world, path("many.su2"), mesh, patches, marker_names(mesh, patches));
+  write_markers(path("many.su2"), mesh, patches, marker_names(mesh, patches));
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
   set_marker_types(world, path("many.su2"), read);
@@ -231,13 +231,13 @@ std::string widened(const std::string& bytes) {
 
 TEST_F(Su2, BinaryFilesOfEitherOrderAndWidthAreRead) {
   const FileMesh mesh = examples::mixed_mesh(world, 3, 3);
-  write_su2b(world, mesh, path("own.su2b"));
+  write_su2b(mesh, path("own.su2b"));
   const std::string wide = path("own.wide.su2b");
   examples::put_bytes(world, wide, widened(bytes_of(path("own.su2b"))));
   if (world.is_root()) fs::copy_file(path("own_markers.cfg"), path("own.wide_markers.cfg"));
   world.barrier();
   const Assembled read = assemble(world, read_su2b(world, wide), wide, 2);
-  examples::expect_same(examples::contents_of(world, read.mesh), expected(world, mesh));
+  examples::expect_same(examples::contents_of(read.mesh), expected(mesh));
 }
 
 TEST_F(Su2, TextOfOthersIsRead) {

@@ -35,8 +35,8 @@ protected:
 };
 
 /// What a file of the mixed mesh must give back: plain names, an oblique plane of symmetry as slip.
-examples::Contents expected(const Communicator& world, const FileMesh& mesh) {
-  examples::Contents contents = examples::with_plain_names(examples::contents_of(world, mesh));
+examples::Contents expected(const FileMesh& mesh) {
+  examples::Contents contents = examples::with_plain_names(examples::contents_of(mesh));
   contents.types["symmetry"] = mesh::PatchType::slip;
   return contents;
 }
@@ -46,12 +46,12 @@ TEST_F(Ugrid, AllKindsReadBackTheSame) {
   for (const char* suffix :
        {"lb8.ugrid", "b8.ugrid", "lb8l.ugrid", "b8l.ugrid", "lb8.ugrid64", "b8.ugrid64"}) {
     const std::string file = path(std::string("mixed.") + suffix);
-    write_ugrid(world, mesh, file);
+    write_ugrid(mesh, file);
     const Assembled read = assemble(world, read_ugrid(world, file), file, 4);
     EXPECT_EQ(read.turned_cells, 0) << suffix;
     EXPECT_EQ(read.unnamed_faces, 0) << suffix;
     EXPECT_EQ(read.dropped_points, 0) << suffix;
-    examples::expect_same(examples::contents_of(world, read.mesh), expected(world, mesh));
+    examples::expect_same(examples::contents_of(read.mesh), expected(mesh));
   }
   EXPECT_EQ(bytes_of(path("mixed.mapbc")),
             "3\n1 4000 wing___lower_side\n2 3000 symmetry\n3 5000 far_field\n");
@@ -61,7 +61,7 @@ TEST_F(Ugrid, BytesDependOnPartsAlone) {
   const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
   for (const char* suffix : {"b8.ugrid", "lb8l.ugrid"}) {
     const std::string file = path(std::string("all.") + suffix);
-    write_ugrid(world, mesh, file);
+    write_ugrid(mesh, file);
     if (world.is_root()) {
       const Communicator self = Communicator::self();
       const std::string alone = path(std::string("alone.") + suffix);
@@ -76,7 +76,7 @@ TEST_F(Ugrid, BytesDependOnPartsAlone) {
 TEST_F(Ugrid, FacesAreSortedByPatchAndPointIntoTheFluid) {
   const FileMesh mesh = examples::mixed_mesh(world, 2, 3);
   const std::string file = path("sorted.lb8.ugrid");
-  write_ugrid(world, mesh, file);
+  write_ugrid(mesh, file);
   const std::string bytes = bytes_of(file);
   std::array<std::int32_t, 7> counts{};
   std::memcpy(counts.data(), bytes.data(), sizeof counts);
@@ -103,7 +103,7 @@ TEST_F(Ugrid, FacesAreSortedByPatchAndPointIntoTheFluid) {
         volume += dot(point(v[0]), cross(point(v[k]) - point(v[0]), point(v[k + 1]) - point(v[0]))) / 6;
     }
   }
-  EXPECT_NEAR(volume, -examples::contents_of(world, mesh).enclosed, 1e-9);
+  EXPECT_NEAR(volume, -examples::contents_of(mesh).enclosed, 1e-9);
 }
 
 TEST_F(Ugrid, PlanesOfSymmetryAreKnownByTheirAxis) {
@@ -116,7 +116,7 @@ TEST_F(Ugrid, PlanesOfSymmetryAreKnownByTheirAxis) {
           : axis == 1 ? geometry::Vec3{p.x, y, p.z}
                       : geometry::Vec3{p.z, p.x, y};
     }
-    write_ugrid(world, examples::distribute(world, whole, 2), path("plane.lb8.ugrid"));
+    write_ugrid(examples::distribute(world, whole, 2), path("plane.lb8.ugrid"));
     const auto table = read_mapbc(world, path("plane.mapbc"));
     EXPECT_EQ(table.at(2).type, mesh::PatchType::symmetry);
     EXPECT_NE(bytes_of(path("plane.mapbc")).find("2 666" + std::to_string(axis + 1) + " symmetry"),
@@ -127,7 +127,7 @@ TEST_F(Ugrid, PlanesOfSymmetryAreKnownByTheirAxis) {
 
 TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
   const std::string file = path("bare.lb8.ugrid");
-  write_ugrid(world, examples::mixed_mesh(world, 2, 2), file);
+  write_ugrid(examples::mixed_mesh(world, 2, 2), file);
   world.barrier();
   if (world.is_root()) fs::remove(path("bare.mapbc"));
   world.barrier();
@@ -189,7 +189,7 @@ TEST_F(Ugrid, MeshesTooLargeFor32BitsNameTheSuffixThatIsNot) {
 TEST_F(Ugrid, WhatIsWrongIsSaidWithItsPlace) {
   const std::string file = path("wrong.lb8.ugrid");
   const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
-  write_ugrid(world, mesh, file);
+  write_ugrid(mesh, file);
   const std::string good = bytes_of(file);
   const auto with = [&](std::size_t offset, auto value) {
     std::string bytes = good;
@@ -218,7 +218,7 @@ TEST_F(Ugrid, DamagedFilesAreErrorsOrMeshes) {
   const auto read = [&](const std::string& file) { assemble(world, read_ugrid(world, file), file, 2); };
   for (const char* suffix : {"lb8.ugrid", "b8l.ugrid"}) {
     const std::string file = path(std::string("damaged.") + suffix);
-    write_ugrid(world, examples::mixed_mesh(world, 1, 2), file);
+    write_ugrid(examples::mixed_mesh(world, 1, 2), file);
     const std::string good = bytes_of(file);
     world.barrier();
     const damage::Options cuts{.truncations = 50, .flips = 0, .fields = 0, .pieces = 0};
@@ -236,13 +236,13 @@ TEST_F(Ugrid, DamagedFilesAreErrorsOrMeshes) {
 TEST_F(Ugrid, FilesThatCannotBeWrittenAreErrors) {
   const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
   try {
-    write_ugrid(world, mesh, "/proc/aeroloom/x.lb8.ugrid");
+    write_ugrid(mesh, "/proc/aeroloom/x.lb8.ugrid");
     ADD_FAILURE() << "no error";
   } catch (const CollectiveError& error) {
     EXPECT_EQ(error.kind(), FailureKind::files);
     EXPECT_NE(std::string(error.what()).find("/proc/aeroloom"), std::string::npos);
   }
-  EXPECT_THROW(write_ugrid(world, mesh, path("x.ugrid")), CollectiveError);
+  EXPECT_THROW(write_ugrid(mesh, path("x.ugrid")), CollectiveError);
 }
 
 }  // namespace

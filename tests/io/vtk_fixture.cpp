@@ -16,9 +16,9 @@ using namespace aeroloom;
 
 void write(const parallel::Communicator& world, const std::string& folder, int squares) {
   const io::FileMesh mesh = io::examples::mixed_mesh(world, squares, 5);
-  io::write_volume(world, mesh, folder, "mesh");
-  io::write_volume(world, mesh, folder, "packed", io::Compression::zlib);
-  io::write_surface(world, mesh, folder, "surface");
+  io::write_volume(mesh, folder, "mesh");
+  io::write_volume(mesh, folder, "packed", io::Compression::zlib);
+  io::write_surface(mesh, folder, "surface");
 }
 
 void read(const parallel::Communicator& world, const std::string& file) {

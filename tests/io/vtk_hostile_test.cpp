@@ -44,14 +44,14 @@ TEST_F(VtkHostile, DamagedGridsOfOthers) {
 }
 
 TEST_F(VtkHostile, DamagedPartsOfOurOwn) {
-  write_volume(world, examples::mixed_mesh(world, 2, 2), folder, "mesh");
+  write_volume(examples::mixed_mesh(world, 2, 2), folder, "mesh");
   const std::string good = examples::bytes_of(folder / "mesh" / "mesh_000000.vtu");
   const damage::Outcome outcome = survive(good, "part.vtu", options);
   EXPECT_GT(outcome.refused, outcome.cases / 4);
 }
 
 TEST_F(VtkHostile, DamagedIndices) {
-  write_volume(world, examples::mixed_mesh(world, 2, 2), folder, "mesh");
+  write_volume(examples::mixed_mesh(world, 2, 2), folder, "mesh");
   const damage::Outcome outcome = survive(examples::bytes_of(path("mesh.pvtu")), "other.pvtu", options);
   EXPECT_GT(outcome.refused, outcome.cases / 4);
 }

@@ -35,7 +35,7 @@ class VtkMixed : public examples::ScratchFolder {};
 TEST_F(VtkMixed, ComesBackTheSame) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zlib}) {
-    write_volume(world, mesh, folder, "mesh", compression);
+    write_volume(mesh, folder, "mesh", compression);
     const Assembled read = assemble(world, read_vtk(world, path("mesh.pvtu")), path("mesh.pvtu"), 4);
     EXPECT_EQ(read.turned_cells, 0);
     EXPECT_EQ(read.dropped_points, 0);
@@ -46,15 +46,15 @@ TEST_F(VtkMixed, ComesBackTheSame) {
     EXPECT_EQ(read.mesh.regions, mesh.regions);
     EXPECT_EQ(read.mesh.patch_faces, mesh.patch_faces);
     EXPECT_EQ(read.mesh.region_cells, mesh.region_cells);
-    const auto there = examples::volumes_of(world, mesh), back = examples::volumes_of(world, read.mesh);
+    const auto there = examples::volumes_of(mesh), back = examples::volumes_of(read.mesh);
     for (std::size_t s = 0; s < cell_shape_count; ++s) EXPECT_NEAR(back[s], there[s], 1e-12 * there[s]);
   }
 }
 
 TEST_F(VtkMixed, IsTheSameBytesOnAnyNumberOfRanks) {
   const FileMesh mesh = examples::mixed_mesh(world, 5, 7);
-  write_volume(world, mesh, folder / "all", "mesh");
-  write_surface(world, mesh, folder / "all", "surface");
+  write_volume(mesh, folder / "all", "mesh");
+  write_surface(mesh, folder / "all", "surface");
   if (!world.is_root()) return;
   const Communicator self = Communicator::self();
   const FileMesh alone = examples::mixed_mesh(self, 5, 7);
@@ -68,7 +68,7 @@ TEST_F(VtkMixed, IsTheSameBytesOnAnyNumberOfRanks) {
 TEST_F(VtkMixed, HasVtksOrderAndArrays) {
   const examples::MixedMesh whole(3, 2);
   const FileMesh mesh = examples::mixed_mesh(world, 3, 2);
-  write_volume(world, mesh, folder, "mesh");
+  write_volume(mesh, folder, "mesh");
   vtkNew<vtkXMLPUnstructuredGridReader> reader;
   reader->SetFileName(path("mesh.pvtu").c_str());
   reader->Update();
@@ -109,7 +109,7 @@ TEST_F(VtkMixed, HasVtksOrderAndArrays) {
 
 TEST_F(VtkMixed, ShowsItsBoundaryWithPatches) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
-  write_surface(world, mesh, folder, "surface");
+  write_surface(mesh, folder, "surface");
   vtkNew<vtkXMLPPolyDataReader> reader;
   reader->SetFileName(path("surface.pvtp").c_str());
   reader->Update();
@@ -138,7 +138,7 @@ TEST_F(VtkMixed, ShowsItsBoundaryWithPatches) {
 
 TEST_F(VtkMixed, ShowsFacesBetweenRegionsByThemselves) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
-  write_surface(world, mesh, folder, "interfaces", Compression::none, SurfaceFaces::between_regions);
+  write_surface(mesh, folder, "interfaces", Compression::none, SurfaceFaces::between_regions);
   vtkNew<vtkXMLPPolyDataReader> reader;
   reader->SetFileName(path("interfaces.pvtp").c_str());
   reader->Update();

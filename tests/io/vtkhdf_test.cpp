@@ -36,8 +36,8 @@ protected:
 };
 
 /// Volumes by region and shape; each cell's must be positive.
-std::array<std::array<double, cell_shape_count>, 2> volumes_of(const Communicator& communicator,
-                                                               const FileMesh& mesh) {
+std::array<std::array<double, cell_shape_count>, 2> volumes_of(const FileMesh& mesh) {
+  const Communicator& communicator = mesh.pieces->communicator;
   std::array<std::array<double, cell_shape_count>, 2> volumes{};
   for (const FilePart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {
@@ -59,7 +59,7 @@ std::array<std::array<double, cell_shape_count>, 2> volumes_of(const Communicato
 
 TEST_F(Vtkhdf, ReadsBackWhatItWrote) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
-  write_vtkhdf(world, mesh, folder / "mesh.vtkhdf");
+  write_vtkhdf(mesh, folder / "mesh.vtkhdf");
   EXPECT_FALSE(fs::exists(folder / "mesh.vtkhdf.unfinished"));
   const Assembled read =
       assemble(world, read_vtkhdf(world, folder / "mesh.vtkhdf"), folder / "mesh.vtkhdf", 3);
@@ -72,27 +72,27 @@ TEST_F(Vtkhdf, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.mesh.regions, mesh.regions);
   EXPECT_EQ(read.mesh.region_cells, mesh.region_cells);
   EXPECT_EQ(read.mesh.patch_faces, mesh.patch_faces);
-  const auto expected = volumes_of(world, mesh), found = volumes_of(world, read.mesh);
+  const auto expected = volumes_of(mesh), found = volumes_of(read.mesh);
   for (std::size_t r = 0; r < expected.size(); ++r) {
     for (std::size_t s = 0; s < expected[r].size(); ++s) EXPECT_NEAR(found[r][s], expected[r][s], 1e-12);
   }
 }
 
 TEST_F(Vtkhdf, WritesTheSameBytesOnAnyNumberOfRanks) {
-  write_vtkhdf(world, examples::mixed_mesh(world, 3, 7), folder / "here");
-  write_vtkhdf_surface(world, examples::mixed_mesh(world, 3, 7), folder / "here_too");
+  write_vtkhdf(examples::mixed_mesh(world, 3, 7), folder / "here");
+  write_vtkhdf_surface(examples::mixed_mesh(world, 3, 7), folder / "here_too");
   if (!world.is_root()) return;
   const FileMesh mesh = examples::mixed_mesh(Communicator::self(), 3, 7);
-  write_vtkhdf(Communicator::self(), mesh, folder / "alone");
-  write_vtkhdf_surface(Communicator::self(), mesh, folder / "alone_too");
+  write_vtkhdf(mesh, folder / "alone");
+  write_vtkhdf_surface(mesh, folder / "alone_too");
   EXPECT_TRUE(examples::bytes_of(folder / "here") == examples::bytes_of(folder / "alone"));
   EXPECT_TRUE(examples::bytes_of(folder / "here_too") == examples::bytes_of(folder / "alone_too"));
 }
 
 TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
-  write_vtkhdf(world, examples::mixed_mesh(world, 3, 4), folder / "mesh.vtkhdf");
+  write_vtkhdf(examples::mixed_mesh(world, 3, 4), folder / "mesh.vtkhdf");
   const std::string path = folder / "mesh.vtkhdf";
-  write_vtkhdf(world, assemble(world, read_vtkhdf(world, path), path, 2).mesh, folder / "again");
+  write_vtkhdf(assemble(world, read_vtkhdf(world, path), path, 2).mesh, folder / "again");
   if (!world.is_root()) return;
   const auto self = Communicator::self();
   write_vtkhdf(self, assemble(self, read_vtkhdf(self, path), path, 2).mesh, folder / "alone");
@@ -100,7 +100,7 @@ TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
 }
 
 TEST_F(Vtkhdf, SaysWhatItCannotRead) {
-  write_vtkhdf_surface(world, examples::mixed_mesh(world), folder / "surface.vtkhdf");
+  write_vtkhdf_surface(examples::mixed_mesh(world), folder / "surface.vtkhdf");
   const RawMesh surface = read_vtkhdf(world, folder / "surface.vtkhdf");  // faces alone: assemble refuses
   EXPECT_EQ(surface.patches, examples::MixedMesh(2, 1).patches);
   if (world.is_root()) {
@@ -122,7 +122,7 @@ TEST_F(Vtkhdf, SaysWhatItCannotRead) {
 }
 
 TEST_F(Vtkhdf, SurvivesDamagedFiles) {
-  write_vtkhdf(world, examples::mixed_mesh(world, 1, 2), folder / "good");
+  write_vtkhdf(examples::mixed_mesh(world, 1, 2), folder / "good");
   const std::string good = examples::bytes_of(folder / "good");
   damage::Options options;
   options.truncations = world.size() > 1 ? 20 : 40;
@@ -146,7 +146,7 @@ TEST_F(Vtkhdf, SaysWhenAFileCannotGrow) {
   setrlimit(RLIMIT_FSIZE, &small);
   std::string message;
   try {
-    write_vtkhdf(world, mesh, folder / "mesh.vtkhdf");
+    write_vtkhdf(mesh, folder / "mesh.vtkhdf");
   } catch (const parallel::CollectiveError& error) {
     message = error.what();
     EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -157,7 +157,7 @@ TEST_F(Vtkhdf, SaysWhenAFileCannotGrow) {
   world.barrier();
   EXPECT_TRUE(fs::is_empty(folder));
   world.barrier();
-  write_vtkhdf(world, mesh, folder / "mesh.vtkhdf");  // and nothing is left behind in the process
+  write_vtkhdf(mesh, folder / "mesh.vtkhdf");  // and nothing is left behind in the process
   EXPECT_TRUE(fs::exists(folder / "mesh.vtkhdf"));
 }
 

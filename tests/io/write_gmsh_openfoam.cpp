@@ -18,13 +18,13 @@ int main(int argc, char** argv) {
     const auto world = parallel::Communicator::world();
     const std::string folder = argv[1];
     const io::FileMesh mesh = io::examples::mixed_mesh(world, 4, 3);
-    io::write_msh(world, mesh, folder + "/mixed.msh");
-    io::write_msh_parts(world, mesh, folder + "/mixed.msh");
-    io::write_openfoam(world, mesh, folder + "/binary");
-    io::write_openfoam(world, mesh, folder + "/text", {false, 0});
-    io::write_openfoam(world, mesh, folder + "/wide", {true, 64});
-    io::write_openfoam(world, io::examples::mixed_mesh(world, 4, 1), folder + "/whole");
-    io::write_openfoam(world, io::repartition(world, mesh, 4, mesh::PieceRegions::one), folder + "/regions");
+    io::write_msh(mesh, folder + "/mixed.msh");
+    io::write_msh_parts(mesh, folder + "/mixed.msh");
+    io::write_openfoam(mesh, folder + "/binary");
+    io::write_openfoam(mesh, folder + "/text", {false, 0});
+    io::write_openfoam(mesh, folder + "/wide", {true, 64});
+    io::write_openfoam(io::examples::mixed_mesh(world, 4, 1), folder + "/whole");
+    io::write_openfoam(io::repartition(mesh, 4, mesh::PieceRegions::one), folder + "/regions");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

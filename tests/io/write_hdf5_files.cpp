@@ -62,9 +62,9 @@ int main(int argc, char** argv) {
   }
   const io::FileMesh mesh = io::examples::distribute(world, whole, parts);
   if (format != "cgns") {
-    io::write_vtkhdf(world, mesh, folder + "/mesh.vtkhdf");
-    io::write_vtkhdf_surface(world, mesh, folder + "/surface.vtkhdf");
+    io::write_vtkhdf(mesh, folder + "/mesh.vtkhdf");
+    io::write_vtkhdf_surface(mesh, folder + "/surface.vtkhdf");
   }
-  if (format != "vtkhdf") io::write_cgns(world, mesh, folder + "/mesh.cgns");
+  if (format != "vtkhdf") io::write_cgns(mesh, folder + "/mesh.cgns");
   return 0;
 }

@@ -17,9 +17,9 @@ void write_all(const std::string& folder) {
   const auto world = parallel::Communicator::world();
   const io::FileMesh mesh = io::examples::mixed_mesh(world, 4, 5);
   for (const char* suffix : {"lb8.ugrid", "b8.ugrid", "lb8l.ugrid", "b8l.ugrid"})
-    io::write_ugrid(world, mesh, fmt::format("{}/mixed.{}", folder, suffix));
-  io::write_su2(world, mesh, folder + "/mixed.su2");
-  io::write_su2b(world, mesh, folder + "/mixed.su2b");
+    io::write_ugrid(mesh, fmt::format("{}/mixed.{}", folder, suffix));
+  io::write_su2(mesh, folder + "/mixed.su2");
+  io::write_su2b(mesh, folder + "/mixed.su2b");
 }
 
 }  // namespace

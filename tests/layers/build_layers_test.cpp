@@ -20,7 +20,7 @@ void expect_same(const Shapes& shapes, int pieces, const LayerOptions& options) 
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = shapes.distribute(world, pieces),
                               whole = shapes.distribute(self, pieces);
-  const Layers spread = build(world, mesh, options), alone = build(self, whole, options);
+  const Layers spread = build(mesh, options), alone = build(self, whole, options);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const std::size_t other = mesh::position_of(whole, mesh.pieces[p].id);
     const PieceColumns &a = spread.columns.pieces[p], &b = alone.columns.pieces[other];
@@ -76,8 +76,8 @@ Shapes inside_of_a_wedge() {
 TEST(BuildLayers, CoverASphereInASphere) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = sphere_in_a_sphere().distribute(world, 5);
-  const Layers layers = build(world, mesh, options_for({0, 1e-3}));
-  expect_valid(world, mesh, layers);
+  const Layers layers = build(mesh, options_for({0, 1e-3}));
+  expect_valid(mesh, layers);
   const PatchLayers& patch = layers.report.patches[1];
   EXPECT_EQ(patch.partial_area, 0);
   EXPECT_GT(patch.isotropic_area, 0.9 * patch.area);
@@ -97,8 +97,8 @@ TEST(BuildLayers, CoverASphereInASphere) {
 TEST(BuildLayers, CoverTheEdgesAndCornersOfACube) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_sphere().distribute(world, 5);
-  const Layers layers = build(world, mesh, options_for({0, 1e-4}));
-  expect_valid(world, mesh, layers);
+  const Layers layers = build(mesh, options_for({0, 1e-4}));
+  expect_valid(mesh, layers);
   const PatchLayers& patch = layers.report.patches[1];
   EXPECT_EQ(patch.empty_area, 0);
   EXPECT_GT(patch.full_area, 0.95 * patch.area);
@@ -115,8 +115,8 @@ TEST(BuildLayers, CoverTheEdgesAndCornersOfACube) {
 TEST(BuildLayers, FillTheCornersOfABox) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = inside_of_a_box().distribute(world, 5);
-  const Layers layers = build(world, mesh, options_for({1e-3}));
-  expect_valid(world, mesh, layers);
+  const Layers layers = build(mesh, options_for({1e-3}));
+  expect_valid(mesh, layers);
   const PatchLayers& patch = layers.report.patches[0];
   EXPECT_EQ(patch.empty_area, 0);
   EXPECT_GT(patch.squeezed_area, 0) << "towards the edges";
@@ -126,8 +126,8 @@ TEST(BuildLayers, FillTheCornersOfABox) {
 TEST(BuildLayers, LeaveRoomInASlit) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = slit(0.3).distribute(world, 7);
-  const Layers layers = build(world, mesh, options_for({0, 1e-3, 1e-3}));
-  expect_valid(world, mesh, layers);
+  const Layers layers = build(mesh, options_for({0, 1e-3, 1e-3}));
+  expect_valid(mesh, layers);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
       const Vec3 from = mesh.pieces[p].point(v), to = layers.front.pieces[p].point(v);
@@ -143,8 +143,8 @@ TEST(BuildLayers, LeaveRoomInASlit) {
 TEST(BuildLayers, EndWhereAWedgeIsTooSharp) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = inside_of_a_wedge().distribute(world, 4);
-  const Layers layers = build(world, mesh, options_for({1e-4}));
-  expect_valid(world, mesh, layers);
+  const Layers layers = build(mesh, options_for({1e-4}));
+  expect_valid(mesh, layers);
   EXPECT_LT(layers.report.patches[0].empty_area, 0.1 * layers.report.patches[0].area);
 }
 
@@ -152,8 +152,8 @@ TEST(BuildLayers, KeepTwoSpheresApart) {
   const auto world = Communicator::world();
   for (const double distance : {0.3, 0.02}) {
     const mesh::DistributedMesh mesh = two_spheres(distance).distribute(world, 6);
-    const Layers layers = build(world, mesh, options_for({0, 1e-3, 1e-3}));
-    expect_valid(world, mesh, layers);
+    const Layers layers = build(mesh, options_for({0, 1e-3, 1e-3}));
+    expect_valid(mesh, layers);
     EXPECT_EQ(layers.report.patches[1].empty_area, 0);
     EXPECT_GT(layers.report.patches[2].full_area, 0.7 * layers.report.patches[2].area);
   }
@@ -172,8 +172,8 @@ TEST(BuildLayers, StepDownToFacesWhereTheyMayNotEnd) {
   }
   LayerOptions options = options_for({0, 1e-3, 0});
   options.stairs = 2;
-  const Layers layers = build(world, mesh, options);
-  expect_valid(world, mesh, layers, 2);
+  const Layers layers = build(mesh, options);
+  expect_valid(mesh, layers, 2);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
       if (mesh.pieces[p].point(v).z != 1) continue;
@@ -189,7 +189,7 @@ TEST(BuildLayers, StepDownToFacesWhereTheyMayNotEnd) {
 TEST(BuildLayers, LeaveAWallWithoutLayersAsItIs) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = sphere_in_a_sphere().distribute(world, 3);
-  const Layers layers = build(world, mesh, {});
+  const Layers layers = build(mesh, {});
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     EXPECT_EQ(layers.front.pieces[p].coordinates, mesh.pieces[p].coordinates);
     EXPECT_EQ(layers.front.pieces[p].vertex_dimension, mesh.pieces[p].vertex_dimension);
@@ -202,7 +202,7 @@ TEST(BuildLayers, RefuseOptionsThatDoNotFit) {
   const auto refused = [&](const std::function<void(LayerOptions&)>& change) {
     LayerOptions options = options_for({0, 1e-3});
     change(options);
-    EXPECT_THROW(build(world, mesh, options), std::runtime_error);
+    EXPECT_THROW(build(mesh, options), std::runtime_error);
   };
   refused([](LayerOptions& o) { o.patches.resize(3); });
   refused([](LayerOptions& o) { o.patches[1].first = -1; });

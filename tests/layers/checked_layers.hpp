@@ -28,10 +28,10 @@ inline LayerOptions options_for(std::vector<double> first) {
   return options;
 }
 
-inline Layers build(const Communicator& communicator, const mesh::DistributedMesh& mesh,
-                    const LayerOptions& options, const PlaneRemesher& remesh = {}) {
-  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(communicator, mesh)};
-  return build_layers(communicator, wall, options, remesh);
+inline Layers build(const mesh::DistributedMesh& mesh, const LayerOptions& options,
+                    const PlaneRemesher& remesh = {}) {
+  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(mesh)};
+  return build_layers(wall, options, remesh);
 }
 
 inline double enclosed_volume(const mesh::DistributedMesh& mesh) {
@@ -106,8 +106,8 @@ inline double check_cells(const mesh::Piece& piece, const PieceColumns& columns,
 
 /// All cells are valid and fill what lies between wall and front, which is free of intersections; counts of
 /// neighbours are within the stairs.
-inline void expect_valid(const Communicator& communicator, const mesh::DistributedMesh& wall,
-                         const Layers& layers, std::int32_t stairs = 3) {
+inline void expect_valid(const mesh::DistributedMesh& wall, const Layers& layers, std::int32_t stairs = 3) {
+  const Communicator& communicator = wall.communicator;
   ASSERT_EQ(layers.columns.pieces.size(), wall.pieces.size());
   double volume = 0;
   for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
@@ -125,7 +125,7 @@ inline void expect_valid(const Communicator& communicator, const mesh::Distribut
   const double between = enclosed_volume(wall) - enclosed_volume(layers.front);
   EXPECT_NEAR(communicator.sum(volume), communicator.sum(between),
               1e-10 * std::abs(communicator.sum(enclosed_volume(wall))));
-  EXPECT_TRUE(mesh::find_intersections(communicator, layers.front).empty());
+  EXPECT_TRUE(mesh::find_intersections(layers.front).empty());
 }
 
 }  // namespace aeroloom::layers::checked

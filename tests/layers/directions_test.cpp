@@ -23,9 +23,9 @@ LayerOptions layers_on(std::size_t patches) {
 
 /// A wall with its fans and directions.
 struct Directed {
-  Directed(const Communicator& communicator, const mesh::DistributedMesh& mesh, const LayerOptions& options)
-      : wall(communicator, mesh, options),
-        fans(gather_fans(communicator, wall)),
+  Directed(const mesh::DistributedMesh& mesh, const LayerOptions& options)
+      : wall(mesh.communicator, mesh, options),
+        fans(gather_fans(wall)),
         directions(find_directions(wall, fans)) {}
 
   WallShare wall;
@@ -42,7 +42,7 @@ examples::Shapes cube_in_a_box() {
 TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7);
-  const Directed directed(world, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const Vec3 p = directed.wall.points[v], d = directed.directions.most_normal[v];
     ASSERT_EQ(directed.fans.kinds[v], FanKind::plain);
@@ -60,7 +60,7 @@ TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
 TEST(Directions, AreSmoothedWithoutLosingSight) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7);
-  const Directed directed(world, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   std::int64_t moved = 0;
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const auto normals = directed.fans.normals_at(v);
@@ -77,7 +77,7 @@ TEST(Directions, AreTheSameOnAnyNumberOfRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7),
                               whole = cube_in_a_box().distribute(self, 7);
-  const Directed spread(world, mesh, layers_on(2)), alone(self, whole, layers_on(2));
+  const Directed spread(mesh, layers_on(2)), alone(self, whole, layers_on(2));
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const std::int32_t from = alone.wall.first_vertex[mesh::position_of(whole, mesh.pieces[p].id)];
     for (std::int32_t v = spread.wall.first_vertex[p]; v < spread.wall.first_vertex[p + 1]; ++v) {

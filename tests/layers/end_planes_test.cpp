@@ -63,10 +63,9 @@ std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& front
   return {};
 }
 
-Layers build(const Communicator& communicator, const mesh::DistributedMesh& mesh, const LayerOptions& options,
-             const PlaneRemesher& remesh) {
-  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(communicator, mesh)};
-  return build_layers(communicator, wall, options, remesh);
+Layers build(const mesh::DistributedMesh& mesh, const LayerOptions& options, const PlaneRemesher& remesh) {
+  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(mesh)};
+  return build_layers(wall, options, remesh);
 }
 
 bool same_bits(double a, double b) {
@@ -76,13 +75,12 @@ bool same_bits(double a, double b) {
 TEST(EndPlanes, AreThePlanarFacesOfTheirTypes) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
-  EXPECT_EQ(find_end_planes(world, mesh, layers_on_floor()),
-            (std::vector<Vec3>{{}, {-1, 0, 0}, {0, -1, 0}, {}}));
-  EXPECT_EQ(find_end_planes(world, mesh, {}), std::vector<Vec3>(4)) << "unless options say so";
+  EXPECT_EQ(find_end_planes(mesh, layers_on_floor()), (std::vector<Vec3>{{}, {-1, 0, 0}, {0, -1, 0}, {}}));
+  EXPECT_EQ(find_end_planes(mesh, {}), std::vector<Vec3>(4)) << "unless options say so";
   LayerOptions options = layers_on_floor();
   options.patches.resize(2);
   options.patches[1].first = 1e-3;
-  EXPECT_EQ(find_end_planes(world, mesh, options)[x_face], Vec3{}) << "it has layers itself";
+  EXPECT_EQ(find_end_planes(mesh, options)[x_face], Vec3{}) << "it has layers itself";
 }
 
 TEST(EndPlanes, AreNotCurved) {
@@ -90,7 +88,7 @@ TEST(EndPlanes, AreNotCurved) {
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes([](Vec3 p) {
                                                   return Vec3{p.x - 0.1 * (1 - p.x) * p.z * p.z, p.y, p.z};
                                                 }));
-  const std::vector<Vec3> planes = find_end_planes(world, mesh, layers_on_floor());
+  const std::vector<Vec3> planes = find_end_planes(mesh, layers_on_floor());
   EXPECT_EQ(planes[x_face], Vec3{});
   EXPECT_EQ(planes[y_face], (Vec3{0, -1, 0}));
 }
@@ -99,7 +97,7 @@ TEST(EndPlanes, MayLieAskew) {
   const auto world = Communicator::world();
   const auto turned = [](Vec3 p) { return Vec3{0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z}; };
   const std::vector<Vec3> planes =
-      find_end_planes(world, distribute(world, box_with_planes(turned)), layers_on_floor());
+      find_end_planes(distribute(world, box_with_planes(turned)), layers_on_floor());
   EXPECT_NEAR(distance(planes[x_face], {-0.8, -0.6, 0}), 0, 1e-14);
   EXPECT_NEAR(distance(planes[y_face], {0.6, -0.8, 0}), 0, 1e-14);
 }
@@ -117,7 +115,7 @@ TEST(AlongPlanes, LeavesAllBitsOfACoordinate) {
 TEST(EndPlanes, HoldTheEndsOfLayers) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
-  const Layers layers = build(world, mesh, layers_on_floor(), take_planes_away);
+  const Layers layers = build(mesh, layers_on_floor(), take_planes_away);
   std::int64_t on_planes = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const mesh::Piece& piece = mesh.pieces[p];
@@ -145,8 +143,9 @@ TEST(EndPlanes, HoldTheEndsOfLayers) {
 }
 
 /// Remeshes planes unless vertices at x = 0 have moved to where they may not be.
-PlaneRemesher refuse_moves(const Communicator& world, const mesh::DistributedMesh& wall,
+PlaneRemesher refuse_moves(const mesh::DistributedMesh& wall,
                            std::function<bool(Vec3 from, Vec3 to)> is_refused) {
+  const Communicator& world = wall.communicator;
   return [&world, &wall, is_refused = std::move(is_refused)](mesh::DistributedMesh& front) {
     std::vector<mesh::SharedVertexKey> at_fault;
     for (std::size_t p = 0; p < front.pieces.size(); ++p) {
@@ -165,9 +164,8 @@ TEST(EndPlanes, MakeColumnsShrinkWhereTheyCannotBeMeshedAgain) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
   // A plane that bears no trace above 0.05.
-  const PlaneRemesher refuse =
-      refuse_moves(world, mesh, [](Vec3 from, Vec3 to) { return to.z - from.z > 0.05; });
-  const Layers layers = build(world, mesh, layers_on_floor(), refuse);
+  const PlaneRemesher refuse = refuse_moves(mesh, [](Vec3 from, Vec3 to) { return to.z - from.z > 0.05; });
+  const Layers layers = build(mesh, layers_on_floor(), refuse);
   double highest = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
@@ -185,7 +183,7 @@ TEST(EndPlanes, AreNotInTheWayOfColumnsBesideThem) {
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes([](Vec3 p) {
                                                   return Vec3{p.x, p.y, 3 * p.z};
                                                 }));
-  const Layers layers = build(world, mesh, layers_on_floor(), take_planes_away);
+  const Layers layers = build(mesh, layers_on_floor(), take_planes_away);
   std::int64_t beside = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
@@ -201,11 +199,11 @@ TEST(EndPlanes, AreNotInTheWayOfColumnsBesideThem) {
 TEST(EndPlanes, EmptyColumnsAtLastWhereTheyBearNoTrace) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
-  const PlaneRemesher refuse = refuse_moves(world, mesh, [](Vec3 from, Vec3 to) { return !(to == from); });
+  const PlaneRemesher refuse = refuse_moves(mesh, [](Vec3 from, Vec3 to) { return !(to == from); });
   LayerOptions options = layers_on_floor();
   options.stairs = 100;
   options.patches[0].growth = 1.01;
-  const Layers layers = build(world, mesh, options, refuse);
+  const Layers layers = build(mesh, options, refuse);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v)
       EXPECT_TRUE(mesh.pieces[p].point(v).x != 0 || layers.columns.pieces[p].counts[v] == 0);
@@ -216,7 +214,7 @@ TEST(EndPlanes, EmptyColumnsAtLastWhereTheyBearNoTrace) {
 
 TEST(EndPlanes, NeedSomebodyWhoMeshesThemAgain) {
   const auto world = Communicator::world();
-  EXPECT_THROW(build(world, distribute(world, box_with_planes()), layers_on_floor(), {}), std::runtime_error);
+  EXPECT_THROW(build(distribute(world, box_with_planes()), layers_on_floor(), {}), std::runtime_error);
 }
 
 }  // namespace

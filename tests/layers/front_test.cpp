@@ -28,13 +28,13 @@ LayerOptions layers_on_plates() {
 
 /// Columns of a wall that nobody has told of gaps.
 struct Unaware {
-  Unaware(const Communicator& communicator, const mesh::DistributedMesh& mesh)
-      : wall(communicator, mesh, layers_on_plates()),
-        fans(gather_fans(communicator, wall)),
+  Unaware(const mesh::DistributedMesh& mesh)
+      : wall(mesh.communicator, mesh, layers_on_plates()),
+        fans(gather_fans(wall)),
         directions(find_directions(wall, fans)),
         limits(wall, layers_on_plates(), fans, directions) {
-    limits.converge(communicator);
-    shrink_to_good(communicator, wall, directions, limits);
+    limits.converge(mesh.communicator);
+    shrink_to_good(wall, directions, limits);
   }
   mesh::DistributedMesh front() const {
     return make_front(wall.mesh, make_columns(wall, directions, limits));
@@ -48,17 +48,17 @@ struct Unaware {
 
 mesh::DistributedMesh clear(const Communicator& communicator, Unaware& columns, LayerReport& report) {
   const PlaneRemesher none;
-  return FrontClearing(communicator, columns.wall, columns.directions, none).run(columns.limits, report);
+  return FrontClearing(columns.wall, columns.directions, none).run(columns.limits, report);
 }
 
 TEST(Front, ShrinksUntilNoTrianglesMeet) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = narrow_slit().distribute(world, 5);
-  Unaware columns(world, mesh);
-  EXPECT_FALSE(mesh::find_intersections(world, columns.front()).empty());
+  Unaware columns(mesh);
+  EXPECT_FALSE(mesh::find_intersections(columns.front()).empty());
   LayerReport report;
   clear(world, columns, report);
-  EXPECT_TRUE(mesh::find_intersections(world, columns.front()).empty());
+  EXPECT_TRUE(mesh::find_intersections(columns.front()).empty());
   EXPECT_GE(report.crossing_rounds, 1);
   EXPECT_GT(report.crossings, 0);
   EXPECT_EQ(report.zeroed_by_force, 0);
@@ -75,10 +75,10 @@ TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   const auto cleared = [](const Communicator& communicator) {
     const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);
-    Unaware columns(communicator, mesh);
+    Unaware columns(mesh);
     LayerReport report;
     const mesh::DistributedMesh front = clear(communicator, columns, report);
-    return mesh::hash_mesh(communicator, front, mesh::number_mesh(communicator, front));
+    return mesh::hash_mesh(front, mesh::number_mesh(front));
   };
   EXPECT_EQ(cleared(world), cleared(self));
 }
@@ -97,17 +97,17 @@ TEST(Front, DoesNotCloseAroundAPart) {
   LayerOptions options;
   options.patches.resize(3);
   options.patches[1].first = 1e-2;
-  WallShare wall(world, mesh, options);
-  const Fans fans = gather_fans(world, wall);
+  WallShare wall(mesh, options);
+  const Fans fans = gather_fans(wall);
   const Directions directions = find_directions(wall, fans);
   ColumnLimits limits(wall, options, fans, directions);
   limits.converge(world);
-  shrink_to_good(world, wall, directions, limits);
+  shrink_to_good(wall, directions, limits);
   LayerReport report;
   const PlaneRemesher none;
   const mesh::DistributedMesh before = make_front(wall.mesh, make_columns(wall, directions, limits));
-  EXPECT_TRUE(mesh::find_intersections(world, before).empty());
-  FrontClearing(world, wall, directions, none).run(limits, report);
+  EXPECT_TRUE(mesh::find_intersections(before).empty());
+  FrontClearing(wall, directions, none).run(limits, report);
   EXPECT_GT(report.swallowing, 0);
   double least = 1;
   std::int64_t live = 0;
@@ -126,13 +126,13 @@ TEST(Front, LeavesCrossingsOfTheWallItself) {
           .add_box({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, examples::Fluid::outside)
           .add_box({0.5, 0.3, 0.2}, {1.6, 1.5, 1.4}, {2, 2, 2}, examples::Fluid::outside)
           .distribute(world, 3);
-  WallShare wall(world, mesh, {});
-  const Fans fans = gather_fans(world, wall);
+  WallShare wall(mesh, {});
+  const Fans fans = gather_fans(wall);
   const Directions directions = find_directions(wall, fans);
   ColumnLimits limits(wall, {}, fans, directions);
   LayerReport report;
   const PlaneRemesher none;
-  FrontClearing(world, wall, directions, none).run(limits, report);
+  FrontClearing(wall, directions, none).run(limits, report);
   EXPECT_EQ(report.crossing_rounds, 0);
 }
 

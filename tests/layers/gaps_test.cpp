@@ -34,22 +34,21 @@ examples::Shapes slit() {
       .add_box({0, 0, 1.25}, {2, 2, 2.25}, {6, 6, 3}, examples::Fluid::outside);
 }
 
-std::vector<double> gaps_in_slit(const parallel::Communicator& communicator,
-                                 const mesh::DistributedMesh& mesh) {
-  const WallShare wall(communicator, mesh, {});
+std::vector<double> gaps_in_slit(const mesh::DistributedMesh& mesh) {
+  const WallShare wall(mesh, {});
   std::vector<TouchingBall> balls(wall.points.size());
   for (std::size_t v = 0; v < balls.size(); ++v) {
     const Vec3 p = wall.points[v];
     if (p.z == 1 && p.x > 0.5 && p.x < 1.5 && p.y > 0.5 && p.y < 1.5) balls[v] = {p, {0, 0, 1}, 1};
     if (p.z == 0 && p.x > 0.5 && p.x < 1.5 && p.y > 0.5 && p.y < 1.5) balls[v] = {p, {0, 0, -1}, 1};
   }
-  return find_gaps(communicator, wall, balls);
+  return find_gaps(wall, balls);
 }
 
 TEST(Gaps, SeeTheOtherPlateOnAnyRank) {
   const auto world = parallel::Communicator::world();
   const mesh::DistributedMesh mesh = slit().distribute(world, 6);
-  const std::vector<double> gaps = gaps_in_slit(world, mesh);
+  const std::vector<double> gaps = gaps_in_slit(mesh);
   std::int64_t narrow = 0;
   std::size_t v = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -66,7 +65,7 @@ TEST(Gaps, SeeTheOtherPlateOnAnyRank) {
 TEST(Gaps, AreTheSameOnAnyNumberOfRanks) {
   const auto world = parallel::Communicator::world(), self = parallel::Communicator::self();
   const mesh::DistributedMesh mesh = slit().distribute(world, 6), whole = slit().distribute(self, 6);
-  const std::vector<double> gaps = gaps_in_slit(world, mesh), expected = gaps_in_slit(self, whole);
+  const std::vector<double> gaps = gaps_in_slit(mesh), expected = gaps_in_slit(self, whole);
   std::size_t v = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
     std::size_t at = 0;

@@ -30,8 +30,8 @@ TEST(HardPlaces, LayersStayBelowAStrutOverTheirWall) {
   const auto world = Communicator::world();
   for (const double x : {0.0, 0.25}) {  // over vertices of the wall, and between them
     const mesh::DistributedMesh mesh = strut_over_a_wall(x).distribute(world, 5);
-    const Layers layers = build(world, mesh, options_for({0, 1e-3, 1e-3}));
-    expect_valid(world, mesh, layers);
+    const Layers layers = build(mesh, options_for({0, 1e-3, 1e-3}));
+    expect_valid(mesh, layers);
     std::int64_t below = 0;
     for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
       for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
@@ -111,7 +111,7 @@ TEST(HardPlaces, LayersOfACylinderEndOnPlanesOfSymmetry) {
                       mesh::PatchType::symmetry};
   LayerOptions options = options_for({1e-3});
   options.ends_on_planes = true;
-  const Layers layers = build(world, mesh, options, take_planes_away);
+  const Layers layers = build(mesh, options, take_planes_away);
   const PatchLayers& patch = layers.report.patches[body_face];
   EXPECT_NEAR(patch.full_area / patch.area, 1, 1e-12) << "to the last vertex on the planes";
   std::int64_t on_planes = 0;
@@ -140,8 +140,8 @@ void expect_layers_on_wing(const Section& section, double empty, double full) {
   const mesh::DistributedMesh mesh = around_a_body(section).distribute(world, 6);
   LayerOptions options = options_for({1e-3, 0, 1e-3, 1e-3});
   for (WallLayers& wall : options.patches) wall.count = 10;  // fewer than stairs leave at the root
-  const Layers layers = build(world, mesh, options);
-  expect_valid(world, mesh, layers);
+  const Layers layers = build(mesh, options);
+  expect_valid(mesh, layers);
   const PatchLayers &wing = layers.report.patches[body_face], &fuselage = layers.report.patches[floor_face];
   EXPECT_LE(wing.empty_area, empty * wing.area);
   EXPECT_GE(wing.full_area, full * wing.area);

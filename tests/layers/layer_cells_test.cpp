@@ -38,11 +38,9 @@ WantedColumn on_ball(Vec3 p, std::int32_t count) {
 }
 
 void expect_valid(const Layered& layered, const mesh::DistributedMesh* surface) {
-  const mesh::ValidityReport report =
-      mesh::check_volume_mesh(layered.communicator, layered.mesh, layered.numbering, surface);
+  const mesh::ValidityReport report = mesh::check_volume_mesh(layered.mesh, layered.numbering, surface);
   for (const std::string& violation : report.violations) ADD_FAILURE() << violation;
-  mesh::ValidityReport of_wall =
-      mesh::check_surface_mesh(layered.communicator, layered.wall.mesh, layered.wall.numbering);
+  mesh::ValidityReport of_wall = mesh::check_surface_mesh(layered.wall.mesh, layered.wall.numbering);
   EXPECT_NEAR(report.volume / of_wall.volume, 1, 1e-12);
 }
 
@@ -70,7 +68,7 @@ CellCounts expected_cells(const Layered& layered) {
 
 void expect_cells(const Layered& layered) {
   const CellCounts expected = expected_cells(layered);
-  const mesh::MeshCounts counts = mesh::count_mesh(layered.communicator, layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
   EXPECT_EQ(counts.prisms, expected.prisms);
   EXPECT_EQ(counts.pyramids, expected.pyramids);
   EXPECT_EQ(counts.cells, layered.tetrahedra + expected.prisms + expected.pyramids + expected.tetrahedra);
@@ -187,7 +185,7 @@ TEST(LayerCells, EndOnPlanesInTheirQuadrilaterals) {
   const Layered layered = on_the_floor(world, [](Vec3) { return 3; });
   expect_valid(layered, nullptr);
   expect_cells(layered);
-  const mesh::MeshCounts counts = mesh::count_mesh(world, layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
   EXPECT_EQ(counts.boundary_quads, 4 * 6 * 3);
   EXPECT_EQ(counts.boundary_triangles, 6 * 6 * 6 * 2);
   for (const Piece& piece : layered.mesh.pieces) {
@@ -203,7 +201,7 @@ TEST(LayerCells, EndOnPlanesForAnyCounts) {
   const Layered layered = on_the_floor(world, any_count);
   expect_valid(layered, nullptr);
   expect_cells(layered);
-  const mesh::MeshCounts counts = mesh::count_mesh(world, layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
   for (const Piece& piece : layered.mesh.pieces) {
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const Vec3 p = piece.point(v);
@@ -224,7 +222,7 @@ std::int64_t expected_tetrahedra(const Layered& layered) {
 }
 
 void expect_tetrahedra_alone(const Layered& layered) {
-  const mesh::MeshCounts counts = mesh::count_mesh(layered.communicator, layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
   EXPECT_EQ(counts.prisms + counts.pyramids + counts.boundary_quads, 0);
   EXPECT_EQ(counts.cells, layered.tetrahedra + expected_tetrahedra(layered));
 }
@@ -253,7 +251,7 @@ TEST(LayerTetrahedra, EndOnPlanesInTriangles) {
       world, [](Vec3) { return 3; }, LayerElements::tets);
   expect_valid(full, nullptr);
   expect_tetrahedra_alone(full);
-  const mesh::MeshCounts counts = mesh::count_mesh(world, full.mesh, full.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(full.mesh, full.numbering);
   EXPECT_EQ(counts.boundary_triangles, 6 * 6 * 6 * 2 + 4 * 6 * 3 * 2);
   const Layered stepped = on_the_floor(world, any_count, LayerElements::tets);
   expect_valid(stepped, nullptr);

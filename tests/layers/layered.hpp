@@ -46,7 +46,7 @@ struct Layered {
       for (std::size_t t = 0; t < piece.triangle_face.size(); ++t)
         piece.triangle_patch[t] = piece.triangle_face[t] == wall_face ? 0 : 1;
     }
-    wall.numbering = mesh::number_mesh(ranks, wall.mesh);
+    wall.numbering = mesh::number_mesh(wall.mesh);
   }
 
   /// Heights are `first`, twice, then half as much again each. Vertices with a direction that is not zero
@@ -67,7 +67,7 @@ struct Layered {
         end.set_point(v, node(piece, of_piece, v, column.count));
       }
     }
-    front = name_front(communicator, std::move(moved));
+    front = name_front(std::move(moved));
   }
 
   /// Tetrahedra behind the front, improved, and the layers before it.
@@ -75,18 +75,18 @@ struct Layered {
             volume::VolumeOptions options = {}) {
     volume::VolumeReport report;
     const volume::VolumeInput input{front.mesh, front.numbering, field, options};
-    mesh = volume::fill_zones(communicator, input, volume::decompose(communicator, input), report);
+    mesh = volume::fill_zones(input, volume::decompose(input), report);
     improve::ImproveOptions improvement;
     improvement.boundary_may_change = false;
-    improved = improve::improve_mesh(communicator, mesh, improvement, {nullptr, &field});
+    improved = improve::improve_mesh(mesh, improvement, {nullptr, &field});
     tetrahedra = 0;
     for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);
-    append_layers(communicator, wall, columns, front, {most_cells_per_piece, elements}, mesh);
-    numbering = mesh::number_mesh(communicator, mesh);
+    append_layers(wall, columns, front, {most_cells_per_piece, elements}, mesh);
+    numbering = mesh::number_mesh(mesh);
   }
 
-  std::string hash() const { return mesh::hash_mesh(communicator, mesh, numbering); }
+  std::string hash() const { return mesh::hash_mesh(mesh, numbering); }
 
   parallel::Communicator communicator;
   mesh::NumberedMesh wall;

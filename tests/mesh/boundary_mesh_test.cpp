@@ -20,8 +20,8 @@ struct FaceSum {
   std::int64_t triangles = 0;
   double area = 0;
 };
-std::map<std::int32_t, FaceSum> sums_by_face(const Communicator& communicator,
-                                             const DistributedMesh& surface) {
+std::map<std::int32_t, FaceSum> sums_by_face(const DistributedMesh& surface) {
+  const Communicator& communicator = surface.communicator;
   std::map<std::int32_t, FaceSum> sums;
   for (std::int32_t face = 0; face < 6; ++face) {
     FaceSum mine;
@@ -45,23 +45,23 @@ class BoundaryOfCube : public testing::TestWithParam<int> {};
 TEST_P(BoundaryOfCube, HasAllTrianglesOfEveryFaceAndIsClosed) {
   const Communicator world = Communicator::world();
   const DistributedMesh volume = examples::cube(world, cubes, GetParam());
-  const DistributedMesh surface = boundary_mesh(world, volume, number_mesh(world, volume));
+  const DistributedMesh surface = boundary_mesh(volume, number_mesh(volume));
   EXPECT_EQ(surface.kind, CellKind::triangle);
-  for (const auto& [face, sum] : sums_by_face(world, surface)) {
+  for (const auto& [face, sum] : sums_by_face(surface)) {
     EXPECT_EQ(sum.triangles, 2 * cubes * cubes) << "face " << face;
     EXPECT_NEAR(sum.area, 1, 1e-12) << "face " << face << ", outward";
   }
-  const Numbering numbering = number_mesh(world, surface);
+  const Numbering numbering = number_mesh(surface);
   constexpr int row = cubes + 1, inside = cubes - 1;
   EXPECT_EQ(numbering.vertex_count, row * row * row - inside * inside * inside);
-  const ValidityReport report = check_surface_mesh(world, surface, numbering);
+  const ValidityReport report = check_surface_mesh(surface, numbering);
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 
 TEST_P(BoundaryOfCube, HasOnePieceForEachPieceAndFaceInTheirOrder) {
   const Communicator world = Communicator::world();
   const DistributedMesh volume = examples::cube(world, cubes, GetParam());
-  const DistributedMesh surface = boundary_mesh(world, volume, number_mesh(world, volume));
+  const DistributedMesh surface = boundary_mesh(volume, number_mesh(volume));
   struct Row {
     PieceId id;
     std::int32_t face;
@@ -91,11 +91,11 @@ INSTANTIATE_TEST_SUITE_P(Pieces, BoundaryOfCube, testing::Values(1, 2, 5));
 TEST(PartOfSurface, TellsFacesBetweenRegionsFromTheOthers) {
   const Communicator world = Communicator::world();
   const DistributedMesh volume = examples::cube(world, cubes, 2);
-  DistributedMesh surface = boundary_mesh(world, volume, number_mesh(world, volume));
+  DistributedMesh surface = boundary_mesh(volume, number_mesh(volume));
   surface.sides.assign(6, FaceSides{0, no_region});
   surface.sides[3] = {0, 1};
-  const auto outside = sums_by_face(world, part_of_surface(surface, SurfacePart::outside));
-  const auto between = sums_by_face(world, part_of_surface(surface, SurfacePart::between_regions));
+  const auto outside = sums_by_face(part_of_surface(surface, SurfacePart::outside));
+  const auto between = sums_by_face(part_of_surface(surface, SurfacePart::between_regions));
   for (std::int32_t face = 0; face < 6; ++face) {
     const std::int64_t all = 2 * cubes * cubes;
     EXPECT_EQ(outside.at(face).triangles, face == 3 ? 0 : all);

@@ -16,9 +16,8 @@
 namespace aeroloom::mesh {
 namespace {
 
-std::vector<TriangleHit> intersections_of(const parallel::Communicator& communicator,
-                                          const DistributedMesh& surface) {
-  return find_intersections(communicator, surface);
+std::vector<TriangleHit> intersections_of(const DistributedMesh& surface) {
+  return find_intersections(surface);
 }
 
 using geometry::Vec3;
@@ -32,7 +31,7 @@ struct Soup {
 /// The soup cut into pieces of consecutive triangles, piece p on rank p modulo ranks. Every vertex is shared
 /// by its index.
 DistributedMesh distribute(const Soup& soup, int pieces, const parallel::Communicator& communicator) {
-  DistributedMesh surface;
+  DistributedMesh surface(communicator);
   surface.kind = CellKind::triangle;
   surface.piece_count = pieces;
   const int count = static_cast<int>(soup.triangles.size());
@@ -68,7 +67,7 @@ Pairs find_pairs(const Soup& soup, int pieces) {
   const int count = static_cast<int>(soup.triangles.size());
   Pairs pairs;
   std::tuple<int, int, int, int> last{-1, -1, -1, -1};
-  for (const TriangleHit& hit : intersections_of(world, distribute(soup, pieces, world))) {
+  for (const TriangleHit& hit : intersections_of(distribute(soup, pieces, world))) {
     const std::tuple<int, int, int, int> key{hit.first_piece, hit.first, hit.second_piece, hit.second};
     EXPECT_LT(last, key) << "hits ascend and none comes twice";
     EXPECT_LE(hit.first_piece, hit.second_piece);
@@ -240,7 +239,7 @@ TEST(FindIntersections, GivesTheSameHitsOnAnyRankCount) {
   add_sheet(soup, 16, [](double u, double v) { return Vec3{1.4 * u - 0.7, 1.4 * v - 0.7, 0.8 + 0.1 * u}; });
   const auto world = parallel::Communicator::world();
   const auto self = parallel::Communicator::self();
-  const auto spread = intersections_of(world, distribute(soup, 6, world));
+  const auto spread = intersections_of(distribute(soup, 6, world));
   const auto alone = intersections_of(self, distribute(soup, 6, self));
   ASSERT_EQ(spread.size(), alone.size());
   EXPECT_FALSE(spread.empty());
@@ -257,9 +256,9 @@ TEST(FindIntersections, GivesTheSameHitsOnAnyRankCount) {
 
 TEST(FindIntersections, RefusesTetrahedraOnAllRanks) {
   const auto world = parallel::Communicator::world();
-  DistributedMesh volume;
+  DistributedMesh volume(world);
   if (world.rank() != world.size() - 1) volume.kind = CellKind::triangle;
-  EXPECT_THROW(intersections_of(world, volume), std::runtime_error);
+  EXPECT_THROW(intersections_of(volume), std::runtime_error);
 }
 
 }  // namespace

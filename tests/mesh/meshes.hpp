@@ -82,7 +82,7 @@ inline Piece cut_piece(const WholeMesh& whole, PieceId id, const std::set<int>& 
 /// The pieces of a whole mesh that belong on this rank.
 inline DistributedMesh distribute(const parallel::Communicator& communicator, const WholeMesh& whole,
                                   int pieces) {
-  DistributedMesh mesh;
+  DistributedMesh mesh(communicator);
   mesh.kind = whole.kind;
   mesh.piece_count = pieces;
   mesh.patches = whole.patch_names;

@@ -66,7 +66,7 @@ TEST(Migration, PutsEveryPieceWhereItsOwnerSays) {
   std::vector<parallel::Rank> owner(pieces);
   for (int round = 0; round < 3; ++round) {
     for (int p = 0; p < pieces; ++p) owner[p] = (p * p + round) % world.size();
-    migrate(world, mesh, owner);
+    migrate(mesh, owner);
     std::size_t next = 0;
     for (int p = 0; p < pieces; ++p) {
       if (owner[p] != world.rank()) continue;
@@ -80,16 +80,16 @@ TEST(Migration, PutsEveryPieceWhereItsOwnerSays) {
 TEST(Migration, CannotChangeTheHash) {
   const auto world = Communicator::world();
   auto mesh = examples::cube(world, 3, 5);
-  const std::string before = hash_mesh(world, mesh, number_mesh(world, mesh));
-  migrate(world, mesh, std::vector<parallel::Rank>(5, world.size() - 1));
-  EXPECT_EQ(hash_mesh(world, mesh, number_mesh(world, mesh)), before);
+  const std::string before = hash_mesh(mesh, number_mesh(mesh));
+  migrate(mesh, std::vector<parallel::Rank>(5, world.size() - 1));
+  EXPECT_EQ(hash_mesh(mesh, number_mesh(mesh)), before);
 }
 
 TEST(Migration, RefusesOwnersThatDoNotFit) {
   const auto world = Communicator::world();
   auto mesh = examples::two_tets(world);
-  EXPECT_THROW(migrate(world, mesh, {0}), parallel::CollectiveError);
-  EXPECT_THROW(migrate(world, mesh, {0, world.size()}), parallel::CollectiveError);
+  EXPECT_THROW(migrate(mesh, {0}), parallel::CollectiveError);
+  EXPECT_THROW(migrate(mesh, {0, world.size()}), parallel::CollectiveError);
 }
 
 }  // namespace

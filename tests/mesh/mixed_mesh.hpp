@@ -306,6 +306,7 @@ inline DistributedMesh distribute(const parallel::Communicator& communicator, co
                                   int pieces) {
   const MixedCutter cutter(whole);
   DistributedMesh mesh = cutter.names();
+  mesh.communicator = communicator;
   mesh.piece_count = pieces;
   for (PieceId id = communicator.rank(); id < pieces; id += communicator.size())
     mesh.pieces.push_back(cutter.cut(id));

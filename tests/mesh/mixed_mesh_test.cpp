@@ -22,15 +22,15 @@ using parallel::Communicator;
 
 constexpr double determinant = 2 * 1.5 + 0.25 * 0.125 * 0.0625;  // of the map of the mixed mesh
 
-std::string hash_of(const Communicator& communicator, const DistributedMesh& mesh) {
-  return hash_mesh(communicator, mesh, number_mesh(communicator, mesh));
+std::string hash_of(const DistributedMesh& mesh) {
+  return hash_mesh(mesh, number_mesh(mesh));
 }
 
 TEST(MixedMesh, IsNumberedByPieceThenShape) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(4, 3);
   const DistributedMesh mesh = examples::distribute(world, whole, 3);
-  const Numbering numbering = number_mesh(world, mesh);
+  const Numbering numbering = number_mesh(mesh);
   EXPECT_EQ(numbering.vertex_count, static_cast<GlobalIndex>(whole.points.size()));
   EXPECT_EQ(numbering.cell_count, static_cast<GlobalIndex>(whole.cells.size()));
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -38,7 +38,7 @@ TEST(MixedMesh, IsNumberedByPieceThenShape) {
                                       [&](const auto& cell) { return cell.piece < mesh.pieces[i].id; });
     EXPECT_EQ(numbering.first_cell[i], before);
   }
-  const MeshCounts counts = count_mesh(world, mesh, numbering);
+  const MeshCounts counts = count_mesh(mesh, numbering);
   EXPECT_EQ(counts.cells, 32 + 20 + 104);
   EXPECT_EQ(counts.pyramids, 20);
   EXPECT_EQ(counts.prisms, 32);
@@ -85,8 +85,7 @@ TEST(MixedMesh, CellsOfAllShapesAreFound) {
 
 TEST(MixedMesh, HashIsTheSameOnAnyRanksAndAnyPieceOrder) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  EXPECT_EQ(hash_of(world, examples::mixed_mesh(world, 4, 5)),
-            hash_of(self, examples::mixed_mesh(self, 4, 5)));
+  EXPECT_EQ(hash_of(examples::mixed_mesh(world, 4, 5)), hash_of(self, examples::mixed_mesh(self, 4, 5)));
 }
 
 TEST(MixedMesh, EveryPartOfThePiecesCountsInTheHash) {
@@ -114,11 +113,11 @@ TEST(MixedMesh, EveryPartOfThePiecesCountsInTheHash) {
 TEST(MixedMesh, MigratesAndPacksBitForBit) {
   const Communicator world = Communicator::world();
   DistributedMesh mesh = examples::mixed_mesh(world, 4, 5);
-  const std::string hash = hash_of(world, mesh);
+  const std::string hash = hash_of(mesh);
   for (int round = 1; round <= 3; ++round) {
     std::vector<parallel::Rank> owner;
     for (PieceId id = 0; id < 5; ++id) owner.push_back((3 * id + round) % world.size());
-    migrate(world, mesh, owner);
+    migrate(mesh, owner);
     for (const Piece& piece : mesh.pieces) {
       EXPECT_EQ(owner[piece.id], world.rank());
       EXPECT_EQ(parallel::to_wire(parallel::from_wire<Piece>(parallel::to_wire(piece))),
@@ -127,7 +126,7 @@ TEST(MixedMesh, MigratesAndPacksBitForBit) {
           bytes_at_rest(piece),
           static_cast<std::int64_t>(4 * (piece.pyramids.size() + piece.prisms.size() + piece.quads.size())));
     }
-    EXPECT_EQ(hash_of(world, mesh), hash);
+    EXPECT_EQ(hash_of(mesh), hash);
   }
 }
 
@@ -154,14 +153,14 @@ TEST(MixedMesh, ArraysThatDoNotFitAreRefused) {
   expect_refused("triangles", [](Piece& piece) { piece.kind = CellKind::triangle; });
 }
 
-ValidityReport check(const Communicator& communicator, const DistributedMesh& mesh) {
-  return check_volume_mesh(communicator, mesh, number_mesh(communicator, mesh), nullptr);
+ValidityReport check(const DistributedMesh& mesh) {
+  return check_volume_mesh(mesh, number_mesh(mesh), nullptr);
 }
 
 TEST(MixedMesh, IsValidOnAnyRanksHoweverCut) {
   const Communicator world = Communicator::world();
   for (const int pieces : {1, 3, 5}) {
-    const ValidityReport report = check(world, examples::mixed_mesh(world, 4, pieces));
+    const ValidityReport report = check(examples::mixed_mesh(world, 4, pieces));
     EXPECT_TRUE(report.valid()) << report.violations.front();
     EXPECT_NEAR(report.volume, 36 * determinant, 1e-10);
     EXPECT_NEAR(report.surface_volume, 36 * determinant, 1e-10);
@@ -175,7 +174,7 @@ std::vector<std::string> violations(const Communicator& world, const std::functi
   for (Piece& piece : mesh.pieces) {
     if (piece.id == 1) spoil(piece);
   }
-  return check(world, mesh).violations;
+  return check(mesh).violations;
 }
 
 TEST(MixedMesh, EveryBrokenMeshIsFoundOut) {
@@ -247,7 +246,7 @@ TEST(MixedMesh, AFoldedPrismOfPositiveVolumeIsFoundOut) {
   piece.quads = {0, 1, 4, 3, 1, 2, 5, 4, 2, 0, 3, 5};
   piece.triangle_face = piece.triangle_patch = {0, 0};
   piece.quad_face = piece.quad_patch = {0, 0, 0};
-  DistributedMesh mesh;
+  DistributedMesh mesh(self);
   mesh.piece_count = 1;
   mesh.faces = mesh.patches = {"all"};
   mesh.pieces = {piece};
@@ -262,7 +261,7 @@ TEST(MixedMesh, VolumesOfWarpedQuadrilateralsAddUp) {
   // Lower prisms and pyramids beside each other, all inner vertices moved: quadrilaterals warp.
   const Communicator world = Communicator::world();
   DistributedMesh mesh = examples::mixed_mesh(world, 4, 3);
-  const Numbering numbering = number_mesh(world, mesh);
+  const Numbering numbering = number_mesh(mesh);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     for (LocalIndex v = 0; v < mesh.pieces[i].vertex_count(); ++v) {
       const auto bits = static_cast<std::uint64_t>(numbering.vertices[i][v] + 1) * 0x9e3779b97f4a7c15ULL;
@@ -271,7 +270,7 @@ TEST(MixedMesh, VolumesOfWarpedQuadrilateralsAddUp) {
       mesh.pieces[i].set_point(v, p);
     }
   }
-  const ValidityReport report = check(world, mesh);
+  const ValidityReport report = check(mesh);
   EXPECT_TRUE(report.valid()) << report.violations.front();
   EXPECT_NEAR(report.volume, report.surface_volume, 1e-10 * report.volume);
 }
@@ -279,12 +278,12 @@ TEST(MixedMesh, VolumesOfWarpedQuadrilateralsAddUp) {
 TEST(MixedMesh, SharedCoordinatesMustAgree) {
   const Communicator world = Communicator::world();
   DistributedMesh mesh = examples::mixed_mesh(world, 3, 2);
-  const Numbering numbering = number_mesh(world, mesh);
+  const Numbering numbering = number_mesh(mesh);
   for (Piece& piece : mesh.pieces) {
     if (piece.id == 1) piece.coordinates[3 * static_cast<std::size_t>(piece.shared_vertices[0])] += 1e-9;
   }
-  EXPECT_THROW(number_mesh(world, mesh), parallel::CollectiveError);
-  const ValidityReport report = check_volume_mesh(world, mesh, numbering, nullptr);
+  EXPECT_THROW(number_mesh(mesh), parallel::CollectiveError);
+  const ValidityReport report = check_volume_mesh(mesh, numbering, nullptr);
   ASSERT_FALSE(report.valid());
   EXPECT_EQ(report.violations[0].find("shared vertices whose coordinates differ"), 0U);
 }
@@ -292,21 +291,20 @@ TEST(MixedMesh, SharedCoordinatesMustAgree) {
 TEST(MixedMesh, IsTheSameMeshInOtherPieces) {
   const Communicator world = Communicator::world(), self = Communicator::self();
   const DistributedMesh mesh = examples::mixed_mesh(world, 4, 3), alone = examples::mixed_mesh(self, 4, 3);
-  const Numbering numbering = number_mesh(world, mesh), numbering_alone = number_mesh(self, alone);
-  const MeshCounts counts = count_mesh(world, mesh, numbering);
+  const Numbering numbering = number_mesh(mesh), numbering_alone = number_mesh(self, alone);
+  const MeshCounts counts = count_mesh(mesh, numbering);
   for (const auto& [pieces, regions] :
        {std::pair(1, PieceRegions::several), {7, PieceRegions::several}, {4, PieceRegions::one}}) {
-    const NumberedMesh cut = repartition(world, mesh, numbering, pieces, regions);
+    const NumberedMesh cut = repartition(mesh, numbering, pieces, regions);
     const NumberedMesh cut_alone = repartition(self, alone, numbering_alone, pieces, regions);
-    EXPECT_EQ(hash_mesh(world, cut.mesh, cut.numbering),
-              hash_mesh(self, cut_alone.mesh, cut_alone.numbering));
-    EXPECT_EQ(hash_of(world, cut.mesh), hash_mesh(world, cut.mesh, cut.numbering));
-    const MeshCounts now = count_mesh(world, cut.mesh, cut.numbering);
+    EXPECT_EQ(hash_mesh(cut.mesh, cut.numbering), hash_mesh(self, cut_alone.mesh, cut_alone.numbering));
+    EXPECT_EQ(hash_of(cut.mesh), hash_mesh(cut.mesh, cut.numbering));
+    const MeshCounts now = count_mesh(cut.mesh, cut.numbering);
     EXPECT_EQ(now.vertices, counts.vertices);
     EXPECT_EQ(now.pyramids, counts.pyramids);
     EXPECT_EQ(now.boundary_quads, counts.boundary_quads);
     EXPECT_EQ(now.inner_triangles, counts.inner_triangles);
-    const ValidityReport report = check_volume_mesh(world, cut.mesh, cut.numbering, nullptr);
+    const ValidityReport report = check_volume_mesh(cut.mesh, cut.numbering, nullptr);
     EXPECT_TRUE(report.valid()) << report.violations.front();
     for (const Piece& piece : cut.mesh.pieces) {
       EXPECT_TRUE(regions == PieceRegions::several || piece.runs.empty());

@@ -86,9 +86,9 @@ TEST(CellMeasures, WarpedQuadrilateralsAddUp) {
   EXPECT_NEAR(cell_volume(CellShape::prism, c.data()) + cell_volume(CellShape::prism, d.data()), sum, 1e-14);
 }
 
-MixedQuality quality_of(const Communicator& communicator, const DistributedMesh& mesh) {
-  const Numbering numbering = number_mesh(communicator, mesh);
-  return measure_quality(communicator, mesh, numbering, link_faces(communicator, mesh, numbering));
+MixedQuality quality_of(const DistributedMesh& mesh) {
+  const Numbering numbering = number_mesh(mesh);
+  return measure_quality(mesh, numbering, link_faces(mesh, numbering));
 }
 
 /// Sums over all cells, whatever their shape.
@@ -129,7 +129,7 @@ TEST(MixedQuality, WholeMesh) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(4, 3);
   const DistributedMesh mesh = examples::distribute(world, whole, 3);
-  const MixedQuality quality = quality_of(world, mesh);
+  const MixedQuality quality = quality_of(mesh);
   const double determinant = 3.001953125;  // of the map of the mixed mesh
   EXPECT_NEAR(quality.volume, 36 * determinant, 1e-10);
   EXPECT_NEAR(quality.region_volumes[1], 16 * determinant, 1e-10);
@@ -184,7 +184,7 @@ void expect_same(const MixedQuality& a, const MixedQuality& b) {
 
 TEST(MixedQuality, TheSameForAnyNumberOfRanks) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  expect_same(quality_of(world, examples::mixed_mesh(world, 4, 5)),
+  expect_same(quality_of(examples::mixed_mesh(world, 4, 5)),
               quality_of(self, examples::mixed_mesh(self, 4, 5)));
 }
 
@@ -197,10 +197,10 @@ TEST(MixedQuality, PercentilesOfKnownValues) {
     piece.coordinates.insert(piece.coordinates.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0, x, 0, i + 1.0});
     for (int k = 0; k < 4; ++k) piece.cells.push_back(4 * i + k);
   }
-  DistributedMesh mesh;
+  DistributedMesh mesh(world);
   mesh.piece_count = 1;
   if (world.is_root()) mesh.pieces.push_back(std::move(piece));
-  const MixedQuality quality = quality_of(world, mesh);
+  const MixedQuality quality = quality_of(mesh);
   const MeasureDistribution& volume = quality.distribution(CellShape::tetrahedron, Measure::volume);
   const std::array<double, 7> expected = {1, 10, 50, 500, 950, 990, 999};
   for (std::size_t i = 0; i < expected.size(); ++i) {

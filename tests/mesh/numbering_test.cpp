@@ -27,8 +27,9 @@ struct Row {
   friend bool operator==(const Row&, const Row&) = default;
 };
 
-std::vector<Row> rows_of(const Communicator& communicator, const DistributedMesh& mesh) {
-  const Numbering numbering = number_mesh(communicator, mesh);
+std::vector<Row> rows_of(const DistributedMesh& mesh) {
+  const Communicator& communicator = mesh.communicator;
+  const Numbering numbering = number_mesh(mesh);
   std::vector<Row> rows;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     for (LocalIndex v = 0; v < mesh.pieces[i].vertex_count(); ++v) {
@@ -46,7 +47,7 @@ std::vector<Row> rows_of(const Communicator& communicator, const DistributedMesh
 class NumberingOfCube : public testing::TestWithParam<int> {};
 
 TEST_P(NumberingOfCube, RunsByOwningPieceThenLocalOrder) {
-  const auto rows = rows_of(Communicator::world(), examples::cube(Communicator::world(), 3, GetParam()));
+  const auto rows = rows_of(examples::cube(Communicator::world(), 3, GetParam()));
   std::map<std::array<double, 3>, GlobalIndex> seen;
   GlobalIndex next = 0;
   for (const Row& row : rows) {
@@ -59,8 +60,8 @@ TEST_P(NumberingOfCube, RunsByOwningPieceThenLocalOrder) {
 }
 
 TEST_P(NumberingOfCube, IsTheSameOnOneRank) {
-  const auto here = rows_of(Communicator::world(), examples::cube(Communicator::world(), 3, GetParam()));
-  const auto alone = rows_of(Communicator::self(), examples::cube(Communicator::self(), 3, GetParam()));
+  const auto here = rows_of(examples::cube(Communicator::world(), 3, GetParam()));
+  const auto alone = rows_of(examples::cube(Communicator::self(), 3, GetParam()));
   ASSERT_EQ(here.size(), alone.size());
   for (std::size_t i = 0; i < here.size(); ++i) EXPECT_TRUE(here[i] == alone[i]) << i;
 }
@@ -70,12 +71,12 @@ INSTANTIATE_TEST_SUITE_P(Pieces, NumberingOfCube, testing::Values(1, 2, 4, 7, 27
 TEST(Numbering, CountsCubeAndFan) {
   const auto world = Communicator::world();
   const auto cube = examples::cube(world, 4, 5);
-  const MeshCounts counts = count_mesh(world, cube, number_mesh(world, cube));
+  const MeshCounts counts = count_mesh(cube, number_mesh(cube));
   EXPECT_EQ(counts.vertices, 125);
   EXPECT_EQ(counts.cells, 6 * 64);
   EXPECT_EQ(counts.boundary_triangles, 6 * 2 * 16);
   const auto fan = examples::fan(world, 6);
-  const Numbering numbers = number_mesh(world, fan);
+  const Numbering numbers = number_mesh(fan);
   EXPECT_EQ(numbers.vertex_count, 8);
   for (std::size_t i = 0; i < fan.pieces.size(); ++i) EXPECT_EQ(numbers.first_cell[i], fan.pieces[i].id);
 }
@@ -89,7 +90,7 @@ TEST(Numbering, RefusesCoordinatesThatDifferInTheLastBit) {
     x = std::nextafter(x, 10.0);
   }
   try {
-    number_mesh(world, mesh);
+    number_mesh(mesh);
     FAIL() << "no rank may go on";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_NE(std::string(error.what()).find("disagree: 1."), std::string::npos) << error.what();
@@ -104,21 +105,21 @@ TEST(Numbering, RefusesAKeyTwiceInOnePiece) {
     piece.set_point(piece.shared_vertices[1], piece.point(piece.shared_vertices[0]));
     piece.shared_keys[1] = piece.shared_keys[0];
   }
-  EXPECT_THROW(number_mesh(world, mesh), parallel::CollectiveError);
+  EXPECT_THROW(number_mesh(mesh), parallel::CollectiveError);
 }
 
 TEST(Numbering, RefusesIndicesOutOfRange) {
   const auto world = Communicator::world();
   auto mesh = examples::two_tets(world);
   for (Piece& piece : mesh.pieces) piece.cells[3] = piece.id == 1 ? 4 : piece.cells[3];
-  EXPECT_THROW(number_mesh(world, mesh), parallel::CollectiveError);
+  EXPECT_THROW(number_mesh(mesh), parallel::CollectiveError);
 }
 
 TEST(Numbering, RefusesALostPiece) {
   const auto world = Communicator::world();
   auto mesh = examples::two_tets(world);
   std::erase_if(mesh.pieces, [](const Piece& piece) { return piece.id == 1; });
-  EXPECT_THROW(number_mesh(world, mesh), parallel::CollectiveError);
+  EXPECT_THROW(number_mesh(mesh), parallel::CollectiveError);
 }
 
 }  // namespace

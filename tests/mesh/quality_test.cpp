@@ -111,14 +111,13 @@ void expect_same(const Distribution& a, const Distribution& b) {
   EXPECT_EQ(a.histogram.counts, b.histogram.counts);
 }
 
-QualitySummary summary_of(const Communicator& communicator, const DistributedMesh& mesh) {
-  return summarise_quality(communicator, mesh, number_mesh(communicator, mesh));
+QualitySummary summary_of(const DistributedMesh& mesh) {
+  return summarise_quality(mesh, number_mesh(mesh));
 }
 
 TEST(QualitySummary, IsTheSameBitsForAnyNumberOfRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
-  const auto a = summary_of(world, examples::cube(world, 5, 7)),
-             b = summary_of(self, examples::cube(self, 5, 7));
+  const auto a = summary_of(examples::cube(world, 5, 7)), b = summary_of(self, examples::cube(self, 5, 7));
   expect_same(a.min_dihedral, b.min_dihedral);
   expect_same(a.max_dihedral, b.max_dihedral);
   expect_same(a.mean_ratio, b.mean_ratio);
@@ -171,7 +170,7 @@ TEST(QualitySummary, AgreesWithSortedValues) {
 
 TEST(QualitySummary, OfASurface) {
   const auto world = Communicator::world();
-  const auto summary = summary_of(world, examples::cube_surface(world, 4, 3));
+  const auto summary = summary_of(examples::cube_surface(world, 4, 3));
   EXPECT_NEAR(summary.min_dihedral.minimum, 45, 1e-12);
   EXPECT_NEAR(summary.max_dihedral.maximum, 90, 1e-12);
   EXPECT_NEAR(summary.mean_ratio.mean, std::sqrt(3.0) / 2, 1e-12);
@@ -179,8 +178,8 @@ TEST(QualitySummary, OfASurface) {
 }
 
 TEST(QualitySummary, OfAnEmptyMesh) {
-  DistributedMesh mesh;
-  const auto summary = summary_of(Communicator::world(), mesh);
+  DistributedMesh mesh(world);
+  const auto summary = summary_of(mesh);
   EXPECT_EQ(summary.min_dihedral.minimum, 0);
   EXPECT_EQ(summary.mean_ratio.mean, 0);
   EXPECT_TRUE(summary.worst.empty());
@@ -190,7 +189,7 @@ TEST(QualitySummary, TellsTheCellsBeyondAngles) {
   const auto world = Communicator::world();
   const auto mesh = examples::fan(world, 5);
   CellsOutside beyond{{50, 89}, {}};
-  summarise_quality(world, mesh, number_mesh(world, mesh), &beyond);
+  summarise_quality(mesh, number_mesh(mesh), &beyond);
   ASSERT_EQ(beyond.cells.size(), mesh.pieces.size());
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     std::vector<LocalIndex> expected;

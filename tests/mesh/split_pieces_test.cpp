@@ -25,9 +25,9 @@ DistributedMesh ball_in_box(const Communicator& communicator, int slices) {
 TEST(SplitPieces, KeepTheMeshInSmallerPieces) {
   const auto world = Communicator::world();
   const DistributedMesh surface = ball_in_box(world, 2);
-  const MeshCounts before = count_mesh(world, surface, number_mesh(world, surface));
-  const NumberedMesh split = split_pieces(world, surface, 50, {});
-  const MeshCounts after = count_mesh(world, split.mesh, split.numbering);
+  const MeshCounts before = count_mesh(surface, number_mesh(surface));
+  const NumberedMesh split = split_pieces(surface, 50, {});
+  const MeshCounts after = count_mesh(split.mesh, split.numbering);
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.cells, before.cells);
   // Halves of 432 and of 768 triangles.
@@ -37,30 +37,30 @@ TEST(SplitPieces, KeepTheMeshInSmallerPieces) {
     EXPECT_GE(piece.cell_count(), 40);
     require_consistent_arrays(piece);
   }
-  EXPECT_TRUE(check_surface_mesh(world, split.mesh, split.numbering).valid());
+  EXPECT_TRUE(check_surface_mesh(split.mesh, split.numbering).valid());
 }
 
 TEST(SplitPieces, LeaveWholeFacesAlone) {
   const auto world = Communicator::world();
-  const NumberedMesh split = split_pieces(world, ball_in_box(world, 1), 50, {0});
+  const NumberedMesh split = split_pieces(ball_in_box(world, 1), 50, {0});
   std::vector<std::int32_t> of_box;
   for (const Piece& piece : split.mesh.pieces) of_box.push_back(piece.common_face() == 0 ? 1 : 0);
-  of_box = gather_by_piece(world, split.mesh, of_box);
+  of_box = gather_by_piece(split.mesh, of_box);
   EXPECT_EQ(std::count(of_box.begin(), of_box.end(), 1), 1);
   EXPECT_EQ(of_box.size(), 1u + 16u);
 }
 
 TEST(SplitPieces, AreTheSameOnAnyNumberOfRanks) {
   const auto hash_of = [](const Communicator& communicator) {
-    const NumberedMesh split = split_pieces(communicator, ball_in_box(communicator, 3), 40, {});
-    return hash_mesh(communicator, split.mesh, split.numbering);
+    const NumberedMesh split = split_pieces(ball_in_box(communicator, 3), 40, {});
+    return hash_mesh(split.mesh, split.numbering);
   };
-  EXPECT_EQ(hash_of(Communicator::world()), hash_of(Communicator::self()));
+  EXPECT_EQ(hash_of(), hash_of());
 }
 
 TEST(SplitPieces, AreSpreadOverRanks) {
   const auto world = Communicator::world();
-  const NumberedMesh split = split_pieces(world, ball_in_box(world, 1), 20, {});
+  const NumberedMesh split = split_pieces(ball_in_box(world, 1), 20, {});
   std::int64_t mine = 0;
   for (const Piece& piece : split.mesh.pieces) mine += piece.cell_count();
   EXPECT_LE(world.size() * mine, 1.1 * static_cast<double>(world.sum(mine)));

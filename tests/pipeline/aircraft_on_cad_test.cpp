@@ -40,13 +40,13 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;
   Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options), {}, {}, {}};
-  const mesh::Numbering numbering = mesh::number_mesh(ranks, aircraft.surface.mesh);
+  const mesh::Numbering numbering = mesh::number_mesh(aircraft.surface.mesh);
   volume::VolumeOptions options;
   options.piece_tets = 10'000;
   const volume::VolumeInput input{aircraft.surface.mesh, numbering, aircraft.surface.field, options};
-  aircraft.volume = volume::fill_zones(ranks, input, volume::decompose(ranks, input), aircraft.report);
+  aircraft.volume = volume::fill_zones(input, volume::decompose(input), aircraft.report);
   cad::PointLocator locator(model);
-  aircraft.improved = improve::improve_mesh(ranks, aircraft.volume, {}, {&locator, &aircraft.surface.field});
+  aircraft.improved = improve::improve_mesh(aircraft.volume, {}, {&locator, &aircraft.surface.field});
   return aircraft;
 }
 
@@ -74,8 +74,8 @@ double largest_distance(const cad::Model& model, const mesh::DistributedMesh& me
 }
 
 /// Areas of the boundary by CAD face. Collective.
-std::vector<double> areas_by_face(const parallel::Communicator& ranks, const cad::Model& model,
-                                  const mesh::DistributedMesh& mesh) {
+std::vector<double> areas_by_face(const cad::Model& model, const mesh::DistributedMesh& mesh) {
+  const parallel::Communicator& ranks = mesh.communicator;
   std::vector<double> areas(model.face_count(), 0);
   for (const mesh::Piece& piece : mesh.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
@@ -103,13 +103,13 @@ TEST_F(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
   EXPECT_GT(aircraft.surface.report.divided_faces, 3) << "faces are cut into pieces";
   EXPECT_GT(aircraft.volume.piece_count, 2) << "the volume is filled in zones";
   EXPECT_GT(ranks.sum(aircraft.improved.changed_triangles), 0) << "there is something to compare";
-  const mesh::Numbering numbering = mesh::number_mesh(ranks, aircraft.volume);
-  const mesh::ValidityReport validity = mesh::check_volume_mesh(ranks, aircraft.volume, numbering, nullptr);
+  const mesh::Numbering numbering = mesh::number_mesh(aircraft.volume);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(aircraft.volume, numbering, nullptr);
   EXPECT_TRUE(validity.violations.empty());
   const double length = aircraft.model.body_bounds().diagonal();
   EXPECT_LT(ranks.maximum(largest_distance(aircraft.model, aircraft.volume)), 1e-7 * length);
   // Coarse triangles cut corners: by little altogether, by more on the narrow ends of lifting surfaces.
-  const std::vector<double> areas = areas_by_face(ranks, aircraft.model, aircraft.volume);
+  const std::vector<double> areas = areas_by_face(aircraft.model, aircraft.volume);
   double body = 0, cad_body = 0;
   for (cad::FaceId f = 0; f < aircraft.model.face_count(); ++f) {
     const double area = aircraft.model.face_area(f);
@@ -123,7 +123,7 @@ TEST_F(AircraftOnCad, IsTheSameMeshOnAnyNumberOfRanks) {
   const auto hash = [](const parallel::Communicator& on, const Aircraft& of) {
     return mesh::hash_mesh(on, of.volume, mesh::number_mesh(on, of.volume));
   };
-  const std::string together = hash(ranks, aircraft);
+  const std::string together = hash(aircraft);
   if (!ranks.is_root()) return;
   const auto self = parallel::Communicator::self();
   EXPECT_EQ(together,

@@ -20,8 +20,8 @@ namespace {
 
 std::vector<report::Picture> pictures_of_mesh(const parallel::Communicator& world, const std::string& file) {
   const mesh::DistributedMesh volume = imported::import_mesh(world, file, 100'000);
-  const mesh::DistributedMesh surface = mesh::boundary_mesh(world, volume, mesh::number_mesh(world, volume));
-  const mesh::Numbering numbering = mesh::number_mesh(world, surface);
+  const mesh::DistributedMesh surface = mesh::boundary_mesh(volume, mesh::number_mesh(volume));
+  const mesh::Numbering numbering = mesh::number_mesh(surface);
   const std::clock_t begin = std::clock();
   std::vector<report::Picture> pictures =
       report::pictures_or_warning(world, &volume, {surface, numbering, volume.patch_types, ""});

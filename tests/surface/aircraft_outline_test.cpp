@@ -26,7 +26,7 @@ public:
   };
 
   Outline(const Communicator& communicator, const Model& model, const Meshed& meshed, double distance) {
-    for (const auto& [face, loops] : gather_loops(communicator, meshed.surface.mesh, meshed.planes)) {
+    for (const auto& [face, loops] : gather_loops(meshed.surface.mesh, meshed.planes)) {
       std::vector<Vec3> inwards(loops.points.size());
       for (const auto& [a, b] : loops.edges) {
         // The fluid lies at y > 0: its normal out of the plane is (0, -1, 0).
@@ -88,7 +88,7 @@ private:
 void refine_at_loops(const Communicator& communicator, Meshed& meshed) {
   constexpr double much_shorter = 1.3;
   std::vector<sizing::SizeSource> sources;
-  for (const auto& [face, loops] : gather_loops(communicator, meshed.surface.mesh, meshed.planes)) {
+  for (const auto& [face, loops] : gather_loops(meshed.surface.mesh, meshed.planes)) {
     for (const auto& [a, b] : loops.edges) {
       const Vec3 middle = 0.5 * (loops.points[a] + loops.points[b]);
       const double length = distance(loops.points[a], loops.points[b]);
@@ -131,7 +131,7 @@ TEST(AircraftOutline, MovesOutwards) {
     EXPECT_EQ(measures.off, 0);
     EXPECT_GT(measures.pieces, 1);
     EXPECT_GT(measures.least_angle, 10);
-    hashes.push_back(hash_of(communicator, meshed.surface.mesh));
+    hashes.push_back(hash_of(meshed.surface.mesh));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
 }

@@ -103,8 +103,8 @@ TEST(CuspTips, LeaveAValidSurfaceOfTheSameArea) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
-  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
-  EXPECT_TRUE(mesh::check_surface_mesh(communicator, surface.mesh, numbering).valid());
+  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
+  EXPECT_TRUE(mesh::check_surface_mesh(surface.mesh, numbering).valid());
   double area = 0;
   for (const mesh::Piece& piece : surface.mesh.pieces) {
     mesh::require_consistent_arrays(piece);
@@ -121,9 +121,9 @@ TEST(CuspTips, AreClosedAlikeOnAnyNumberOfRanks) {
   const Model model = cube_with_cusp();
   const auto hash = [&](const Communicator& communicator) {
     const mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
-    return mesh::hash_mesh(communicator, surface, mesh::number_mesh(communicator, surface));
+    return mesh::hash_mesh(surface, mesh::number_mesh(surface));
   };
-  EXPECT_EQ(hash(Communicator::world()), hash(Communicator::self()));
+  EXPECT_EQ(hash(), hash());
 }
 
 TEST(CuspTips, KeepExactPlanes) {
@@ -183,7 +183,7 @@ TEST(CuspTips, StayWhereTheCurvesAreApart) {
   const auto field = sizing::build_size_field(communicator, model, sizes);
   const CurveMesh curves = discretise_curves(communicator, model, field);
   mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
-  EXPECT_TRUE(close_cusp_tips(communicator, model, curves, 1e-9, surface).empty());
+  EXPECT_TRUE(close_cusp_tips(model, curves, 1e-9, surface).empty());
 }
 
 }  // namespace

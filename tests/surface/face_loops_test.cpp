@@ -30,7 +30,7 @@ mesh::Piece flat_piece(cad::FaceId face, const std::vector<Vec3>& points, std::v
 /// two vertices of the boundary is none.
 TEST(FaceLoops, PassACurveInsideTheFaceBothWays) {
   const Communicator self = Communicator::self();
-  mesh::DistributedMesh surface;
+  mesh::DistributedMesh surface(self);
   surface.kind = mesh::CellKind::triangle;
   surface.piece_count = 2;
   // Corners 1 to 4 of the square, named by ten times as much; from the middle 0 a curve runs to corner 1.

@@ -44,12 +44,12 @@ struct Meshed {
 Meshed mesh_model(const Communicator& communicator, const Model& model, const SurfaceOptions& options) {
   const sizing::SizeField field = sizing::build_size_field(communicator, model, {size, size, 30, 1.3, 0});
   SurfaceMesh surface = mesh_surface(communicator, model, field, options);
-  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
   return {std::move(surface), std::move(numbering)};
 }
 
 void expect_sound(const Communicator& communicator, const Meshed& meshed) {
-  const auto report = mesh::check_surface_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
   EXPECT_TRUE(report.valid()) << report.violations.front();
   const double volume = 2 * std::numbers::pi;
   EXPECT_NEAR(report.volume, volume, 0.01 * volume);
@@ -79,11 +79,11 @@ void expect_no_trace(const Communicator& communicator, const Model& model) {
   ASSERT_EQ(model.face_count(), 3);
   for (const std::int64_t piece_triangles : {50'000, 150}) {
     const Meshed meshed = mesh_model(communicator, model, {.piece_triangles = piece_triangles});
-    expect_sound(communicator, meshed);
+    expect_sound(meshed);
     EXPECT_EQ(meshed.surface.report.divided_faces, piece_triangles == 150 ? 3 : 0);
     EXPECT_EQ(meshed.surface.report.mending_rounds, 0) << "pieces of a face intersect";
     if (communicator.size() == 1) continue;
-    const std::string together = mesh::hash_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+    const std::string together = mesh::hash_mesh(meshed.surface.mesh, meshed.numbering);
     const Communicator alone = Communicator::self();
     const Meshed again = mesh_model(alone, model, {.piece_triangles = piece_triangles});
     EXPECT_EQ(together, mesh::hash_mesh(alone, again.surface.mesh, again.numbering));

@@ -36,8 +36,8 @@ SurfaceMesh mesh_of(const Model& model, double size, int needle_rounds,
                     const Communicator& communicator = Communicator::world()) {
   SurfaceMesh surface = mesh_surface(communicator, model, testing::uniform_field(model, size),
                                      {.needle_rounds = needle_rounds});
-  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
-  EXPECT_TRUE(mesh::check_surface_mesh(communicator, surface.mesh, numbering).valid());
+  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
+  EXPECT_TRUE(mesh::check_surface_mesh(surface.mesh, numbering).valid());
   return surface;
 }
 
@@ -64,9 +64,9 @@ TEST(Needles, AreMendedAlikeOnAnyNumberOfRanks) {
   const Model model = prism_of({{0, 0}, {3, 0}, {3, 3}, {0.0035, 3}, {0, 2.9965}});
   const auto hash = [&](const Communicator& communicator) {
     const SurfaceMesh surface = mesh_of(model, 0.5, 2, communicator);
-    return mesh::hash_mesh(communicator, surface.mesh, mesh::number_mesh(communicator, surface.mesh));
+    return mesh::hash_mesh(surface.mesh, mesh::number_mesh(surface.mesh));
   };
-  EXPECT_EQ(hash(Communicator::world()), hash(Communicator::self()));
+  EXPECT_EQ(hash(), hash());
 }
 
 TEST(Needles, InSharpCornersAreForced) {

@@ -32,16 +32,16 @@ struct Meshed {
 Meshed mesh_model(const Communicator& communicator, const cad::Model& model, const sizing::SizeField& field,
                   const SurfaceOptions& options, const FaceDivider& divider = {}) {
   SurfaceMesh surface = mesh_surface_with_cuts(communicator, model, field, {options, divider});
-  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
   return {std::move(surface), std::move(numbering)};
 }
 
 std::string hash_of(const Communicator& communicator, const Meshed& meshed) {
-  return mesh::hash_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+  return mesh::hash_mesh(meshed.surface.mesh, meshed.numbering);
 }
 
 void expect_valid(const Communicator& communicator, const Meshed& meshed) {
-  const auto report = mesh::check_surface_mesh(communicator, meshed.surface.mesh, meshed.numbering);
+  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 
@@ -50,7 +50,8 @@ struct Seam {
   double count[2] = {0, 0}, mean[2] = {0, 0}, worst[2] = {1, 1};
 };
 
-Seam measure_seam(const Communicator& communicator, const mesh::DistributedMesh& surface) {
+Seam measure_seam(const mesh::DistributedMesh& surface) {
+  const Communicator& communicator = surface.communicator;
   Seam seam;
   for (const mesh::Piece& piece : surface.pieces) {
     std::vector<char> on_cut(piece.vertex_count(), 0);
@@ -97,7 +98,7 @@ protected:
 TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
   const Communicator world = Communicator::world();
   const Meshed meshed = mesh_model(world, model, field, options);
-  expect_valid(world, meshed);
+  expect_valid(meshed);
   EXPECT_GE(meshed.surface.mesh.piece_count, 16);
   EXPECT_EQ(meshed.surface.report.mending_rounds, 0);
   EXPECT_LT(meshed.surface.report.load_error_90, 0.15);
@@ -106,18 +107,18 @@ TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
     EXPECT_GE(angle.degrees, 30) << "near " << angle.point.x << ", " << angle.point.y << ", "
                                  << angle.point.z;
   }
-  const Seam seam = measure_seam(world, meshed.surface.mesh);
+  const Seam seam = measure_seam(meshed.surface.mesh);
   EXPECT_GT(seam.count[1], 100);
   EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
   EXPECT_GE(seam.worst[1], 0.6);
-  const auto quality = mesh::summarise_quality(world, meshed.surface.mesh, meshed.numbering);
+  const auto quality = mesh::summarise_quality(meshed.surface.mesh, meshed.numbering);
   EXPECT_GT(quality.min_dihedral.minimum, 20);
   EXPECT_GT(quality.mean_ratio.mean, 0.95);
 }
 
 TEST_P(Pieces, AreTheSameOnAnyNumberOfRanks) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  EXPECT_EQ(hash_of(world, mesh_model(world, model, field, options)),
+  EXPECT_EQ(hash_of(mesh_model(world, model, field, options)),
             hash_of(self, mesh_model(self, model, field, options)));
 }
 
@@ -135,13 +136,13 @@ TEST(DividedTwice, HasNoSeamEither) {
   const sizing::SizeField field = uniform_field(model, 0.008);
   const SurfaceOptions options{.piece_triangles = 500};
   const Meshed meshed = mesh_model(world, model, field, options);
-  expect_valid(world, meshed);
+  expect_valid(meshed);
   EXPECT_GT(meshed.surface.mesh.piece_count, 40);
   for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
-  const Seam seam = measure_seam(world, meshed.surface.mesh);
+  const Seam seam = measure_seam(meshed.surface.mesh);
   EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
   const Meshed alone = mesh_model(self, model, field, options);
-  EXPECT_EQ(hash_of(world, meshed), hash_of(self, alone));
+  EXPECT_EQ(hash_of(meshed), hash_of(self, alone));
   EXPECT_EQ(meshed.surface.report.cut_angles.size(), alone.surface.report.cut_angles.size());
 }
 
@@ -151,7 +152,7 @@ TEST(DividedTwice, LeavesNoHeavyPiece) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const SurfaceOptions options{.piece_triangles = 100};
   const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.005), options);
-  expect_valid(world, meshed);
+  expect_valid(meshed);
   std::int64_t most = 0;
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces)
     most = std::max<std::int64_t>(most, piece.cell_count());
@@ -164,16 +165,16 @@ TEST(DivisionSteps, CanBeLeftOut) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const sizing::SizeField field = graded_field(model, {0.25, 0, 0}, 0.008, 0.02);
   SurfaceOptions options{.piece_triangles = 300};
-  const std::string complete = hash_of(world, mesh_model(world, model, field, options));
+  const std::string complete = hash_of(mesh_model(world, model, field, options));
   for (bool DivisionSteps::*const step : {&DivisionSteps::contraction, &DivisionSteps::straightening}) {
     options.division = {};
     options.division.*step = false;
     const Meshed meshed = mesh_model(world, model, field, options);
-    expect_valid(world, meshed);
-    EXPECT_NE(hash_of(world, meshed), complete);
+    expect_valid(meshed);
+    EXPECT_NE(hash_of(meshed), complete);
   }
   options.division = {false, false, false, false};
-  expect_valid(world, mesh_model(world, model, field, options));
+  expect_valid(mesh_model(world, model, field, options));
 }
 
 /// The stage takes cuts whoever asks for them: here a box that the surface reaches into.
@@ -192,11 +193,11 @@ TEST(ImposedCuts, FollowABox) {
       return part;
     };
     const Meshed meshed = mesh_model(world, model, field, options, divider);
-    expect_valid(world, meshed);
+    expect_valid(meshed);
     EXPECT_GT(meshed.surface.mesh.piece_count, model.face_count());
     EXPECT_GT(meshed.surface.report.divided_faces, 0);
-    EXPECT_GT(measure_seam(world, meshed.surface.mesh).count[1], 50);
-    EXPECT_EQ(hash_of(world, meshed), hash_of(self, mesh_model(self, model, field, options, divider)));
+    EXPECT_GT(measure_seam(meshed.surface.mesh).count[1], 50);
+    EXPECT_EQ(hash_of(meshed), hash_of(self, mesh_model(self, model, field, options, divider)));
   }
 }
 

@@ -45,8 +45,7 @@ inline Meshed mesh_model(const Communicator& communicator, const Model& model,
 
 inline PlaneConflicts remesh(const Communicator& communicator, const Model& model,
                              const SurfaceOptions& options, Meshed& meshed) {
-  return remesh_planes(communicator, model, meshed.surface.field, {meshed.planes, options},
-                       meshed.surface.mesh);
+  return remesh_planes(model, meshed.surface.field, {meshed.planes, options}, meshed.surface.mesh);
 }
 
 /// Moves the vertices that `moved` has a place for.
@@ -60,8 +59,8 @@ inline void move_vertices(const std::function<std::optional<Vec3>(SharedVertexKe
   }
 }
 
-inline std::string hash_of(const Communicator& communicator, const mesh::DistributedMesh& surface) {
-  return mesh::hash_mesh(communicator, surface, mesh::number_mesh(communicator, surface));
+inline std::string hash_of(const mesh::DistributedMesh& surface) {
+  return mesh::hash_mesh(surface, mesh::number_mesh(surface));
 }
 
 inline bool is_of(const std::vector<cad::FaceId>& faces, const mesh::Piece& piece) {
@@ -102,7 +101,7 @@ inline std::int64_t count_plane_hits(const Communicator& communicator, const Mes
     if (is_of(meshed.planes, piece)) planes.push_back(piece.id);
   }
   planes = communicator.all_gather_items<mesh::PieceId>(planes);
-  const auto hits = mesh::find_intersections(communicator, meshed.surface.mesh);
+  const auto hits = mesh::find_intersections(meshed.surface.mesh);
   return std::count_if(hits.begin(), hits.end(), [&](const mesh::TriangleHit& hit) {
     return std::find(planes.begin(), planes.end(), hit.first_piece) != planes.end() ||
            std::find(planes.begin(), planes.end(), hit.second_piece) != planes.end();
@@ -110,8 +109,7 @@ inline std::int64_t count_plane_hits(const Communicator& communicator, const Mes
 }
 
 inline void expect_closed(const Communicator& communicator, const Meshed& meshed) {
-  const auto report = mesh::check_surface_mesh(communicator, meshed.surface.mesh,
-                                               mesh::number_mesh(communicator, meshed.surface.mesh));
+  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, mesh::number_mesh(meshed.surface.mesh));
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 

@@ -33,9 +33,9 @@ void thicken_ball(double thickness, mesh::DistributedMesh& surface) {
 }
 
 /// Pieces of other faces, without their numbers, in their order, from all ranks.
-std::vector<parallel::Bytes> other_pieces(const Communicator& communicator,
-                                          const std::vector<cad::FaceId>& planes,
+std::vector<parallel::Bytes> other_pieces(const std::vector<cad::FaceId>& planes,
                                           const mesh::DistributedMesh& surface) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::map<mesh::PieceId, parallel::Bytes> pieces;
   for (mesh::Piece piece : surface.pieces) {
     if (is_of(planes, piece)) continue;
@@ -61,11 +61,11 @@ TEST(PlaneRemesher, MeshesThePlaneAroundAThickenedBall) {
   for (const double thickness : {0.5 * ball_size, 2 * ball_size, 4 * ball_size}) {
     Meshed meshed = before;
     thicken_ball(thickness, meshed.surface.mesh);
-    const auto others = other_pieces(world, meshed.planes, meshed.surface.mesh);
+    const auto others = other_pieces(meshed.planes, meshed.surface.mesh);
     EXPECT_TRUE(remesh(world, model, options, meshed).empty());
     expect_closed(world, meshed);
     EXPECT_EQ(count_plane_hits(world, meshed), 0);
-    EXPECT_EQ(other_pieces(world, meshed.planes, meshed.surface.mesh), others);
+    EXPECT_EQ(other_pieces(meshed.planes, meshed.surface.mesh), others);
     const PlaneMeasures was = measure_planes(world, before), is = measure_planes(world, meshed);
     EXPECT_EQ(is.off, 0);
     EXPECT_GT(is.least_angle, 25);
@@ -84,7 +84,7 @@ TEST(PlaneRemesher, IsTheSameOnAnyNumberOfRanks) {
     thicken_ball(2 * ball_size, meshed.surface.mesh);
     EXPECT_TRUE(remesh(communicator, model, options, meshed).empty());
     EXPECT_GT(measure_planes(communicator, meshed).pieces, 3);
-    hashes.push_back(hash_of(communicator, meshed.surface.mesh));
+    hashes.push_back(hash_of(meshed.surface.mesh));
   }
   EXPECT_EQ(hashes[0], hashes[1]);
 }
@@ -102,9 +102,9 @@ TEST(PlaneRemesher, CutsHeavyPlanesIntoPieces) {
   EXPECT_GT(once.pieces, 3);
   EXPECT_GT(once.least_angle, 20);
   EXPECT_EQ(once.off, 0);
-  const std::string hash = hash_of(world, meshed.surface.mesh);
+  const std::string hash = hash_of(meshed.surface.mesh);
   EXPECT_TRUE(remesh(world, model, options, meshed).empty());
-  EXPECT_EQ(hash_of(world, meshed.surface.mesh), hash);
+  EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
 }
 
 /// The new pieces come last; what they share with others is classified as there.
@@ -154,12 +154,12 @@ TEST(PlaneRemesher, BlamesTheVerticesOfEdgesThatCross) {
         return key == far && on_ball(p) ? std::optional(Vec3{9 * p.x, p.y, 9 * p.z}) : std::nullopt;
       },
       meshed.surface.mesh);
-  const std::string hash = hash_of(world, meshed.surface.mesh);
+  const std::string hash = hash_of(meshed.surface.mesh);
   const PlaneConflicts conflicts = remesh(world, model, {}, meshed);
   EXPECT_TRUE(std::binary_search(conflicts.vertices.begin(), conflicts.vertices.end(), far));
   EXPECT_LT(conflicts.vertices.size(), 10u);
   EXPECT_NE(conflicts.complaint.find("crosses or touches itself"), std::string::npos) << conflicts.complaint;
-  EXPECT_EQ(hash_of(world, meshed.surface.mesh), hash);
+  EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
 }
 
 TEST(PlaneRemesher, RefusesVerticesBesideThePlane) {
@@ -227,9 +227,9 @@ TEST(PlaneRemesher, SpreadsVerticesOnLinesBetweenPlanesAnew) {
       EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
       EXPECT_GT(measure_planes(communicator, meshed).least_angle, 20);
       EXPECT_LE(distance_off_planes(communicator, model, meshed), degrees == 0 ? 0 : 1e-13);
-      hashes.push_back(hash_of(communicator, meshed.surface.mesh));
+      hashes.push_back(hash_of(meshed.surface.mesh));
       EXPECT_TRUE(remesh(communicator, model, {}, meshed).empty());
-      EXPECT_EQ(hash_of(communicator, meshed.surface.mesh), hashes.back());
+      EXPECT_EQ(hash_of(meshed.surface.mesh), hashes.back());
     }
     EXPECT_EQ(hashes[0], hashes[1]);
   }

@@ -34,7 +34,7 @@ Meshed mesh_model(const Communicator& communicator, const cad::Model& model, dou
       .minimum = 1e-3, .maximum = maximum, .curvature_angle = angle, .growth = 1.3};
   sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
   SurfaceMesh surface = mesh_surface(communicator, model, field, {});
-  mesh::Numbering numbering = mesh::number_mesh(communicator, surface.mesh);
+  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
   return {model, std::move(field), std::move(surface), std::move(numbering)};
 }
 
@@ -66,7 +66,7 @@ TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
   const double exact = std::numbers::pi / 6;
   for (const double degrees : {12.0, 8.0, 5.0}) {
     const Meshed meshed = mesh_model(world, model, degrees, 1);
-    const auto report = mesh::check_surface_mesh(world, meshed.surface.mesh, meshed.numbering);
+    const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
     ASSERT_TRUE(report.valid()) << report.violations.front();
     const double theta = degrees * std::numbers::pi / 180, expected = 3 * theta * theta / 8;
     EXPECT_NEAR((exact - report.volume) / exact, expected, 0.2 * expected) << degrees << " degrees";
@@ -105,7 +105,7 @@ class SurfaceShapes : public testing::TestWithParam<PrimitiveKind> {};
 TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
   const Communicator world = Communicator::world();
   const Meshed meshed = mesh_model(world, cad::make_primitive_domain(GetParam()), 5, 0.1);
-  const auto report = mesh::check_surface_mesh(world, meshed.surface.mesh, meshed.numbering);
+  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
   ASSERT_TRUE(report.valid()) << report.violations.front();
   const std::vector<double> areas = face_areas(world, meshed);
   for (cad::FaceId f = 0; f < meshed.model.face_count(); ++f) {
@@ -117,7 +117,7 @@ TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
     }
     EXPECT_NEAR(areas[f], exact, (straight ? 1e-12 : 5e-3) * exact) << meshed.model.face(f).name;
   }
-  const auto quality = mesh::summarise_quality(world, meshed.surface.mesh, meshed.numbering);
+  const auto quality = mesh::summarise_quality(meshed.surface.mesh, meshed.numbering);
   EXPECT_GT(quality.min_dihedral.minimum, 20);
   EXPECT_GT(quality.mean_ratio.mean, 0.95);
 }
@@ -143,7 +143,7 @@ TEST(SurfaceMesher, HashDoesNotDependOnRanks) {
   const Communicator world = Communicator::world(), self = Communicator::self();
   const cad::Model model = cad::make_primitive_domain(PrimitiveKind::box_with_sphere);
   const Meshed together = mesh_model(world, model, 8, 0.1), alone = mesh_model(self, model, 8, 0.1);
-  EXPECT_EQ(mesh::hash_mesh(world, together.surface.mesh, together.numbering),
+  EXPECT_EQ(mesh::hash_mesh(together.surface.mesh, together.numbering),
             mesh::hash_mesh(self, alone.surface.mesh, alone.numbering));
 }
 

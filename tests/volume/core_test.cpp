@@ -56,7 +56,7 @@ void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
     if (data.tree->knows(number)) data.changes[data.tree->index(number)].shell = shell;
   }
   const std::int64_t before = data.report.core_tetrahedra;
-  make_all_points(problem.communicator, problem.input(), data);
+  make_all_points(problem.input(), data);
   EXPECT_LT(data.report.core_tetrahedra, before);
   std::vector<ZoneIndex> all(data.zones->count());
   std::iota(all.begin(), all.end(), 0);
@@ -98,7 +98,7 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   const Communicator world = Communicator::world();
   const surfaces::Surface surface = surfaces::shaken(surfaces::cube_with_ball(10, 9), 0.03);
   const Problem problem(world, surface, fields::around_unit_sphere(0.1, 0.5));
-  Decomposition decomposition = decompose(world, problem.input());
+  Decomposition decomposition = decompose(problem.input());
   Decomposition::Data& data = decomposition.data();
   // A block that is all core.
   const BlockIndex first = data.core->ghosts().first();
@@ -111,7 +111,7 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   const bool is_mine = data.tree->owner(chosen) == world.rank();
   if (data.tree->knows(chosen)) data.changes[data.tree->index(chosen)].shell = 0xff;
   const std::int64_t before = data.report.shell_points;
-  const std::vector<BlockIndex> changed = make_all_points(world, problem.input(), data);
+  const std::vector<BlockIndex> changed = make_all_points(problem.input(), data);
   EXPECT_GT(data.report.shell_points, before);
   if (is_mine) {
     const BlockIndex block = data.tree->index(chosen);

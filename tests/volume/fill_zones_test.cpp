@@ -136,7 +136,7 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   const auto& [name, surface, field, few, many, is_unique] = GetParam();
   const Filled filled(world, surface, field, in_zones_of(many));
-  const std::string hash = mesh::hash_mesh(world, filled.mesh, filled.numbering);
+  const std::string hash = mesh::hash_mesh(filled.mesh, filled.numbering);
   // The mesh and what is known of it.
   const auto facts = [](const std::string& mesh, const Filled& of) {
     return fmt::format("{} {} {} {} {}", mesh, of.decomposed.lattice_points, of.decomposed.blocks,
@@ -146,7 +146,7 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   if (!world.is_root()) return;
   EXPECT_EQ(here, references::of_one_rank(world, here, [&] {
               const Filled same(Communicator::self(), surface, field, in_zones_of(many));
-              return facts(mesh::hash_mesh(Communicator::self(), same.mesh, same.numbering), same);
+              return facts(mesh::hash_mesh(same.mesh, same.numbering), same);
             }));
 }
 
@@ -224,10 +224,10 @@ TEST(Decompose, leaves_less_than_one_and_a_half_zones_whole) {
   const Problem problem(world, surfaces::cube_with_ball(8, 4), fields::uniform(0.4));
   const auto zones = [&](double of) {
     VolumeInput input = problem.input();
-    const DecompositionReport report = decompose(world, input).report();
+    const DecompositionReport report = decompose(input).report();
     const double expected = report.expected_tetrahedra - static_cast<double>(report.core_tetrahedra);
     input.options.piece_tets = static_cast<std::int64_t>(expected / of);
-    return decompose(world, input).report().zones;
+    return decompose(input).report().zones;
   };
   EXPECT_EQ(zones(1.45), 1);
   EXPECT_EQ(zones(1.55), 2);
@@ -248,7 +248,7 @@ TEST(FillZones, keep_names_regions_and_sides) {
     EXPECT_EQ(filled.mesh.sides_of(static_cast<std::int32_t>(f)).front, surface.sides[f].front);
     EXPECT_EQ(filled.mesh.sides_of(static_cast<std::int32_t>(f)).back, surface.sides[f].back);
   }
-  const mesh::MeshCounts counts = mesh::count_mesh(world, filled.mesh, filled.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(filled.mesh, filled.numbering);
   EXPECT_EQ(counts.boundary_triangles, 6 * 2 * 64);
   EXPECT_EQ(counts.inner_triangles, 6 * 2 * 16);
   // Every vertex at a place where a surface vertex is has that one's classification.

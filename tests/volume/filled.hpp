@@ -32,11 +32,11 @@ struct Filled {
   Filled(const parallel::Communicator& communicator, const surfaces::Surface& surface,
          const sizing::SizeField& field, VolumeOptions options = {}, const Change& change = {})
       : problem(communicator, surface, field, options) {
-    Decomposition decomposition = decompose(communicator, problem.input());
+    Decomposition decomposition = decompose(problem.input());
     if (change) change(problem, decomposition.data());
     decomposed = decomposition.report();
-    mesh = fill_zones(communicator, problem.input(), std::move(decomposition), report);
-    numbering = mesh::number_mesh(communicator, mesh);
+    mesh = fill_zones(problem.input(), std::move(decomposition), report);
+    numbering = mesh::number_mesh(mesh);
   }
 
   Problem problem;
@@ -61,9 +61,8 @@ inline std::int64_t count_places(const Filled& filled) {
 
 /// Valid, with the surface as its boundary, the volume it encloses, and one vertex at each place.
 inline void expect_valid(const Filled& filled, const surfaces::Surface& surface) {
-  const parallel::Communicator& communicator = filled.problem.communicator;
   const mesh::ValidityReport validity =
-      mesh::check_volume_mesh(communicator, filled.mesh, filled.numbering, &filled.problem.surface);
+      mesh::check_volume_mesh(filled.mesh, filled.numbering, &filled.problem.surface);
   for (const std::string& violation : validity.violations) ADD_FAILURE() << violation;
   for (mesh::RegionId region = 0; region < surfaces::region_count(surface); ++region) {
     const double expected = surfaces::volume(surface, region);

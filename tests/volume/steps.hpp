@@ -46,7 +46,7 @@ struct Problem {
           VolumeOptions claims = {})
       : communicator(ranks),
         surface(surfaces::spread(ranks, of)),
-        numbering(mesh::number_mesh(ranks, surface)),
+        numbering(mesh::number_mesh(surface)),
         field(std::move(sizes)),
         options(claims) {}
 
@@ -71,7 +71,7 @@ struct Lattice {
   Lattice(const Problem& problem, const geometry::Box& box)
       : frame(problem.field, box),
         tree(problem.communicator, frame, problem.field, box),
-        own_triangles(deliver_surface(problem.communicator, frame, tree, problem.surface, problem.numbering)),
+        own_triangles(deliver_surface(frame, tree, problem.surface, problem.numbering)),
         table(tabulate_surface(frame, tree, own_triangles)) {
     learn_what_touches(problem.communicator, known(), own_triangles);
     changes.resize(tree.block_count());

@@ -298,7 +298,7 @@ inline mesh::DistributedMesh spread(const parallel::Communicator& communicator, 
       for (const auto v : surface.triangles[t]) parts_at[v].insert(p);
     }
   }
-  mesh::DistributedMesh mesh;
+  mesh::DistributedMesh mesh(communicator);
   mesh.kind = mesh::CellKind::triangle;
   mesh.piece_count = static_cast<mesh::PieceId>(parts.size());
   for (std::size_t p = communicator.rank(); p < parts.size(); p += communicator.size()) {

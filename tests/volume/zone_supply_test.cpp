@@ -37,7 +37,7 @@ struct Divided {
   explicit Divided(const Communicator& communicator)
       : surface(surfaces::nested_cubes(8)),
         problem(communicator, surface, fields::around_unit_sphere(0.1, 0.4), in_zones_of(1500)),
-        decomposition(decompose(communicator, problem.input())),
+        decomposition(decompose(problem.input())),
         data(decomposition.data()),
         finder(data.finder(problem.input())) {
     std::vector<Away> rows;  // every rank is told

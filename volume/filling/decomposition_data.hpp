@@ -53,7 +53,6 @@ struct Decomposition::Data {
 /// Makes the points of this rank's blocks (anew), tells core from shell, and counts what the shells of all
 /// have; the surface they were made with is let go. Returns those of this rank's blocks whose core is another
 /// than before. Collective.
-std::vector<BlockIndex> make_all_points(const parallel::Communicator& communicator, const VolumeInput& input,
-                                        Decomposition::Data& data);
+std::vector<BlockIndex> make_all_points(const VolumeInput& input, Decomposition::Data& data);
 
 }  // namespace aeroloom::volume

@@ -146,9 +146,9 @@ void Evidence::give_up(const parallel::Communicator& communicator, ZoneIndex zon
   raise(lowest(communicator, mine), text);
 }
 
-void refuse_surface(const parallel::Communicator& communicator, const Contradiction& contradiction,
-                    std::span<const SurfaceTriangle> triangles, const NearSurface& near,
-                    const mesh::DistributedMesh& surface) {
+void refuse_surface(const Contradiction& contradiction, std::span<const SurfaceTriangle> triangles,
+                    const NearSurface& near, const mesh::DistributedMesh& surface) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::vector<SurfaceTriangle> mine;
   if (!near.empty()) {
     const SurfaceDefect defect = find_intersections({near.points(), near.triangles()}, near.distance());

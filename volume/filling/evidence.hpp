@@ -63,8 +63,7 @@ private:
 
 /// Throws VolumeFailure: names the triangles that intersect each other, where there are such, or else the
 /// gap. Each rank gives the triangles near its blocks, in both forms. Collective.
-[[noreturn]] void refuse_surface(const parallel::Communicator& communicator,
-                                 const Contradiction& contradiction,
+[[noreturn]] void refuse_surface(const Contradiction& contradiction,
                                  std::span<const SurfaceTriangle> triangles, const NearSurface& near,
                                  const mesh::DistributedMesh& surface);
 

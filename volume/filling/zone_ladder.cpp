@@ -66,8 +66,7 @@ std::vector<ZoneIndex> ZoneLadder::change_failed(const std::vector<ZoneFailure>&
     if (!is_gone(failure.zone)) points_change = climb(failure, evidence, changed) || points_change;
   }
   if (points_change) {
-    for (const BlockIndex b : make_all_points(_communicator, _input, _data))
-      changed.blocks[b - _data.tree->first()] = 1;
+    for (const BlockIndex b : make_all_points(_input, _data)) changed.blocks[b - _data.tree->first()] = 1;
   }
   return those_that_see(std::move(changed));
 }

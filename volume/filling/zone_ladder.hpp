@@ -14,9 +14,8 @@ namespace aeroloom::volume {
 /// How far zones have climbed. The same on every rank. Refers to all it is made from.
 class ZoneLadder {
 public:
-  ZoneLadder(const parallel::Communicator& communicator, const VolumeInput& input, Decomposition::Data& data,
-             VolumeReport& report)
-      : _communicator(communicator),
+  ZoneLadder(const VolumeInput& input, Decomposition::Data& data, VolumeReport& report)
+      : _communicator(input.surface.communicator),
         _input(input),
         _data(data),
         _report(report),

@@ -162,10 +162,10 @@ ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling) {
   return result;
 }
 
-mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
-                                    const mesh::DistributedMesh& surface,
+mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
                                     ZoneIndex zones) {
+  const parallel::Communicator& communicator = surface.communicator;
   struct PieceRegion {
     std::int32_t place;  ///< a zone, or a range of the core after them
     RegionId region;
@@ -179,7 +179,7 @@ mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
   for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
   rows = communicator.all_gather_items<PieceRegion>(rows);
   std::sort(rows.begin(), rows.end());
-  mesh::DistributedMesh mesh;
+  mesh::DistributedMesh mesh(communicator);
   mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
   const auto add = [&](std::int32_t place, Piece& piece) {
     piece.id = static_cast<mesh::PieceId>(

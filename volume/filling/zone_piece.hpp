@@ -54,8 +54,7 @@ struct ZoneResult {
 
 /// The mesh of the zones' pieces, by zone, then region, and of the core's after them, whose ids are those of
 /// their ranges. What is said of patches, faces and regions is the surface's. Collective.
-mesh::DistributedMesh assemble_mesh(const parallel::Communicator& communicator,
-                                    const mesh::DistributedMesh& surface,
+mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<mesh::Piece> core,
                                     ZoneIndex zones);
 

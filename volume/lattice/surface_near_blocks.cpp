@@ -98,10 +98,10 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
   return GridBox{box.low, box.high}.dilated(rounding);
 }
 
-std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
-                                             const LatticeFrame& frame, const LatticeTree& tree,
+std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const LatticeTree& tree,
                                              const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering) {
+  const parallel::Communicator& communicator = surface.communicator;
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
   {

@@ -55,8 +55,7 @@ struct SurfaceTable {
 };
 
 /// The triangles that meet this rank's blocks, by number. Collective.
-std::vector<SurfaceTriangle> deliver_surface(const parallel::Communicator& communicator,
-                                             const LatticeFrame& frame, const LatticeTree& tree,
+std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const LatticeTree& tree,
                                              const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering);
 

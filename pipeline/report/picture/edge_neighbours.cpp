@@ -88,9 +88,9 @@ double angle_at(Vec3 normal, Vec3 edge, const EdgeNeighbour& neighbour) {
   return -std::atan2(dot(cross(normal, neighbour.normal), normalized(edge)), dot(normal, neighbour.normal));
 }
 
-EdgeNeighbours find_edge_neighbours(const parallel::Communicator& communicator,
-                                    const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
+EdgeNeighbours find_edge_neighbours(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
                                     const Shown& shown) {
+  const parallel::Communicator& communicator = surface.communicator;
   EdgeNeighbours neighbours(surface.pieces.size());
   std::vector<TriangleSide> travelling;
   const auto match_within = [&](std::size_t p) {

@@ -186,9 +186,9 @@ bool beats(const Sharpest& a, const Sharpest& b) {
   return a.angle != b.angle ? a.angle > b.angle : precedes(a.item, b.item);
 }
 
-std::optional<Place> find_sharpest(const Communicator& communicator, const DistributedMesh& surface,
-                                   const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
-                                   const Scene& scene) {
+std::optional<Place> find_sharpest(const DistributedMesh& surface, const mesh::Numbering& numbering,
+                                   const EdgeNeighbours& neighbours, const Scene& scene) {
+  const Communicator& communicator = surface.communicator;
   Sharpest mine;
   for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     const auto take = [&](double angle, const LineItem& item) {
@@ -210,10 +210,10 @@ std::optional<Place> find_sharpest(const Communicator& communicator, const Distr
 
 }  // namespace
 
-std::optional<Place> find_leading_edge(const Communicator& communicator, const DistributedMesh& surface,
-                                       const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
-                                       const Scene& scene) {
-  if (!scene.has_body) return find_sharpest(communicator, surface, numbering, neighbours, scene);
+std::optional<Place> find_leading_edge(const DistributedMesh& surface, const mesh::Numbering& numbering,
+                                       const EdgeNeighbours& neighbours, const Scene& scene) {
+  const Communicator& communicator = surface.communicator;
+  if (!scene.has_body) return find_sharpest(surface, numbering, neighbours, scene);
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] { items = leading_items(surface, numbering, neighbours, scene); });
   std::vector<SurfaceLine> lines = gather_lines(communicator, items);
@@ -230,12 +230,12 @@ std::optional<Place> find_leading_edge(const Communicator& communicator, const D
     }
   }
   found = shared(communicator, found);
-  return found ? found : find_sharpest(communicator, surface, numbering, neighbours, scene);
+  return found ? found : find_sharpest(surface, numbering, neighbours, scene);
 }
 
-std::optional<Place> find_junction(const Communicator& communicator, const DistributedMesh& surface,
-                                   const mesh::Numbering& numbering, const EdgeNeighbours& neighbours,
-                                   const Scene& scene) {
+std::optional<Place> find_junction(const DistributedMesh& surface, const mesh::Numbering& numbering,
+                                   const EdgeNeighbours& neighbours, const Scene& scene) {
+  const Communicator& communicator = surface.communicator;
   if (!scene.has_body) return std::nullopt;
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] {

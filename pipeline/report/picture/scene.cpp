@@ -46,7 +46,8 @@ bool beats(const Farthest& a, const Farthest& b) {
 }
 
 /// The farthest points of the mesh in the even directions.
-std::vector<Farthest> hull_points(const Communicator& communicator, const DistributedMesh& surface) {
+std::vector<Farthest> hull_points(const DistributedMesh& surface) {
+  const Communicator& communicator = surface.communicator;
   const auto directions = even_directions();
   std::vector<Farthest> mine;
   for (const mesh::Piece& piece : surface.pieces) {
@@ -74,9 +75,9 @@ std::vector<Farthest> hull_points(const Communicator& communicator, const Distri
 
 /// Marks the triangles on the convex hull. Chords of a round far field leave it by a fraction of their
 /// length; half a fin at a plane of symmetry may be as close, but not for its own small triangles.
-Shown triangles_on_hull(const Communicator& communicator, const DistributedMesh& surface) {
+Shown triangles_on_hull(const DistributedMesh& surface) {
   constexpr double fraction = 0.15;  // chosen, not measured
-  const std::vector<Farthest> hull = hull_points(communicator, surface);
+  const std::vector<Farthest> hull = hull_points(surface);
   Shown marks;
   for (const mesh::Piece& piece : surface.pieces) {
     std::vector<std::uint8_t>& of_piece = marks.emplace_back(piece.cell_count(), 0);
@@ -107,8 +108,7 @@ struct PieceSums {
 };
 
 /// By piece, of the whole mesh; volumes are those of the cones from `origin`.
-std::vector<PieceSums> sums_of_pieces(const Communicator& communicator, const DistributedMesh& surface,
-                                      const Shown& marks, Vec3 origin) {
+std::vector<PieceSums> sums_of_pieces(const DistributedMesh& surface, const Shown& marks, Vec3 origin) {
   std::vector<PieceSums> rows;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
@@ -124,7 +124,7 @@ std::vector<PieceSums> sums_of_pieces(const Communicator& communicator, const Di
       for (int k = 0; k < 3; ++k) row.box.add(piece.point(piece.cell(t)[k]));
     }
   }
-  return mesh::gather_by_piece(communicator, surface, rows);
+  return mesh::gather_by_piece(surface, rows);
 }
 
 /// Whether the marked triangles are the outer walls of a domain with something in it.
@@ -156,7 +156,8 @@ void add_up(const std::vector<PieceSums>& rows, Scene& scene) {
   if (area > 0) scene.open_towards *= 1 / area;
 }
 
-Box box_of_all(const Communicator& communicator, const DistributedMesh& surface) {
+Box box_of_all(const DistributedMesh& surface) {
+  const Communicator& communicator = surface.communicator;
   Box box;
   for (const mesh::Piece& piece : surface.pieces) {
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
@@ -202,25 +203,24 @@ Vec3 area_normal(const mesh::Piece& piece, LocalIndex triangle) {
   return cross(piece.point(v[1]) - a, piece.point(v[2]) - a);
 }
 
-Scene find_scene(const Communicator& communicator, const DistributedMesh& surface,
-                 const std::vector<PatchType>& types) {
+Scene find_scene(const DistributedMesh& surface, const std::vector<PatchType>& types) {
   Scene scene;
-  scene.domain = box_of_all(communicator, surface);
+  scene.domain = box_of_all(surface);
   const Vec3 origin = scene.domain.center();
   Shown outer = all_of(surface, 0);
   scene.has_body = std::find(types.begin(), types.end(), PatchType::farfield) != types.end();
   if (!scene.has_body) {
-    outer = triangles_on_hull(communicator, surface);
-    scene.has_body = enclose_the_rest(sums_of_pieces(communicator, surface, outer, origin));
+    outer = triangles_on_hull(surface);
+    scene.has_body = enclose_the_rest(sums_of_pieces(surface, outer, origin));
   }
   scene.patches.assign(surface.patches.size(), 0);
   scene.patch_areas.assign(surface.patches.size(), 0);
   scene.shown = marked_walls(surface, types, outer, scene.has_body);
-  std::vector<PieceSums> rows = sums_of_pieces(communicator, surface, scene.shown, origin);
+  std::vector<PieceSums> rows = sums_of_pieces(surface, scene.shown, origin);
   if (std::all_of(rows.begin(), rows.end(), [](const PieceSums& row) { return row.marked == 0; })) {
     scene.has_body = false;
     scene.shown = all_of(surface, 1);
-    rows = sums_of_pieces(communicator, surface, scene.shown, origin);
+    rows = sums_of_pieces(surface, scene.shown, origin);
   }
   add_up(rows, scene);
   return scene;

@@ -36,7 +36,6 @@ struct Scene {
 /// the rest if their area vectors cancel to 15 % (half a body leaves a hole in the plane of symmetry, a bend
 /// half of its walls) and hold nine tenths of the volume. In a duct they do not. `types` by patch; those left
 /// out are walls. Collective.
-Scene find_scene(const parallel::Communicator& communicator, const mesh::DistributedMesh& surface,
-                 const std::vector<mesh::PatchType>& types);
+Scene find_scene(const mesh::DistributedMesh& surface, const std::vector<mesh::PatchType>& types);
 
 }  // namespace aeroloom::picture

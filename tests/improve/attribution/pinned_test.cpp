@@ -18,7 +18,7 @@ using mesh::Piece;
 /// piece for each; the other sides belong to face 2.
 DistributedMesh make_wedge(const parallel::Communicator& communicator, double angle, int tets,
                            CadDimension on_axis) {
-  DistributedMesh mesh;
+  DistributedMesh mesh(communicator);
   mesh.piece_count = tets;
   mesh.patches = mesh.faces = {"upper", "lower", "outer"};
   for (int i = 0; i < tets; ++i) {
@@ -59,7 +59,7 @@ void add_triangle(Piece& piece, std::array<int, 3> corners, int face) {
 /// triangles with a tetrahedron on each of them.
 DistributedMesh make_strip(const parallel::Communicator& communicator, double width, int segments,
                            std::int32_t upper_curve) {
-  DistributedMesh mesh;
+  DistributedMesh mesh(communicator);
   mesh.piece_count = segments;
   mesh.patches = mesh.faces = {"strip"};
   for (int i = 0; i < segments; ++i) {
@@ -85,7 +85,7 @@ DistributedMesh make_strip(const parallel::Communicator& communicator, double wi
 /// One tetrahedron with a long side of face 0 on curve 1 from CAD vertex 5, and a short side from there to a
 /// vertex on curve 2. Face 2 beyond the short side, if any, makes it a part of curve 2.
 DistributedMesh make_corner(const parallel::Communicator& communicator, bool ends_there) {
-  DistributedMesh mesh;
+  DistributedMesh mesh(communicator);
   mesh.piece_count = 1;
   mesh.patches = mesh.faces = {"strip", "below", "end"};
   if (!communicator.is_root()) return mesh;
@@ -107,7 +107,7 @@ DistributedMesh make_corner(const parallel::Communicator& communicator, bool end
 DistributedMesh make_walls(const parallel::Communicator& communicator, double angle, bool with_curve,
                            double part, std::int32_t upper) {
   const double slope = std::tan(angle * std::numbers::pi / 180);
-  DistributedMesh mesh;
+  DistributedMesh mesh(communicator);
   mesh.piece_count = 2;
   mesh.patches = mesh.faces = {"lower", "upper"};
   for (int i = 0; i < 2; ++i) {
@@ -138,7 +138,7 @@ DistributedMesh make_walls(const parallel::Communicator& communicator, double an
 /// A prism of layer 1 on piece 0, and on piece 1 a flat tetrahedron whose corners are the prism's three at
 /// the top, or two of them and one above, and another above.
 DistributedMesh make_flat_on_layers(const parallel::Communicator& communicator, int corners_on_layers) {
-  DistributedMesh mesh;
+  DistributedMesh mesh(communicator);
   mesh.piece_count = 2;
   mesh.patches = mesh.faces = {"wall"};
   for (int i = 0; i < 2; ++i) {
@@ -169,10 +169,10 @@ DistributedMesh make_flat_on_layers(const parallel::Communicator& communicator, 
 
 PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_change = true) {
   const auto world = parallel::Communicator::world();
-  const mesh::Numbering numbering = mesh::number_mesh(world, mesh);
+  const mesh::Numbering numbering = mesh::number_mesh(mesh);
   mesh::CellsOutside suspects{suspect_angles(target), {}};
-  mesh::summarise_quality(world, mesh, numbering, &suspects);
-  return find_pinned(world, mesh, numbering, target, suspects, surface_may_change);
+  mesh::summarise_quality(mesh, numbering, &suspects);
+  return find_pinned(mesh, numbering, target, suspects, surface_may_change);
 }
 
 PinnedReport find(double angle, int tets, CadDimension on_axis, double target) {

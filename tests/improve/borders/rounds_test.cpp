@@ -81,37 +81,37 @@ std::optional<Refilling> slid(const Cavity& cavity) {
   return result;
 }
 
-mesh::GlobalIndex count_cells(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
-  return mesh::number_mesh(communicator, mesh).cell_count;
+mesh::GlobalIndex count_cells(const mesh::DistributedMesh& mesh) {
+  return mesh::number_mesh(mesh).cell_count;
 }
 
-void expect_valid(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
-  const mesh::Numbering numbering = mesh::number_mesh(communicator, mesh);
-  const mesh::ValidityReport report = mesh::check_volume_mesh(communicator, mesh, numbering, nullptr);
+void expect_valid(const mesh::DistributedMesh& mesh) {
+  const mesh::Numbering numbering = mesh::number_mesh(mesh);
+  const mesh::ValidityReport report = mesh::check_volume_mesh(mesh, numbering, nullptr);
   EXPECT_TRUE(report.valid()) << (report.violations.empty() ? "" : report.violations.front());
   EXPECT_NEAR(report.volume, 1, 1e-12);
 }
 
-std::string hash(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
-  return mesh::hash_mesh(communicator, mesh, mesh::number_mesh(communicator, mesh));
+std::string hash(const mesh::DistributedMesh& mesh) {
+  return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
 }
 
-CavityRound one_round(const Communicator& communicator, mesh::DistributedMesh& mesh,
-                      const CavityClaims& claims, CavityExtent extent, const RefillCavity& refill) {
-  const mesh::SharedVertices shared(communicator, mesh);
-  return refill_cavities(communicator, mesh, shared, {claims, extent, refill});
+CavityRound one_round(mesh::DistributedMesh& mesh, const CavityClaims& claims, CavityExtent extent,
+                      const RefillCavity& refill) {
+  const mesh::SharedVertices shared(mesh);
+  return refill_cavities(mesh, shared, {claims, extent, refill});
 }
 
 TEST(Cavities, KeepTheMeshWhole) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
-  const mesh::GlobalIndex cells = count_cells(world, mesh);
+  const mesh::GlobalIndex cells = count_cells(mesh);
   for (int shift = 0; shift < 4; ++shift) {
-    const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, shift), {}, same);
+    const CavityRound round = one_round(mesh, claim_for_shared(mesh, shift), {}, same);
     EXPECT_GT(round.cavities, 0);
     EXPECT_EQ(round.refilled, round.cavities);
-    expect_valid(world, mesh);
-    EXPECT_EQ(count_cells(world, mesh), cells);
+    expect_valid(mesh);
+    EXPECT_EQ(count_cells(mesh), cells);
   }
 }
 
@@ -125,7 +125,7 @@ TEST(Cavities, SayWhatTheyChanged) {
     return result;
   };
   const std::vector<mesh::Piece> before = mesh.pieces;
-  const CavityRound round = one_round(world, mesh, claim_for_shared(mesh, 0), {}, divided);
+  const CavityRound round = one_round(mesh, claim_for_shared(mesh, 0), {}, divided);
   ASSERT_EQ(round.changes.size(), before.size());
   std::int64_t changed = 0, kept = 0;
   for (std::size_t p = 0; p < before.size(); ++p) {
@@ -167,8 +167,8 @@ TEST(Cavities, ReachAsFarAsTheyAreTold) {
           mine[v] = cavity_at(p, 0.3, 1, 0);
       }
     }
-    one_round(world, mesh, claims, reach, count);
-    expect_valid(world, mesh);
+    one_round(mesh, claims, reach, count);
+    expect_valid(mesh);
     taken.push_back(world.sum(tets));
     triangles.push_back(world.sum(on_surface));
   }
@@ -179,14 +179,14 @@ TEST(Cavities, ReachAsFarAsTheyAreTold) {
 TEST(Cavities, TakeNewVertices) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
-  const mesh::GlobalIndex cells = count_cells(world, mesh);
+  const mesh::GlobalIndex cells = count_cells(mesh);
   std::int64_t taken = 0;
-  one_round(world, mesh, claim_for_shared(mesh, 0), {}, [&](const Cavity& cavity) {
+  one_round(mesh, claim_for_shared(mesh, 0), {}, [&](const Cavity& cavity) {
     taken += static_cast<std::int64_t>(cavity.tets.size());
     return divided(cavity);
   });
-  expect_valid(world, mesh);
-  EXPECT_EQ(count_cells(world, mesh), cells + 3 * world.sum(taken));
+  expect_valid(mesh);
+  EXPECT_EQ(count_cells(mesh), cells + 3 * world.sum(taken));
 }
 
 /// Every shared vertex on the surface claims the cavity of its cell.
@@ -199,7 +199,8 @@ CavityClaims claim_for_surface(const mesh::DistributedMesh& mesh) {
   return claims;
 }
 
-std::int64_t count_moved(const Communicator& communicator, const mesh::DistributedMesh& mesh) {
+std::int64_t count_moved(const mesh::DistributedMesh& mesh) {
+  const Communicator& communicator = mesh.communicator;
   std::int64_t moved = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -215,17 +216,17 @@ TEST(Cavities, MayChangeTheSurface) {
   const auto world = Communicator::world(), self = Communicator::self();
   mesh::DistributedMesh together = mesh::examples::cube(world, squares, pieces);
   mesh::DistributedMesh alone = mesh::examples::cube(self, squares, pieces);
-  const mesh::MeshCounts before = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
-  EXPECT_EQ(count_moved(world, together), 0);
-  one_round(world, together, claim_for_surface(together), {}, slid);
+  const mesh::MeshCounts before = mesh::count_mesh(together, mesh::number_mesh(together));
+  EXPECT_EQ(count_moved(together), 0);
+  one_round(together, claim_for_surface(together), {}, slid);
   one_round(self, alone, claim_for_surface(alone), {}, slid);
-  expect_valid(world, together);
-  const mesh::MeshCounts after = mesh::count_mesh(world, together, mesh::number_mesh(world, together));
+  expect_valid(together);
+  const mesh::MeshCounts after = mesh::count_mesh(together, mesh::number_mesh(together));
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.cells, before.cells);
   EXPECT_EQ(after.boundary_triangles, before.boundary_triangles);
-  EXPECT_GT(count_moved(world, together), 10);
-  EXPECT_EQ(hash(world, together), hash(self, alone));
+  EXPECT_GT(count_moved(together), 10);
+  EXPECT_EQ(hash(together), hash(self, alone));
 }
 
 TEST(Cavities, RefuseAnotherBoundary) {
@@ -246,10 +247,10 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   for (int shift = 0; shift < 3; ++shift) {
     const auto refill = shift == 1 ? divided : same;
     const CavityExtent reach{shift, shift == 2};
-    one_round(world, together, claim_for_shared(together, shift), reach, refill);
+    one_round(together, claim_for_shared(together, shift), reach, refill);
     one_round(self, alone, claim_for_shared(alone, shift), reach, refill);
   }
-  EXPECT_EQ(hash(world, together), hash(self, alone));
+  EXPECT_EQ(hash(together), hash(self, alone));
 }
 
 TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {
@@ -261,7 +262,7 @@ TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {
     largest = std::max(largest, static_cast<std::int64_t>(cavity.tets.size()));
     return same(cavity);
   };
-  one_round(world, mesh, claim_for_shared(mesh, 0, 0.03), {}, count);
+  one_round(mesh, claim_for_shared(mesh, 0, 0.03), {}, count);
   // The heaviest rank is above the mean by no more than one cavity.
   EXPECT_LE(world.maximum(tets), world.sum(tets) / world.size() + world.maximum(largest));
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
@@ -270,12 +271,12 @@ TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {
 TEST(Cavities, ThatAreNotRefilledStay) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
-  const std::string before = hash(world, mesh);
+  const std::string before = hash(mesh);
   const CavityRound round =
-      one_round(world, mesh, claim_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; });
+      one_round(mesh, claim_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; });
   EXPECT_GT(round.cavities, 0);
   EXPECT_EQ(round.refilled, 0);
-  EXPECT_EQ(hash(world, mesh), before);
+  EXPECT_EQ(hash(mesh), before);
 }
 
 TEST(CavityAt, NamesTheSamePlaceAlike) {

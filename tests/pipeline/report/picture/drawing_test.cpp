@@ -16,9 +16,8 @@ constexpr Window window{0, 0, 60, 40};
 
 Image drawn_wing(const Communicator& communicator, double edge_opacity) {
   const mesh::DistributedMesh surface = examples::wing_in_box(communicator);
-  const Scene scene = find_scene(communicator, surface, {});
-  const EdgeNeighbours neighbours =
-      find_edge_neighbours(communicator, surface, mesh::number_mesh(communicator, surface), scene.shown);
+  const Scene scene = find_scene(surface, {});
+  const EdgeNeighbours neighbours = find_edge_neighbours(surface, mesh::number_mesh(surface), scene.shown);
   const Viewpoint view = look_from({-1, -1, 1}, {0, 0, 1});
   Canvas canvas(window.width, window.height);
   draw_surface(canvas, close_up(view, {0, 0, 0}, 3, window), surface, neighbours, scene,
@@ -63,7 +62,7 @@ TEST(Drawing, ACutCoversTheSectionOfTheMesh) {
 
 /// A prism over the unit triangle as two layers, the upper one a pyramid and a tetrahedron.
 TEST(Drawing, ACutOfLayersHasTheirColour) {
-  mesh::DistributedMesh volume;
+  mesh::DistributedMesh volume(world);
   volume.piece_count = 1;
   mesh::Piece& piece = volume.pieces.emplace_back();
   for (const double z : {0.0, 0.5, 1.0}) {

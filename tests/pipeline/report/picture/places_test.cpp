@@ -12,17 +12,17 @@ using parallel::Communicator;
 struct Places {
   std::optional<Place> leading_edge, junction;
 };
-Places places_of(const Communicator& communicator, const mesh::DistributedMesh& surface) {
-  const mesh::Numbering numbering = mesh::number_mesh(communicator, surface);
-  const Scene scene = find_scene(communicator, surface, {});
-  const EdgeNeighbours neighbours = find_edge_neighbours(communicator, surface, numbering, scene.shown);
-  return {find_leading_edge(communicator, surface, numbering, neighbours, scene),
-          find_junction(communicator, surface, numbering, neighbours, scene)};
+Places places_of(const mesh::DistributedMesh& surface) {
+  const mesh::Numbering numbering = mesh::number_mesh(surface);
+  const Scene scene = find_scene(surface, {});
+  const EdgeNeighbours neighbours = find_edge_neighbours(surface, numbering, scene.shown);
+  return {find_leading_edge(surface, numbering, neighbours, scene),
+          find_junction(surface, numbering, neighbours, scene)};
 }
 
 TEST(Places, TheLeadingEdgeOfAWing) {
   const Communicator world = Communicator::world();
-  const Places places = places_of(world, examples::wing_in_box(world));
+  const Places places = places_of(examples::wing_in_box(world));
   ASSERT_TRUE(places.leading_edge.has_value());
   const Place& edge = *places.leading_edge;
   EXPECT_TRUE(edge.upstream);
@@ -36,7 +36,7 @@ TEST(Places, TheLeadingEdgeOfAWing) {
 
 TEST(Places, TheJunctionOfAStepAndItsSharpestEdge) {
   const Communicator world = Communicator::world();
-  const Places places = places_of(world, examples::step_in_box(world));
+  const Places places = places_of(examples::step_in_box(world));
   ASSERT_TRUE(places.junction.has_value());
   EXPECT_NEAR(places.junction->point.x, 2, 1e-9);
   EXPECT_NEAR(places.junction->point.z, 1, 1e-9);
@@ -49,7 +49,7 @@ TEST(Places, TheJunctionOfAStepAndItsSharpestEdge) {
 
 TEST(Places, ABoxHasNone) {
   const Communicator world = Communicator::world();
-  const Places places = places_of(world, examples::plain_box(world));
+  const Places places = places_of(examples::plain_box(world));
   EXPECT_FALSE(places.leading_edge.has_value());
   EXPECT_FALSE(places.junction.has_value());
 }
@@ -57,11 +57,11 @@ TEST(Places, ABoxHasNone) {
 TEST(Places, AreTheSameOnOneRank) {
   const Communicator world = Communicator::world();
   const auto self = Communicator::self();
-  const Places wing = places_of(world, examples::wing_in_box(world)),
+  const Places wing = places_of(examples::wing_in_box(world)),
                alone = places_of(self, examples::wing_in_box(self));
   EXPECT_EQ(wing.leading_edge->point, alone.leading_edge->point);
   EXPECT_EQ(wing.leading_edge->along, alone.leading_edge->along);
-  const Places step = places_of(world, examples::step_in_box(world)),
+  const Places step = places_of(examples::step_in_box(world)),
                step_alone = places_of(self, examples::step_in_box(self));
   EXPECT_EQ(step.junction->point, step_alone.junction->point);
   EXPECT_EQ(step.leading_edge->point, step_alone.leading_edge->point);

@@ -27,7 +27,7 @@ Counts counts_of(const Communicator& world, const Scene& scene) {
 
 TEST(Scene, IsTheBodyWhereTheFarFieldHasAType) {
   const Communicator world = Communicator::world();
-  const Scene scene = find_scene(world, examples::wing_in_box(world), {PatchType::farfield, PatchType::wall});
+  const Scene scene = find_scene(examples::wing_in_box(world), {PatchType::farfield, PatchType::wall});
   EXPECT_TRUE(scene.has_body);
   EXPECT_EQ(scene.patches, (std::vector<std::uint8_t>{0, 1}));
   EXPECT_NEAR(scene.box.low.x, -1, 1e-12);
@@ -40,14 +40,14 @@ TEST(Scene, IsTheBodyWhereTheFarFieldHasAType) {
 
 TEST(Scene, IsTheBodyWhereTheFarFieldIsKnownByItsShapeAlone) {
   const Communicator world = Communicator::world();
-  const Scene scene = find_scene(world, examples::wing_in_box(world), {});
+  const Scene scene = find_scene(examples::wing_in_box(world), {});
   EXPECT_TRUE(scene.has_body);
   EXPECT_EQ(scene.patches, (std::vector<std::uint8_t>{0, 1}));
 }
 
 TEST(Scene, IsAllWallsOfABox) {
   const Communicator world = Communicator::world();
-  const Scene scene = find_scene(world, examples::plain_box(world), {});
+  const Scene scene = find_scene(examples::plain_box(world), {});
   EXPECT_FALSE(scene.has_body);
   EXPECT_EQ(counts_of(world, scene).hidden, 0);
 }
@@ -72,7 +72,7 @@ TEST(Scene, IsAllWallsOfABend) {
       4, 4, [&](double s, double t) { return place(2 + s, 0, t); }, 0);
   builder.add_grid(
       4, 4, [&](double s, double t) { return place(2 + t, quarter, s); }, 0);
-  const Scene scene = find_scene(world, builder.distribute(world, {"bend"}), {});
+  const Scene scene = find_scene(builder.distribute(world, {"bend"}), {});
   EXPECT_FALSE(scene.has_body);
   EXPECT_EQ(counts_of(world, scene).hidden, 0);
 }
@@ -90,7 +90,7 @@ TEST(Scene, HalfABodyIsOpenTowardsItsPlane) {
       },
       1);
   const Scene scene =
-      find_scene(world, builder.distribute(world, {"far", "half"}), {PatchType::farfield, PatchType::wall});
+      find_scene(builder.distribute(world, {"far", "half"}), {PatchType::farfield, PatchType::wall});
   EXPECT_NEAR(scene.open_towards.y, 0.5, 0.02);
   EXPECT_NEAR(scene.open_towards.x, 0, 1e-9);
 }
