@@ -1,10 +1,17 @@
 /// The report of the improvement stage.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <tuple>
 
 namespace aeroloom::improve {
+
+/// The tetrahedra that miss the target, and the smallest angle, at one moment.
+struct BadState {
+  std::int64_t bad = 0;
+  double least_angle = 180;  ///< degrees
+};
 
 struct ImproveReport {
   std::int64_t bad_before = 0, bad_after = 0;        ///< tetrahedra that miss the target
@@ -21,6 +28,24 @@ struct ImproveReport {
                       &ImproveReport::min_angle_after, &ImproveReport::smoothed, &ImproveReport::slid,
                       &ImproveReport::replaced, &ImproveReport::changed_triangles,
                       &ImproveReport::is_lattice);
+  }
+  /// The state before any change, which is that after it too for now.
+  void note_before(const BadState& state) {
+    bad_before = state.bad;
+    min_angle_before = state.least_angle;
+    note_after(state);
+  }
+  void note_after(const BadState& state) {
+    bad_after = state.bad;
+    min_angle_after = state.least_angle;
+  }
+  /// Adds another run, on other tetrahedra.
+  void add(const ImproveReport& of) {
+    bad_before += of.bad_before;
+    bad_after += of.bad_after;
+    min_angle_before = std::min(min_angle_before, of.min_angle_before);
+    min_angle_after = std::min(min_angle_after, of.min_angle_after);
+    add_changes(of);
   }
   /// Adds the changes of another run.
   void add_changes(const ImproveReport& of) {

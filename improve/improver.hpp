@@ -1,4 +1,4 @@
-/// The improvement stage: bad tetrahedra mended by local operations, never at the cost of a worse one.
+/// The improvement stage: bad tetrahedra improved by local operations, never at the cost of a worse one.
 #pragma once
 
 #include "improve/improve_options.hpp"
@@ -25,7 +25,7 @@ namespace aeroloom::improve {
 /// std::logic_error when three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source = {},
                             std::vector<mesh::LocalIndex>* numbered = nullptr,
-                            Effort effort = Effort::sparing);
+                            Effort effort = Effort::reduced);
 
 /// Improves all pieces of a mesh, scheduled anew by the work expected, their borders frozen; then borders for
 /// the average where they are (border_smoothing.hpp), and what is still bad in cavities in which borders are

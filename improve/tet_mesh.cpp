@@ -108,7 +108,7 @@ void TetMesh::collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets) {
   }
 }
 
-void TetMesh::take_slots(const Replacement& cavity, std::vector<LocalIndex>& placed) {
+void TetMesh::take_slots(const CavityReplacement& cavity, std::vector<LocalIndex>& placed) {
   placed.clear();
   for (std::size_t i = 0; i < cavity.new_tets.size(); ++i) {
     LocalIndex slot = slot_count();
@@ -143,7 +143,7 @@ void TetMesh::match_cavity_faces() {
   }
 }
 
-void TetMesh::replace(const Replacement& cavity, std::vector<LocalIndex>& placed) {
+void TetMesh::replace(const CavityReplacement& cavity, std::vector<LocalIndex>& placed) {
   next_mark();
   for (const LocalIndex t : cavity.old_tets) _tet_mark[t] = _mark;
   _faces.clear();

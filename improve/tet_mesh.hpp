@@ -59,7 +59,7 @@ struct Fan {
 
 /// A proposed change: the tetrahedra that go, those that come, and the worst quality of both. Triangles of
 /// the boundary may go with them; what is open then becomes the new boundary, of at most as many triangles.
-struct Replacement {
+struct CavityReplacement {
   std::vector<LocalIndex> old_tets;
   std::vector<Corners> new_tets;
   std::vector<LocalIndex> old_triangles;
@@ -130,7 +130,7 @@ public:
   /// Puts the new tetrahedra in the place of the old ones; both must fill the same space with positive
   /// volumes, up to the triangles of the boundary that change. Vertices that only old ones use are swallowed.
   /// `placed` receives the slots of the new ones.
-  void replace(const Replacement& cavity, std::vector<LocalIndex>& placed);
+  void replace(const CavityReplacement& cavity, std::vector<LocalIndex>& placed);
   /// Moves a vertex; `star` is all its tetrahedra.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star);
   /// Moves a vertex where the qualities of the star are known already.
@@ -156,11 +156,11 @@ private:
   void match_all_faces();
   void match_triangles();
   void open_boundary(const FaceRecord& record, LocalIndex triangle);
-  void match_boundary(const Replacement& cavity);
+  void match_boundary(const CavityReplacement& cavity);
   void remove_dead_triangles();
   void fix_vertices();
   void match_cavity_faces();
-  void take_slots(const Replacement& cavity, std::vector<LocalIndex>& placed);
+  void take_slots(const CavityReplacement& cavity, std::vector<LocalIndex>& placed);
   void order_cells();
   void remove_unused_vertices();
   std::array<LocalIndex, 3> face_key(HalfFace h) const;

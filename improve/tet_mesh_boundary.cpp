@@ -61,7 +61,7 @@ void TetMesh::open_boundary(const FaceRecord& record, LocalIndex triangle) {
 }
 
 // Pairs stay, single faces are the new boundary.
-void TetMesh::match_boundary(const Replacement& cavity) {
+void TetMesh::match_boundary(const CavityReplacement& cavity) {
   std::size_t kept = 0, used = 0;
   for (std::size_t i = 0; i < _faces.size(); ++i) {
     if (i + 1 < _faces.size() && _faces[i].key == _faces[i + 1].key) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "improve/borders/rounds.hpp"
+#include "improve/improve_report.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
@@ -10,12 +11,6 @@
 #include <vector>
 
 namespace aeroloom::improve {
-
-/// The number of bad tetrahedra and the smallest angle at one moment, for the report.
-struct BadState {
-  std::int64_t bad = 0;
-  double least_angle = 180;  ///< degrees
-};
 
 /// Adds tetrahedra to a state, their qualities known.
 class Examination {

@@ -2,7 +2,7 @@
 
 #include "improve/borders/scatter.hpp"
 #include "improve/improver.hpp"
-#include "improve/limits/attainable_quality.hpp"
+#include "improve/limits/local_target.hpp"
 #include "mesh/data/mixing.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/data/tet_faces.hpp"
@@ -45,16 +45,16 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
     const Piece& piece = mesh.pieces[i];
     std::vector<cavities::CavityId>& mine = claims.emplace_back(piece.vertex_count(), cavities::no_cavity);
     if (bad.of_piece(i).empty()) continue;
-    const AttainableQuality attainable =
-        effort == Effort::unsparing ? AttainableQuality(measure) : AttainableQuality(piece, measure);
+    const LocalTarget local_target =
+        effort == Effort::full ? LocalTarget(measure) : LocalTarget(piece, measure);
     std::vector<char> beside;  // a border, once needed
     for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
       const double quality = measure(p[0], p[1], p[2], p[3]);
-      if (quality >= attainable(v)) continue;
+      if (quality >= local_target(v)) continue;
       // Beside a strip what was tried inside a piece is not tried again.
-      if (attainable.is_limited(v) && !attainable.is_severe(quality)) {
+      if (local_target.is_limited(v) && !local_target.is_severe(quality)) {
         if (shift > 0) continue;
         if (beside.empty()) beside = near_borders(piece);
         if (std::none_of(v, v + 4, [&](LocalIndex k) { return beside[k] != 0; })) continue;
@@ -120,10 +120,10 @@ void CavityImprover::build_piece(const cavities::Cavity& cavity) {
   }
 }
 
-// Vertices inside are new ones in the refilling; those on the CAD are known by it as long as they stay where
+// Vertices inside are new ones in the content; those on the CAD are known by it as long as they stay where
 // they are.
-cavities::Refilling CavityImprover::build_refilling(const cavities::Cavity& cavity) const {
-  cavities::Refilling result;
+cavities::CavityContent CavityImprover::build_content(const cavities::Cavity& cavity) const {
+  cavities::CavityContent result;
   std::vector<LocalIndex> named(_piece.vertex_count());
   for (LocalIndex v = 0; v < _piece.vertex_count(); ++v) {
     const auto before = static_cast<std::size_t>(_numbered[v]);
@@ -181,38 +181,38 @@ std::pair<double, std::int64_t> judge(const Piece& piece, const mesh::TetQuality
 
 }  // namespace
 
-std::optional<cavities::Refilling> CavityImprover::improve(const cavities::Cavity& cavity,
-                                                           ImproveReport& report) {
+std::optional<cavities::CavityContent> CavityImprover::improve(const cavities::Cavity& cavity,
+                                                               ImproveReport& report) {
   order_vertices(cavity);
   build_piece(cavity);
   ImproveOptions options = _options;
-  options.corner_trials = 0;  // were done piece by piece
+  options.over_constrained_trials = 0;  // were done piece by piece
   const ImproveReport mine = improve_piece(_piece, options, _source, &_numbered);
   if (mine.smoothed + mine.slid + mine.replaced == 0 || is_worse_than(cavity)) return std::nullopt;
   report.add_changes(mine);
-  return build_refilling(cavity);
+  return build_content(cavity);
 }
 
-std::optional<cavities::Refilling> CavityImprover::improve_by_trials(const cavities::Cavity& cavity,
-                                                                     int trials, std::uint64_t seed,
-                                                                     ImproveReport& report) {
+std::optional<cavities::CavityContent> CavityImprover::improve_by_trials(const cavities::Cavity& cavity,
+                                                                         int trials, std::uint64_t seed,
+                                                                         ImproveReport& report) {
   // Of the vertices' shortest edges; the only value that was tried.
   constexpr double fraction = 0.3;
   order_vertices(cavity);
   build_piece(cavity);
   const Piece start = _piece;
   auto best = judge(start, _measure);
-  std::optional<cavities::Refilling> result;
+  std::optional<cavities::CavityContent> result;
   ImproveReport changes;
   for (int trial = 0; trial < trials && best.second < 0; ++trial) {
     _piece = start;
     if (trial > 0) scatter(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
-    const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::unsparing);
+    const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::full);
     const auto now = judge(_piece, _measure);
     if (now <= best) continue;
     best = now;
     changes = mine;
-    result = build_refilling(cavity);
+    result = build_content(cavity);
   }
   if (result) report.add_changes(changes);
   return result;

@@ -13,8 +13,8 @@
 
 namespace aeroloom::improve {
 
-/// Claims the stars of all vertices of tetrahedra that miss the attainable quality (attainable_quality.hpp;
-/// the target, where nothing is to be spared), grouped by place; `shift` as in cavities::cavity_at. Returns
+/// Claims the stars of all vertices of tetrahedra that miss the local target (local_target.hpp; the
+/// target itself, with full effort), grouped by place; `shift` as in cavities::cavity_at. Returns
 /// their number on this rank.
 std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& bad,
                            const mesh::TetQuality& measure, int shift, Effort effort,
@@ -29,19 +29,19 @@ public:
       : _mesh(mesh), _options(options), _measure(options.target_angle), _source(source) {}
 
   /// Nothing where improvement changes nothing. Adds to the report.
-  std::optional<cavities::Refilling> improve(const cavities::Cavity& cavity, ImproveReport& report);
+  std::optional<cavities::CavityContent> improve(const cavities::Cavity& cavity, ImproveReport& report);
   /// The best of several: what improves the cavity as it is, then what improves it with its vertices inside
   /// scattered (scatter.hpp; `seed` gives other throws), until none misses the target. The best has the best
   /// worst tetrahedron, then the fewest that miss the target. Nothing where none is better than what is
   /// there.
-  std::optional<cavities::Refilling> improve_by_trials(const cavities::Cavity& cavity, int trials,
-                                                       std::uint64_t seed, ImproveReport& report);
+  std::optional<cavities::CavityContent> improve_by_trials(const cavities::Cavity& cavity, int trials,
+                                                           std::uint64_t seed, ImproveReport& report);
 
 private:
   void order_vertices(const cavities::Cavity& cavity);
   void build_piece(const cavities::Cavity& cavity);
   bool is_worse_than(const cavities::Cavity& cavity) const;
-  cavities::Refilling build_refilling(const cavities::Cavity& cavity) const;
+  cavities::CavityContent build_content(const cavities::Cavity& cavity) const;
 
   const mesh::DistributedMesh& _mesh;
   const ImproveOptions& _options;

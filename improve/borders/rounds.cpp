@@ -23,10 +23,10 @@ namespace {
 /// The fate of a cavity, the same on every rank.
 struct Outcome {
   CavityId cavity;
-  std::int32_t refilled;  ///< 0: it stays as it was
+  std::int32_t replaced;  ///< 0: it stays as it was
   std::int32_t added;     ///< vertices
 
-  static constexpr auto fields() { return std::tuple(&Outcome::cavity, &Outcome::refilled, &Outcome::added); }
+  static constexpr auto fields() { return std::tuple(&Outcome::cavity, &Outcome::replaced, &Outcome::added); }
 };
 
 template <class T, class Less>
@@ -175,13 +175,13 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
   return result;
 }
 
-/// A cavity on the rank that refills it.
+/// A cavity on the rank that replaces it.
 struct OwnedCavity {
   Cavity cavity;
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per point, ascending
   std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
-  std::optional<Refilling> refilling;
-  CavityShares shares;  ///< of the refilling
+  std::optional<CavityContent> content;
+  CavityShares shares;  ///< of the content
 };
 
 std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
@@ -232,15 +232,15 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
   return cavities;
 }
 
-/// Refilled cavities on their way to the pieces that take them.
+/// Replaced cavities on their way to the pieces that take them.
 struct Delivery {
   std::vector<WireTet> tets;
   std::vector<WireVertex> vertices;
   std::vector<WireTriangle> triangles;
 };
 
-/// Adds a refilled cavity. `first_added` is the number of its first new vertex among those of the round.
-void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added, Delivery& out) {
+/// Adds a replaced cavity. `first_added` is the number of its first new vertex among those of the round.
+void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added, Delivery& out) {
   const CavityId id = owned.cavity.id;
   const auto known = static_cast<mesh::LocalIndex>(owned.vertex_keys.size());
   const auto vertex_key = [&](mesh::LocalIndex v) {
@@ -248,8 +248,8 @@ void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added
   };
   const CavityShares& shares = owned.shares;
   std::vector<std::pair<mesh::PieceId, mesh::LocalIndex>> uses;
-  for (std::size_t i = 0; i < owned.refilling->tets.size(); ++i) {
-    const auto& t = owned.refilling->tets[i];
+  for (std::size_t i = 0; i < owned.content->tets.size(); ++i) {
+    const auto& t = owned.content->tets[i];
     out.tets.push_back({id,
                         shares.of_tet[i],
                         owned.cavity.region,
@@ -263,13 +263,13 @@ void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added
       out.vertices.push_back({id, piece, static_cast<std::int32_t>(owned.cavity.dimension[v]),
                               owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v]});
     } else {
-      const AddedVertex& added = owned.refilling->added[v - known];
+      const AddedVertex& added = owned.content->added[v - known];
       out.vertices.push_back(
           {id, piece, static_cast<std::int32_t>(added.dimension), vertex_key(v), added.point,
            added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity});
     }
   }
-  const std::vector<CavityTriangle>& triangles = owned.refilling->triangles_of(owned.cavity);
+  const std::vector<CavityTriangle>& triangles = owned.content->triangles_of(owned.cavity);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const CavityTriangle& t = triangles[i];
     out.triangles.push_back(
@@ -281,7 +281,7 @@ void pack_refilled(const OwnedCavity& owned, int round, std::int64_t first_added
   }
 }
 
-Delivery deliver_refilled(const parallel::Communicator& communicator,
+Delivery deliver_replaced(const parallel::Communicator& communicator,
                           const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
                           const std::vector<parallel::Rank>& owner_of_piece, int round) {
   Delivery out;
@@ -292,7 +292,7 @@ Delivery deliver_refilled(const parallel::Communicator& communicator,
     first_new += outcome.added;
     if (next >= cavities.size() || cavities[next].cavity.id != outcome.cavity) continue;
     const OwnedCavity& owned = cavities[next++];
-    if (owned.refilling) pack_refilled(owned, round, first, out);
+    if (owned.content) pack_replaced(owned, round, first, out);
   }
   const auto receiver_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
   Delivery in;
@@ -317,7 +317,7 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
     return std::lower_bound(outcomes.begin(), outcomes.end(), id,
                             [](const Outcome& o, CavityId c) { return o.cavity < c; });
   };
-  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->refilled; };
+  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->replaced; };
   std::vector<std::vector<WireTriangle>> triangles(mesh.pieces.size());
   const auto local_piece = [&](mesh::PieceId id) {
     const auto at = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
@@ -359,12 +359,12 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 
 }  // namespace
 
-CavityRound refill_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
-                            const RefillRequest& request) {
+CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                             const ReplacementRequest& request) {
   const parallel::Communicator communicator = mesh.communicator;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
-  if (round >= mesh::most_key_rounds) throw std::logic_error("refill_cavities: too many rounds");
+  if (round >= mesh::most_key_rounds) throw std::logic_error("replace_cavities: too many rounds");
   CavityClaims uncontested = request.claims;
   spread_claims(shared, uncontested);
   withdraw_contested_claims(mesh, shared, uncontested);
@@ -378,10 +378,10 @@ CavityRound refill_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVerti
   std::vector<Outcome> outcomes;
   parallel::agree(communicator, [&] {
     for (OwnedCavity& owned : cavities) {
-      owned.refilling = request.refill(owned.cavity);
-      if (owned.refilling) owned.shares = share_out(owned.cavity, owned.donor, *owned.refilling);
-      const auto added = owned.refilling ? static_cast<std::int32_t>(owned.refilling->added.size()) : 0;
-      outcomes.push_back({owned.cavity.id, owned.refilling ? 1 : 0, added});
+      owned.content = request.replace(owned.cavity);
+      if (owned.content) owned.shares = share_out(owned.cavity, owned.donor, *owned.content);
+      const auto added = owned.content ? static_cast<std::int32_t>(owned.content->added.size()) : 0;
+      outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }
   });
   outcomes = communicator.all_gather_items<Outcome>(outcomes);
@@ -389,11 +389,11 @@ CavityRound refill_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVerti
             [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
   const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
-  const Delivery delivery = deliver_refilled(communicator, cavities, outcomes, owner_of_piece, round);
+  const Delivery delivery = deliver_replaced(communicator, cavities, outcomes, owner_of_piece, round);
   CavityRound result;
   result.changes = update_pieces(mesh, mine, outcomes, delivery);
   result.cavities = static_cast<std::int64_t>(outcomes.size());
-  for (const Outcome& outcome : outcomes) result.refilled += outcome.refilled;
+  for (const Outcome& outcome : outcomes) result.replaced += outcome.replaced;
   return result;
 }
 

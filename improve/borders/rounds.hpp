@@ -30,7 +30,7 @@ struct CavityTriangle {
   std::int32_t face, patch;
 };
 
-/// One cavity before it is refilled. Vertices are numbered within the cavity; those that pieces share come
+/// One cavity before it is replaced. Vertices are numbered within the cavity; those that pieces share come
 /// by shared-vertex key, the others by piece, so the order is the same for any rank count.
 struct Cavity {
   CavityId id = no_cavity;
@@ -42,7 +42,7 @@ struct Cavity {
   std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
 };
 
-/// A vertex that comes with a refilling; inside the region unless it says otherwise.
+/// A vertex that comes with the new content; inside the region unless it says otherwise.
 struct AddedVertex {
   geometry::Vec3 point;
   mesh::CadDimension dimension = mesh::CadDimension::region;
@@ -51,7 +51,7 @@ struct AddedVertex {
 
 /// Tetrahedra that take the place of a cavity's. They cover the same region with the same boundary faces,
 /// but for those on the surface mesh where `triangles` says so: the faces they leave open there.
-struct Refilling {
+struct CavityContent {
   std::vector<AddedVertex> added;  ///< numbered after those of the cavity
   std::vector<std::array<mesh::LocalIndex, 4>> tets;
   std::optional<std::vector<CavityTriangle>> triangles;  ///< in the place of the cavity's
@@ -62,7 +62,7 @@ struct Refilling {
 };
 
 /// Refills a cavity; nothing: it stays as it was. Must be a function of its argument alone.
-using RefillCavity = std::function<std::optional<Refilling>(const Cavity&)>;
+using ReplaceCavity = std::function<std::optional<CavityContent>(const Cavity&)>;
 
 /// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. What one
 /// piece claims a shared vertex, the others do too; where they differ the higher number counts.
@@ -76,7 +76,7 @@ struct PieceChange {
 };
 
 struct CavityRound {
-  std::int64_t cavities = 0, refilled = 0;  ///< of the whole mesh, the same on every rank
+  std::int64_t cavities = 0, replaced = 0;  ///< of the whole mesh, the same on every rank
   std::vector<PieceChange> changes;         ///< per local piece
 };
 
@@ -88,18 +88,18 @@ struct CavityExtent {
   bool along_surface = false;
 };
 
-/// The cavities that a round takes out of the pieces, and how they are refilled.
-struct RefillRequest {
+/// The cavities that a round takes out of the pieces, and how they are replaced.
+struct ReplacementRequest {
   const CavityClaims& claims;
   CavityExtent extent;
-  const RefillCavity& refill;
+  const ReplaceCavity& replace;
 };
 
 /// One round. A cavity lies in one region. A vertex's star is taken when no neighbour is claimed by another
 /// cavity, so cavities do not touch in a tetrahedron; the others have to wait for another round with other
 /// claims. Cavities are assigned to ranks by size. At most 255 rounds on one mesh. `shared` are those of the
 /// mesh as it comes in. Collective. Throws CollectiveError.
-CavityRound refill_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
-                            const RefillRequest& request);
+CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
+                             const ReplacementRequest& request);
 
 }  // namespace aeroloom::cavities

@@ -19,21 +19,21 @@ const mesh::TetFace* find_face(const std::vector<mesh::TetFace>& faces,
 }  // namespace
 
 CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
-                       const Refilling& refilling) {
+                       const CavityContent& content) {
   // Boundary faces of the cavity, with the old and the new tetrahedron inside them.
   const std::vector<mesh::TetFace> given = mesh::boundary_faces(cavity.tets);
   std::vector<mesh::TetFace> taken;
-  std::vector<std::array<std::int32_t, 4>> across(refilling.tets.size(), {-1, -1, -1, -1});
+  std::vector<std::array<std::int32_t, 4>> across(content.tets.size(), {-1, -1, -1, -1});
   const auto link = [&](std::int32_t from, std::int32_t to) {
     *std::find(across[from].begin(), across[from].end(), -1) = to;
   };
   mesh::for_each_face(
-      mesh::sorted_faces(refilling.tets), [&](std::int32_t a, std::int32_t b) { link(a, b), link(b, a); },
+      mesh::sorted_faces(content.tets), [&](std::int32_t a, std::int32_t b) { link(a, b), link(b, a); },
       [&](const mesh::TetFace& face) { taken.push_back(face); });
   // Faces that differ are triangles of the surface mesh, on either side.
   std::size_t kept = 0;
   CavityShares shares;
-  shares.of_tet.assign(refilling.tets.size(), -1);
+  shares.of_tet.assign(content.tets.size(), -1);
   std::vector<std::int32_t> front;
   for (const mesh::TetFace& face : taken) {
     const mesh::TetFace* old = find_face(given, face.key);
@@ -43,14 +43,14 @@ CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& d
     shares.of_tet[face.tet] = donor[old->tet];
     front.push_back(face.tet);
   }
-  const std::vector<CavityTriangle>& triangles = refilling.triangles_of(cavity);
+  const std::vector<CavityTriangle>& triangles = content.triangles_of(cavity);
   const auto count_new = [](const std::vector<CavityTriangle>& of, const std::vector<mesh::TetFace>& other) {
     return static_cast<std::size_t>(std::count_if(
         of.begin(), of.end(), [&](const CavityTriangle& t) { return !find_face(other, t.vertices); }));
   };
   if (taken.size() - kept != count_new(triangles, given) ||
       given.size() - kept != count_new(cavity.triangles, taken)) {
-    throw std::logic_error("share_out: the refilling has another boundary");
+    throw std::logic_error("share_out: the content has another boundary");
   }
   if (front.empty()) {  // nothing is left of the boundary of a whole region
     shares.of_tet[0] = *std::min_element(donor.begin(), donor.end());

@@ -1,4 +1,4 @@
-/// Which piece gets which tetrahedron of a refilled cavity. Used by rounds.cpp.
+/// Which piece gets which tetrahedron of a replaced cavity. Used by rounds.cpp.
 #pragma once
 
 #include "improve/borders/rounds.hpp"
@@ -8,13 +8,13 @@
 namespace aeroloom::cavities {
 
 struct CavityShares {
-  std::vector<mesh::PieceId> of_tet;       ///< per tetrahedron of the refilling
+  std::vector<mesh::PieceId> of_tet;       ///< per tetrahedron of the content
   std::vector<mesh::PieceId> of_triangle;  ///< per triangle of the surface mesh: that of its tetrahedron
 };
 
 /// Each piece that gave to the cavity takes what is nearest to the part of the cavity's boundary it gave, in
 /// steps from tetrahedron to tetrahedron; so it stays about as large as it was. `donor`: per old tetrahedron.
 CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
-                       const Refilling& refilling);
+                       const CavityContent& content);
 
 }  // namespace aeroloom::cavities

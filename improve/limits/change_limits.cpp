@@ -12,7 +12,7 @@ constexpr double least = 0.3,
 
 constexpr double decent_ratio = 0.5;  // below this a mean ratio must not fall; chosen, not measured
 constexpr double flattening = 0.3;    // of the ratio before, where a severe case beside a strip gets better
-constexpr double unsparing_flattening = 0.5;  // where any does and nothing is spared
+constexpr double full_effort_flattening = 0.5;  // where any does, with full effort
 
 double ratio_of(const std::array<Vec3, 4>& p) {
   return mesh::mean_ratio(p[0], p[1], p[2], p[3]);
@@ -44,7 +44,7 @@ bool ChangeLimits::allow_edge(const Lengths& before, Vec3 a, Vec3 b) const {
                                  : length >= least * std::min(size, before.sum / before.count);
 }
 
-bool ChangeLimits::allow_sizes(const TetMesh& mesh, const Replacement& cavity) const {
+bool ChangeLimits::allow_sizes(const TetMesh& mesh, const CavityReplacement& cavity) const {
   if (!_field) return true;
   Lengths before;
   for (const LocalIndex t : cavity.old_tets) {
@@ -78,17 +78,18 @@ bool ChangeLimits::allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std
 }
 
 bool ChangeLimits::is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const {
-  return _attainable && std::any_of(tets.begin(), tets.end(),
-                                    [&](LocalIndex t) { return _attainable->is_limited(mesh.corners(t)); });
+  return _local_target && std::any_of(tets.begin(), tets.end(), [&](LocalIndex t) {
+           return _local_target->is_limited(mesh.corners(t));
+         });
 }
 
-bool ChangeLimits::allow(const TetMesh& mesh, const Replacement& cavity) const {
+bool ChangeLimits::allow(const TetMesh& mesh, const CavityReplacement& cavity) const {
   if (!allow_sizes(mesh, cavity)) return false;
   double poorest = decent_ratio;
   for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));
-  if (_attainable && (_effort == Effort::unsparing || _attainable->is_severe(cavity.before)) &&
+  if (_local_target && (_effort == Effort::full || _local_target->is_severe(cavity.before)) &&
       is_beside_strip(mesh, cavity.old_tets)) {
-    poorest *= _attainable->is_severe(cavity.before) ? flattening : unsparing_flattening;
+    poorest *= _local_target->is_severe(cavity.before) ? flattening : full_effort_flattening;
   }
   return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
     return ratio_of({mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2]), mesh.point(c[3])}) >= poorest;
@@ -106,7 +107,7 @@ bool ChangeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<
     after = std::min(after, ratio_of(p));
     p[mesh.local_vertex(t, vertex)] = origin;
     before = std::min(before, ratio_of(p));
-    severe = severe || (beside_strip && _attainable->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
+    severe = severe || (beside_strip && _local_target->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
   }
   return after >= (severe ? flattening * before : before);
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "improve/improve_options.hpp"
-#include "improve/limits/attainable_quality.hpp"
+#include "improve/limits/local_target.hpp"
 #include "improve/tet_mesh.hpp"
 #include "sizing/field/size_field.hpp"
 
@@ -15,23 +15,23 @@ namespace aeroloom::improve {
 /// middle, and shorter than all only down to 0.3 times that size or, where edges are shorter because the CAD
 /// is, 0.3 times their mean. Where no size field is known, every length will do.
 /// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was; down to 0.3 times the
-/// poorest where severe cases beside strips (Reach) get better: large angles over a triangle that is longer
-/// than wide need a flat tetrahedron. Where nothing is spared, beside strips by as much as the worst angle
+/// poorest where severe cases beside strips (local_target.hpp) get better: large angles over a triangle that
+/// is longer than wide need a flat tetrahedron. With full effort, beside strips by as much as the worst angle
 /// gains.
 class ChangeLimits {
 public:
-  explicit ChangeLimits(const sizing::SizeField* field = nullptr,
-                        const AttainableQuality* attainable = nullptr, Effort effort = Effort::sparing)
-      : _field(field), _attainable(attainable), _effort(effort) {}
+  explicit ChangeLimits(const sizing::SizeField* field = nullptr, const LocalTarget* local_target = nullptr,
+                        Effort effort = Effort::reduced)
+      : _field(field), _local_target(local_target), _effort(effort) {}
 
   /// Whether the new tetrahedra of a cavity keep to that.
-  bool allow(const TetMesh& mesh, const Replacement& cavity) const;
+  bool allow(const TetMesh& mesh, const CavityReplacement& cavity) const;
   /// Whether the tetrahedra around a vertex do once it has moved from `origin`.
   bool allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
                   Vec3 origin) const;
 
   /// The part of allow() that is about lengths of edges.
-  bool allow_sizes(const TetMesh& mesh, const Replacement& cavity) const;
+  bool allow_sizes(const TetMesh& mesh, const CavityReplacement& cavity) const;
 
 private:
   bool allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
@@ -47,7 +47,7 @@ private:
   bool is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
 
   const sizing::SizeField* _field;
-  const AttainableQuality* _attainable;
+  const LocalTarget* _local_target;
   Effort _effort;
 };
 

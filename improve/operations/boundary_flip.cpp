@@ -22,7 +22,7 @@ bool BoundaryFlip::keeps_boundary(TetMesh& mesh) {
          mesh.twin(4 * t + mesh.local_vertex(t, _fan.end)) >= 0;
 }
 
-bool BoundaryFlip::propose(TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity) {
+bool BoundaryFlip::propose(TetMesh& mesh, LocalIndex t, int edge, double floor, CavityReplacement& cavity) {
   if (!mesh.collect_fan(t, edge, RingFilling::largest_ring - 1, _fan)) return false;
   double before = std::numeric_limits<double>::max();
   for (const LocalIndex tet : _fan.tets) before = std::min(before, mesh.quality(tet));

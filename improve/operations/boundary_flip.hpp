@@ -12,7 +12,7 @@ class BoundaryFlip {
 public:
   /// Proposes the flip of edge i of tetrahedron t, both of whose triangles lie on one CAD face. False when
   /// nothing beats both the cavity as it is and `floor`, or the boundary would change too much.
-  bool propose(TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity);
+  bool propose(TetMesh& mesh, LocalIndex t, int edge, double floor, CavityReplacement& cavity);
 
 private:
   bool keeps_boundary(TetMesh& mesh);

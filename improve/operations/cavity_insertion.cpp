@@ -101,7 +101,7 @@ bool CavityInsertion::keeps_fixed_vertices(const TetMesh& mesh) const {
   return true;
 }
 
-bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, Replacement& cavity) {
+bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, CavityReplacement& cavity) {
   double after = -1;
   for (int round = 0; round < rounds; ++round) {
     collect_walls(mesh);
@@ -130,14 +130,14 @@ bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, Replacement& cavit
   return true;
 }
 
-bool CavityInsertion::propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Replacement& cavity) {
+bool CavityInsertion::propose_around_vertex(TetMesh& mesh, LocalIndex vertex, CavityReplacement& cavity) {
   mesh.collect_star(vertex, _tets);
   if (static_cast<int>(_tets.size()) >= most_tets) return false;
   _point = mesh.point(vertex);
   return propose(mesh, vertex, cavity);
 }
 
-bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, Replacement& cavity) {
+bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, CavityReplacement& cavity) {
   _tets.assign(1, t);
   _point = start_in(mesh.points(t), start);
   if (propose(mesh, mesh.vertex_count(), cavity)) return true;

@@ -18,11 +18,11 @@ public:
 
   /// Proposes a cavity grown from all tetrahedra around a free vertex, which moves. Nothing in the mesh
   /// changes yet.
-  bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, Replacement& cavity);
+  bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, CavityReplacement& cavity);
   /// Proposes a cavity grown from tetrahedron t around a new vertex, whose number in the cavity is
   /// mesh.vertex_count(). Growth begins at t's centre, or nearer to one of its corners, edges or faces: other
   /// starts end in other cavities.
-  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, Replacement& cavity);
+  bool propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, CavityReplacement& cavity);
   static constexpr int starts = 15;  // the centre, 4 corners, 6 edges, 4 faces
   /// Where the free point of the last proposal goes.
   Vec3 position() const { return _point; }
@@ -34,7 +34,7 @@ private:
     HalfFace side;
     double quality;  ///< of the cone to it
   };
-  bool propose(TetMesh& mesh, LocalIndex apex, Replacement& cavity);
+  bool propose(TetMesh& mesh, LocalIndex apex, CavityReplacement& cavity);
   /// Begins with a tetrahedron on the boundary and its neighbours; false where it is not on the boundary.
   bool start_at_neighbour(const TetMesh& mesh, LocalIndex t);
   void collect_walls(const TetMesh& mesh);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace aeroloom::improve {
 namespace {
@@ -73,7 +74,7 @@ bool EdgeContraction::keeps_boundary(TetMesh& mesh, LocalIndex from, LocalIndex 
 }
 
 bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor,
-                              Replacement& cavity) {
+                              CavityReplacement& cavity) {
   if (mesh.is_shared(from) || is_on_curve(mesh.dimension(from))) return false;
   mesh.collect_star(from, _star);
   cavity.clear();
@@ -96,6 +97,19 @@ bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, dou
   cavity.old_tets = _star;
   cavity.old_triangles = _triangles;
   return true;
+}
+
+bool EdgeContraction::improve(OperationContext& context, LocalIndex t) {
+  TetMesh& mesh = context.mesh();
+  _best.clear();
+  const double least = mesh.quality(t);
+  for (const auto& [i, k] : mesh::tetrahedron_edges) {
+    const LocalIndex a = mesh.corners(t)[i], b = mesh.corners(t)[k];
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+      if (propose(mesh, from, to, std::max(least, _best.after), _change)) std::swap(_best, _change);
+    }
+  }
+  return _best.improves() && context.apply(_best);
 }
 
 }  // namespace aeroloom::improve

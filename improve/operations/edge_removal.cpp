@@ -5,7 +5,8 @@
 
 namespace aeroloom::improve {
 
-bool EdgeRemoval::propose(const TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity) {
+bool EdgeRemoval::propose(const TetMesh& mesh, LocalIndex t, int edge, double floor,
+                          CavityReplacement& cavity) {
   if (!mesh.collect_edge_ring(t, edge, largest_ring, _edge_ring) || _edge_ring.ring.size() < 3) return false;
   double before = std::numeric_limits<double>::max();
   for (const LocalIndex tet : _edge_ring.tets) before = std::min(before, mesh.quality(tet));

@@ -13,7 +13,7 @@ public:
 
   /// Proposes the removal of edge i of tetrahedron t. False when nothing beats both the cavity as it is and
   /// `floor`.
-  bool propose(const TetMesh& mesh, LocalIndex t, int edge, double floor, Replacement& cavity);
+  bool propose(const TetMesh& mesh, LocalIndex t, int edge, double floor, CavityReplacement& cavity);
 
 private:
   EdgeRing _edge_ring;

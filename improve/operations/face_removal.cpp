@@ -39,7 +39,8 @@ double FaceRemoval::grow(const TetMesh& mesh, const Sandwich& from, LocalIndex u
   return own;
 }
 
-bool FaceRemoval::propose(const TetMesh& mesh, LocalIndex t, int face, double floor, Replacement& cavity) {
+bool FaceRemoval::propose(const TetMesh& mesh, LocalIndex t, int face, double floor,
+                          CavityReplacement& cavity) {
   const HalfFace other = mesh.twin(4 * t + face);
   if (other < 0) return false;
   _below = mesh.corners(t)[face];

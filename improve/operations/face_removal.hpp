@@ -18,7 +18,7 @@ public:
 
   /// Proposes the removal of face i of tetrahedron t and of what neighbours should go with it. False when
   /// nothing beats both the cavity as it is and `floor`.
-  bool propose(const TetMesh& mesh, LocalIndex t, int face, double floor, Replacement& cavity);
+  bool propose(const TetMesh& mesh, LocalIndex t, int face, double floor, CavityReplacement& cavity);
 
 private:
   /// A face between the two vertices: its tetrahedra on both sides.

@@ -177,7 +177,7 @@ void SmallPolyhedron::search(const TetMesh& mesh, double worst) {
   }
 }
 
-bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, Replacement& cavity) {
+bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, CavityReplacement& cavity) {
   grow(mesh, t);
   if (_tets.size() < 2 || !open_front(mesh)) return false;
   double before = std::numeric_limits<double>::max();
@@ -196,6 +196,11 @@ bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, R
   for (const auto& tet : _best_filling)
     cavity.new_tets.push_back({_vertices[tet[0]], _vertices[tet[1]], _vertices[tet[2]], _vertices[tet[3]]});
   return true;
+}
+
+bool SmallPolyhedron::improve(OperationContext& context, LocalIndex t) {
+  TetMesh& mesh = context.mesh();
+  return propose(mesh, t, mesh.quality(t), _change) && context.apply(_change);
 }
 
 }  // namespace aeroloom::improve

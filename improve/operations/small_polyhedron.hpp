@@ -3,6 +3,7 @@
 /// Zhao et al., Int. J. Numer. Meth. Engng 92, 2012, doi:10.1002/nme.4316).
 #pragma once
 
+#include "improve/operations/operation.hpp"
 #include "improve/tet_mesh.hpp"
 
 #include <array>
@@ -11,16 +12,17 @@
 
 namespace aeroloom::improve {
 
-class SmallPolyhedron {
+class SmallPolyhedron final : public LocalOperation {
 public:
   static constexpr int most_vertices = 12;  // chosen, not measured
   static constexpr int most_tets = 24;      // chosen, not measured
   static constexpr int most_steps = 300;    ///< of the search, which gives up then; chosen, not measured
 
+  bool improve(OperationContext& context, LocalIndex t) override;
   /// Grows a polyhedron around a tetrahedron, neighbours that add no vertex first, and proposes to fill it
   /// anew. Its faces stay; a vertex inside may vanish if it is free. False when nothing beats both the
   /// polyhedron as it is and `floor`.
-  bool propose(const TetMesh& mesh, LocalIndex t, double floor, Replacement& cavity);
+  bool propose(const TetMesh& mesh, LocalIndex t, double floor, CavityReplacement& cavity);
 
 private:
   using Local = std::int8_t;  ///< number of a vertex in the polyhedron
@@ -60,6 +62,7 @@ private:
   std::vector<std::array<Local, 4>> _filling, _best_filling;
   double _best = 0;
   int _steps = 0;
+  CavityReplacement _change;
 };
 
 }  // namespace aeroloom::improve

@@ -157,13 +157,13 @@ TEST(CavityImprover, TakesTheBestOfSeveralTrials) {
     const cavities::Cavity cavity = cavity_of(mesh.pieces.front());
     const auto worst_of = [&](int trials) {
       ImproveReport report;
-      const auto refilling = improver.improve_by_trials(cavity, trials, 7, report);
+      const auto content = improver.improve_by_trials(cavity, trials, 7, report);
       double least = 1;
       const auto point = [&](LocalIndex v) {
         const auto known = static_cast<LocalIndex>(cavity.points.size());
-        return v < known ? cavity.points[v] : refilling->added[v - known].point;
+        return v < known ? cavity.points[v] : content->added[v - known].point;
       };
-      const auto& tets = refilling ? refilling->tets : cavity.tets;
+      const auto& tets = content ? content->tets : cavity.tets;
       for (const auto& t : tets)
         least = std::min(least, measure(point(t[0]), point(t[1]), point(t[2]), point(t[3])));
       return least;
@@ -191,8 +191,8 @@ TEST(BadCells, FollowRounds) {
     const std::int64_t first = world.sum(bad.state(mesh).bad);
     cavities::CavityClaims claims;
     for (int shift = 0; shift < 4; ++shift) {
-      if (world.sum(claim_for_bad(mesh, bad, measure, shift, Effort::sparing, claims)) == 0) break;
-      bad.update(mesh, cavities::refill_cavities(mesh, mesh::SharedVertices(mesh), {claims, {}, improve}));
+      if (world.sum(claim_for_bad(mesh, bad, measure, shift, Effort::reduced, claims)) == 0) break;
+      bad.update(mesh, cavities::replace_cavities(mesh, mesh::SharedVertices(mesh), {claims, {}, improve}));
       const BadCells fresh(mesh, measure);
       for (std::size_t p = 0; p < mesh.pieces.size(); ++p) EXPECT_EQ(bad.of_piece(p), fresh.of_piece(p));
       BadState all;

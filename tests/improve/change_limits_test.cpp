@@ -26,7 +26,7 @@ mesh::Piece make_example(Vec3 other) {
 bool allows(const ChangeLimits& limits, Vec3 other) {
   mesh::Piece piece = make_example(other);
   const TetMesh mesh(piece, measure);
-  Replacement cavity;
+  CavityReplacement cavity;
   cavity.old_tets = {0};
   cavity.new_tets = {{0, 1, 2, 4}};
   return limits.allow(mesh, cavity);

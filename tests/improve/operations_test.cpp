@@ -15,23 +15,14 @@
 namespace aeroloom::improve {
 namespace {
 
+using examples::make_octahedron;
+using examples::make_octahedron_with_sliver;
 using examples::make_piece;
+using examples::make_prism_with_flat_tet;
+using examples::make_spindle;
 using examples::volume;
 
 const mesh::TetQuality measure(15);
-
-/// `count` tetrahedra around an edge along z that passes close by one side of their ring.
-mesh::Piece make_spindle(int count) {
-  const double middle = std::numbers::pi / count, off = 0.99 * std::cos(middle);
-  std::vector<Vec3> points{{off * std::cos(middle), off * std::sin(middle), -1},
-                           {off * std::cos(middle), off * std::sin(middle), 1}};
-  std::vector<LocalIndex> cells;
-  for (int i = 0; i < count; ++i) {
-    points.push_back({std::cos(2 * i * middle), std::sin(2 * i * middle), 0.01 * i});
-    cells.insert(cells.end(), {0, 1, 2 + i, 2 + (i + 1) % count});
-  }
-  return make_piece(points, cells);
-}
 
 TEST(TetQuality, FallsBelowTheTargetExactlyWithTheAngles) {
   std::mt19937 random(1);
@@ -85,7 +76,7 @@ TEST(TetMesh, RemovesSwallowedVerticesFromAllArrays) {
   piece.shared_vertices = {2, 4};
   TetMesh mesh(piece, measure);
   EXPECT_FALSE(mesh.is_fixed(0));
-  Replacement cavity;
+  CavityReplacement cavity;
   cavity.old_tets = {0, 1, 2, 3};
   cavity.new_tets = {{1, 2, 3, 4}};
   std::vector<LocalIndex> placed;
@@ -103,7 +94,7 @@ TEST(TetMesh, RemovesSwallowedVerticesFromAllArrays) {
 TEST(TetMesh, RefusesAFillingWithOtherFaces) {
   mesh::Piece piece = make_spindle(4);
   TetMesh mesh(piece, measure);
-  Replacement cavity;
+  CavityReplacement cavity;
   cavity.old_tets = {0, 1};
   cavity.new_tets = {{0, 1, 2, 4}};
   std::vector<LocalIndex> placed;
@@ -124,7 +115,7 @@ TEST_P(Ring, LosesItsEdge) {
   const double before = volume(piece);
   TetMesh mesh(piece, measure);
   EdgeRemoval removal;
-  Replacement cavity;
+  CavityReplacement cavity;
   ASSERT_TRUE(removal.propose(mesh, 1, 0, -1, cavity));
   EXPECT_EQ(cavity.new_tets.size(), 2u * (count - 2));
   EXPECT_GT(cavity.after, cavity.before);
@@ -142,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Ring, testing::Values(3, 4, 5, 6, 7, 8));
 
 TEST(EdgeRemoval, LeavesBoundaryEdgesAndLargeRingsAlone) {
   EdgeRemoval removal;
-  Replacement cavity;
+  CavityReplacement cavity;
   mesh::Piece large = make_spindle(EdgeRemoval::largest_ring + 1);
   TetMesh large_mesh(large, measure);
   EXPECT_FALSE(removal.propose(large_mesh, 0, 0, -1, cavity));
@@ -168,9 +159,9 @@ TEST(FaceRemoval, RemovesOneOrSeveralFaces) {
     const double before = volume(piece);
     TetMesh mesh(piece, mesh::TetQuality(50));
     FaceRemoval removal;
-    Replacement best;
+    CavityReplacement best;
     for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
-      Replacement cavity;
+      CavityReplacement cavity;
       if (removal.propose(mesh, t, 3, best.after, cavity)) best = cavity;
     }
     ASSERT_TRUE(best.improves()) << count;
@@ -183,17 +174,6 @@ TEST(FaceRemoval, RemovesOneOrSeveralFaces) {
     mesh.finish();
     EXPECT_NEAR(volume(piece), before, 1e-14);
   }
-}
-
-/// A regular octahedron with an inner vertex.
-mesh::Piece make_octahedron(Vec3 inner) {
-  std::vector<LocalIndex> cells;
-  const LocalIndex around[4] = {1, 3, 2, 4};
-  for (int i = 0; i < 4; ++i) {
-    cells.insert(cells.end(), {0, around[i], around[(i + 1) % 4], 5});
-    cells.insert(cells.end(), {0, around[(i + 1) % 4], around[i], 6});
-  }
-  return make_piece({inner, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, cells);
 }
 
 TEST(Smoothing, CentresAVertexAndStopsThere) {
@@ -210,19 +190,11 @@ TEST(Smoothing, CentresAVertexAndStopsThere) {
 }
 
 TEST(CavityInsertion, PlacesANewVertexInAFlatCavity) {
-  // The equator's four vertices without an inner one: a sliver between an upper and a lower tetrahedron pair.
-  mesh::Piece piece =
-      make_piece({{1, 0, 0.02}, {-1, 0, 0.02}, {0, 1, -0.02}, {0, -1, -0.02}, {0, 0, 1}, {0, 0, -1}},
-                 {0, 2, 1, 4, 1, 3, 0, 4, 2, 0, 3, 5, 3, 1, 2, 5, 0, 1, 2, 3});
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    LocalIndex* c = piece.cells.data() + 4 * t;
-    if (volume6(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) < 0)
-      std::swap(c[0], c[1]);
-  }
+  mesh::Piece piece = make_octahedron_with_sliver();
   const double before = volume(piece);
   TetMesh mesh(piece, measure);
   CavityInsertion insertion;
-  Replacement cavity;
+  CavityReplacement cavity;
   ASSERT_TRUE(insertion.propose_new_vertex(mesh, 4, 0, cavity));
   EXPECT_EQ(cavity.old_tets.size(), 5u);
   mesh.add_vertex(insertion.position(), 0);
@@ -235,24 +207,14 @@ TEST(CavityInsertion, PlacesANewVertexInAFlatCavity) {
   EXPECT_NEAR(volume(piece), before, 1e-14);
 }
 
-// A prism whose left side ends in a tetrahedron without thickness, because the boundary's diagonal there is
-// not that of the tetrahedra inside: no cone from within that tetrahedron is any better.
+// No cone from within the flat tetrahedron is any better than it.
 TEST(CavityInsertion, GetsRidOfATetrahedronFlatOnTheBoundary) {
-  enum { ridge0, ridge1, left0, left1, right0, right1 };
-  mesh::Piece piece =
-      make_piece({{0, 0, 0.8}, {0, 1, 0.8 + 1e-9}, {-1, 0, 0}, {-1, 1, 0}, {1, 0, 0}, {1, 1, 0}},
-                 {left0, right0, left1, ridge0, right1, ridge0, ridge1, left1, right1, ridge0, left1, right0,
-                  ridge0, ridge1, left1, left0});
-  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    LocalIndex* c = piece.cells.data() + 4 * t;
-    if (volume6(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])) < 0)
-      std::swap(c[0], c[1]);
-  }
+  mesh::Piece piece = make_prism_with_flat_tet();
   const double before = volume(piece);
   EXPECT_NEAR(before, 0.8, 1e-8);
   TetMesh mesh(piece, measure);
   CavityInsertion insertion;
-  Replacement cavity;
+  CavityReplacement cavity;
   ASSERT_TRUE(insertion.propose_new_vertex(mesh, 3, 0, cavity));
   EXPECT_LT(cavity.before, 1e-6);
   mesh.add_vertex(insertion.position(), 0);

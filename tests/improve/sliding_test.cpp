@@ -2,6 +2,7 @@
 
 #include "mesh/quality/quality.hpp"
 #include "tests/cad/primitives.hpp"
+#include "tests/improve/fans.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <limits>
@@ -14,6 +15,7 @@ namespace {
 using cad::Model;
 using cad::PrimitiveKind;
 using examples::close_boundary;
+using examples::make_fan;
 using examples::make_piece;
 using examples::volume;
 
@@ -39,21 +41,6 @@ bool slide_first_vertex(mesh::Piece& piece, const Model& model) {
   EXPECT_EQ(mesh.changed_triangles() > 0, moved);
   mesh.finish();
   return moved;
-}
-
-/// Four tetrahedra over a square of points on a face, around vertex 0 beside its middle.
-mesh::Piece make_fan(const Model& model, cad::FaceId face, geometry::Vec2 middle, geometry::Vec2 half,
-                     double depth) {
-  const auto at = [&](double u, double v) {
-    return model.face_point(face, {middle.x + u * half.x, middle.y + v * half.y});
-  };
-  const cad::SurfaceFrame frame = model.face_frame(face, middle);
-  mesh::Piece piece = make_piece(
-      {at(0.5, 0.4), at(-1, -1), at(1, -1), at(1, 1), at(-1, 1), frame.point - depth * frame.normal},
-      {0, 1, 2, 5, 0, 2, 3, 5, 0, 3, 4, 5, 0, 4, 1, 5});
-  close_boundary(piece);
-  for (LocalIndex v = 0; v < 5; ++v) piece.vertex_entity[v] = face;
-  return piece;
 }
 
 TEST(Sliding, KeepsToTheFace) {

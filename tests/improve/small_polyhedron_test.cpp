@@ -12,28 +12,16 @@ namespace aeroloom::improve {
 namespace {
 
 using examples::make_piece;
+using examples::make_spindle;
 using examples::volume;
 
 const mesh::TetQuality measure(28);
-
-/// Tetrahedra around an edge along z that passes close by one side of their ring.
-mesh::Piece make_spindle(int count) {
-  const double middle = std::numbers::pi / count, off = 0.9 * std::cos(middle);
-  std::vector<Vec3> points{{off * std::cos(middle), off * std::sin(middle), -1},
-                           {off * std::cos(middle), off * std::sin(middle), 1}};
-  std::vector<LocalIndex> cells;
-  for (int i = 0; i < count; ++i) {
-    points.push_back({std::cos(2 * i * middle), std::sin(2 * i * middle), 0.01 * i});
-    cells.insert(cells.end(), {0, 1, 2 + i, 2 + (i + 1) % count});
-  }
-  return make_piece(points, cells);
-}
 
 // A polyhedron that is the edge_ring of an edge has no better filling than the best of its ring: fillings
 // that keep the edge are one of those it chooses from.
 TEST(SmallPolyhedron, DoesAsWellAsEdgeRemovalOnARing) {
   for (int count = 3; count <= 7; ++count) {
-    mesh::Piece piece = make_spindle(count);
+    mesh::Piece piece = make_spindle(count, 0.9);
     const double before = volume(piece);
     TetMesh mesh(piece, measure);
     LocalIndex worst = 0;
@@ -42,7 +30,7 @@ TEST(SmallPolyhedron, DoesAsWellAsEdgeRemovalOnARing) {
     }
     EdgeRemoval removal;
     SmallPolyhedron polyhedron;
-    Replacement by_edge, cavity;
+    CavityReplacement by_edge, cavity;
     ASSERT_TRUE(removal.propose(mesh, worst, 0, -1, by_edge));
     ASSERT_TRUE(polyhedron.propose(mesh, worst, -1, cavity)) << count;
     EXPECT_NEAR(cavity.after, by_edge.after, 1e-12) << count;
@@ -62,7 +50,7 @@ TEST(SmallPolyhedron, FillsRandomPolyhedraExactly) {
     mesh::Piece& piece = whole.pieces[0];
     TetMesh mesh(piece, measure);
     SmallPolyhedron polyhedron;
-    Replacement cavity;
+    CavityReplacement cavity;
     std::vector<LocalIndex> placed;
     for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
       if (!mesh.is_alive(t) || mesh.quality(t) >= measure.target()) continue;
@@ -89,7 +77,7 @@ TEST(SmallPolyhedron, LeavesWhatIsBest) {
     std::swap(piece.cells[4], piece.cells[5]);
   TetMesh mesh(piece, measure);
   SmallPolyhedron polyhedron;
-  Replacement cavity;
+  CavityReplacement cavity;
   EXPECT_FALSE(polyhedron.propose(mesh, 0, -1, cavity));
 }
 

@@ -15,25 +15,18 @@ namespace aeroloom::improve {
 namespace {
 
 using examples::close_boundary;
+using examples::make_flat_lid;
 using examples::make_piece;
 using examples::volume;
 
 const mesh::TetQuality measure(15);
-
-/// A pyramid over a square whose base is a flat tetrahedron on top of two others.
-mesh::Piece make_flat_lid(double height) {
-  mesh::Piece piece = make_piece({{1, 0, 0}, {0, 1, height}, {-1, 0, 0}, {0, -1, height}, {0, 0, -1}},
-                                 {0, 1, 2, 4, 0, 2, 3, 4, 0, 1, 2, 3});
-  close_boundary(piece);
-  return piece;
-}
 
 TEST(BoundaryFlip, TakesAFlatTetrahedronAway) {
   mesh::Piece piece = make_flat_lid(0.02);
   const double before = volume(piece);
   TetMesh mesh(piece, measure);
   BoundaryFlip flip;
-  Replacement cavity;
+  CavityReplacement cavity;
   bool proposed = false;
   for (int edge = 0; edge < 6 && !proposed; ++edge) proposed = flip.propose(mesh, 2, edge, -1, cavity);
   ASSERT_TRUE(proposed);
@@ -66,7 +59,7 @@ TEST(BoundaryFlip, KeepsEdgesBetweenFacesAndSharpOnes) {
   const auto proposes = [](mesh::Piece piece) {
     TetMesh mesh(piece, measure);
     BoundaryFlip flip;
-    Replacement cavity;
+    CavityReplacement cavity;
     bool any = false;
     for (int edge = 0; edge < 6; ++edge) any = flip.propose(mesh, 2, edge, -1, cavity) || any;
     return any;
@@ -181,7 +174,7 @@ TEST(EdgeContraction, RemovesAVertexInsideButNeverOneOnACurve) {
   volume(piece);
   TetMesh mesh(piece, measure);
   EdgeContraction contraction;
-  Replacement cavity;
+  CavityReplacement cavity;
   ASSERT_TRUE(contraction.propose(mesh, from, to, -1, cavity));
   EXPECT_GT(cavity.after, cavity.before);
   std::vector<LocalIndex> placed;

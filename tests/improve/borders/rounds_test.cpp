@@ -28,13 +28,13 @@ CavityClaims claim_for_shared(const mesh::DistributedMesh& mesh, int shift, doub
 }
 
 /// The tetrahedra as they were.
-std::optional<Refilling> same(const Cavity& cavity) {
-  return Refilling{{}, cavity.tets, {}};
+std::optional<CavityContent> same(const Cavity& cavity) {
+  return CavityContent{{}, cavity.tets, {}};
 }
 
 /// Each tetrahedron divided in four by a vertex in its middle.
-std::optional<Refilling> divided(const Cavity& cavity) {
-  Refilling result;
+std::optional<CavityContent> divided(const Cavity& cavity) {
+  CavityContent result;
   auto next = static_cast<mesh::LocalIndex>(cavity.points.size());
   for (const auto& tet : cavity.tets) {
     geometry::Vec3 middle;
@@ -51,7 +51,7 @@ std::optional<Refilling> divided(const Cavity& cavity) {
 }
 
 /// Vertices on faces of the cube that no other tetrahedra have move a little within their plane.
-std::optional<Refilling> slid(const Cavity& cavity) {
+std::optional<CavityContent> slid(const Cavity& cavity) {
   std::vector<std::array<mesh::LocalIndex, 3>> open;
   for (const CavityTriangle& triangle : cavity.triangles) {
     open.push_back(triangle.vertices);
@@ -62,7 +62,7 @@ std::optional<Refilling> slid(const Cavity& cavity) {
     if (std::find(open.begin(), open.end(), face.key) != open.end()) continue;
     for (const mesh::LocalIndex v : face.vertices) stays[v] = 1;
   }
-  Refilling result{{}, cavity.tets, cavity.triangles};
+  CavityContent result{{}, cavity.tets, cavity.triangles};
   std::vector<mesh::LocalIndex> named(cavity.points.size());
   for (std::size_t v = 0; v < named.size(); ++v) {
     named[v] = static_cast<mesh::LocalIndex>(v);
@@ -97,9 +97,9 @@ std::string hash(const mesh::DistributedMesh& mesh) {
 }
 
 CavityRound one_round(mesh::DistributedMesh& mesh, const CavityClaims& claims, CavityExtent extent,
-                      const RefillCavity& refill) {
+                      const ReplaceCavity& replace) {
   const mesh::SharedVertices shared(mesh);
-  return refill_cavities(mesh, shared, {claims, extent, refill});
+  return replace_cavities(mesh, shared, {claims, extent, replace});
 }
 
 TEST(Cavities, KeepTheMeshWhole) {
@@ -109,7 +109,7 @@ TEST(Cavities, KeepTheMeshWhole) {
   for (int shift = 0; shift < 4; ++shift) {
     const CavityRound round = one_round(mesh, claim_for_shared(mesh, shift), {}, same);
     EXPECT_GT(round.cavities, 0);
-    EXPECT_EQ(round.refilled, round.cavities);
+    EXPECT_EQ(round.replaced, round.cavities);
     expect_valid(mesh);
     EXPECT_EQ(count_cells(mesh), cells);
   }
@@ -233,7 +233,7 @@ TEST(Cavities, RefuseAnotherBoundary) {
   const auto self = Communicator::self();
   mesh::DistributedMesh mesh = mesh::examples::cube(self, squares, pieces);
   const auto without_one = [](const Cavity& cavity) {
-    Refilling result{{}, cavity.tets, {}};
+    CavityContent result{{}, cavity.tets, {}};
     result.tets.pop_back();
     return std::optional(result);
   };
@@ -245,10 +245,10 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
   mesh::DistributedMesh together = mesh::examples::cube(world, squares, pieces);
   mesh::DistributedMesh alone = mesh::examples::cube(self, squares, pieces);
   for (int shift = 0; shift < 3; ++shift) {
-    const auto refill = shift == 1 ? divided : same;
+    const auto replace = shift == 1 ? divided : same;
     const CavityExtent reach{shift, shift == 2};
-    one_round(together, claim_for_shared(together, shift), reach, refill);
-    one_round(self, alone, claim_for_shared(alone, shift), reach, refill);
+    one_round(together, claim_for_shared(together, shift), reach, replace);
+    one_round(self, alone, claim_for_shared(alone, shift), reach, replace);
   }
   EXPECT_EQ(hash(together), hash(self, alone));
 }
@@ -275,7 +275,7 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   const CavityRound round =
       one_round(mesh, claim_for_shared(mesh, 0), {}, [](const Cavity&) { return std::nullopt; });
   EXPECT_GT(round.cavities, 0);
-  EXPECT_EQ(round.refilled, 0);
+  EXPECT_EQ(round.replaced, 0);
   EXPECT_EQ(hash(mesh), before);
 }
 

@@ -1,4 +1,4 @@
-/// Counting tetrahedra with several faces on the boundary.
+/// Counting over-constrained tetrahedra: those with several faces on the boundary.
 #pragma once
 
 #include "improve/tet_mesh.hpp"
@@ -11,11 +11,11 @@ namespace aeroloom::improve {
 /// How many faces of a tetrahedron are on the boundary.
 int count_boundary_faces(const TetMesh& mesh, LocalIndex t);
 
-/// How changes that leave the boundary as it is alter the number of corners.
-class CornerCount {
+/// How changes that leave the boundary as it is alter the number of over-constrained tetrahedra.
+class OverConstrainedCount {
 public:
   /// How many more a change leaves than there are.
-  int added_by(const TetMesh& mesh, const Replacement& cavity);
+  int added_by(const TetMesh& mesh, const CavityReplacement& cavity);
 
 private:
   std::vector<std::array<LocalIndex, 3>> _sides;  ///< on the boundary, of what goes

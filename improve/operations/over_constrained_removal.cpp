@@ -1,4 +1,4 @@
-#include "improve/operations/corner_relief.hpp"
+#include "improve/operations/over_constrained_removal.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -17,21 +17,21 @@ double worst_of(const TetMesh& mesh, const std::vector<LocalIndex>& tets) {
 
 }  // namespace
 
-double CornerRelief::bar_of(const TetMesh& mesh, double before) const {
+double OverConstrainedRemoval::bar_of(const TetMesh& mesh, double before) const {
   return std::min(before, _fraction * mesh.measure().target());
 }
 
-std::int64_t CornerRelief::run(TetMesh& mesh) {
-  std::int64_t relieved = 0;
+std::int64_t OverConstrainedRemoval::run(TetMesh& mesh) {
+  std::int64_t removed = 0;
   for (int pass = 0; pass < passes; ++pass) {
     for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
-      if (mesh.is_alive(t) && count_boundary_faces(mesh, t) > 1 && relieve(mesh, t)) ++relieved;
+      if (mesh.is_alive(t) && count_boundary_faces(mesh, t) > 1 && remove(mesh, t)) ++removed;
     }
   }
-  return relieved;
+  return removed;
 }
 
-bool CornerRelief::relieve(TetMesh& mesh, LocalIndex t) {
+bool OverConstrainedRemoval::remove(TetMesh& mesh, LocalIndex t) {
   _found.clear();
   find_swaps(mesh, t);
   if (_found.empty()) find_new_vertices(mesh, t);
@@ -41,7 +41,7 @@ bool CornerRelief::relieve(TetMesh& mesh, LocalIndex t) {
   return true;
 }
 
-const std::vector<Relief>& CornerRelief::find(TetMesh& mesh, LocalIndex t) {
+const std::vector<OverConstrainedChange>& OverConstrainedRemoval::find(TetMesh& mesh, LocalIndex t) {
   _found.clear();
   find_swaps(mesh, t);
   find_new_vertices(mesh, t);
@@ -49,29 +49,32 @@ const std::vector<Relief>& CornerRelief::find(TetMesh& mesh, LocalIndex t) {
   return _found;
 }
 
-const std::vector<LocalIndex>& CornerRelief::apply(TetMesh& mesh, const Relief& relief) {
-  if (relief.place) mesh.add_vertex(*relief.place, mesh.corners(relief.cavity.old_tets.front())[0]);
-  mesh.replace(relief.cavity, _placed);
+const std::vector<LocalIndex>& OverConstrainedRemoval::apply(TetMesh& mesh,
+                                                             const OverConstrainedChange& change) {
+  if (change.place) mesh.add_vertex(*change.place, mesh.corners(change.cavity.old_tets.front())[0]);
+  mesh.replace(change.cavity, _placed);
   return _placed;
 }
 
-void CornerRelief::sort_found() {
+void OverConstrainedRemoval::sort_found() {
   std::stable_sort(_found.begin(), _found.end(),
-                   [](const Relief& a, const Relief& b) { return a.cavity.after > b.cavity.after; });
+                   [](const OverConstrainedChange& a, const OverConstrainedChange& b) {
+                     return a.cavity.after > b.cavity.after;
+                   });
 }
 
-void CornerRelief::find_swaps(const TetMesh& mesh, LocalIndex t) {
+void OverConstrainedRemoval::find_swaps(const TetMesh& mesh, LocalIndex t) {
   for (int face = 0; face < 4; ++face) swap_face(mesh, t, face);
   for (int edge = 0; edge < 6; ++edge) remove_edge(mesh, t, edge);
 }
 
-void CornerRelief::find_new_vertices(TetMesh& mesh, LocalIndex t) {
+void OverConstrainedRemoval::find_new_vertices(TetMesh& mesh, LocalIndex t) {
   for (int edge = 0; edge < 6; ++edge) split_edge(mesh, t, edge);
   split_neighbourhood(mesh, t);
   fill_stars(mesh, t);
 }
 
-void CornerRelief::swap_face(const TetMesh& mesh, LocalIndex t, int face) {
+void OverConstrainedRemoval::swap_face(const TetMesh& mesh, LocalIndex t, int face) {
   const HalfFace other = mesh.twin(4 * t + face);
   if (other < 0) return;
   const LocalIndex below = mesh.corners(t)[face], above = mesh.corners(other >> 2)[other & 3];
@@ -84,7 +87,7 @@ void CornerRelief::swap_face(const TetMesh& mesh, LocalIndex t, int face) {
   consider(mesh);
 }
 
-void CornerRelief::remove_edge(const TetMesh& mesh, LocalIndex t, int edge) {
+void OverConstrainedRemoval::remove_edge(const TetMesh& mesh, LocalIndex t, int edge) {
   if (!mesh.collect_edge_ring(t, edge, RingFilling::largest_ring, _edge_ring) || _edge_ring.ring.size() < 3)
     return;
   _trial.clear();
@@ -96,7 +99,7 @@ void CornerRelief::remove_edge(const TetMesh& mesh, LocalIndex t, int edge) {
   consider(mesh);
 }
 
-void CornerRelief::consider(const TetMesh& mesh) {
+void OverConstrainedRemoval::consider(const TetMesh& mesh) {
   _trial.before = worst_of(mesh, _trial.old_tets);
   _trial.after = std::numeric_limits<double>::max();
   for (const Corners& c : _trial.new_tets) _trial.after = std::min(_trial.after, mesh.quality_of(c));
@@ -104,7 +107,7 @@ void CornerRelief::consider(const TetMesh& mesh) {
 }
 
 /// The trial's new tetrahedra are the cones of a vertex, which starts from there.
-void CornerRelief::consider_vertex(TetMesh& mesh, Vec3 place) {
+void OverConstrainedRemoval::consider_vertex(TetMesh& mesh, Vec3 place) {
   _trial.before = worst_of(mesh, _trial.old_tets);
   _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));
   if (_trial.after < bar_of(mesh, _trial.before)) return;
@@ -114,7 +117,7 @@ void CornerRelief::consider_vertex(TetMesh& mesh, Vec3 place) {
 }
 
 /// An interior edge gets a vertex where the worst tetrahedron around it is best.
-void CornerRelief::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
+void OverConstrainedRemoval::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
   if (!mesh.collect_edge_ring(t, edge, RingFilling::largest_ring, _edge_ring) || _edge_ring.ring.size() < 3)
     return;
   const auto& [start, end, tets, ring] = _edge_ring;
@@ -132,7 +135,7 @@ void CornerRelief::split_edge(TetMesh& mesh, LocalIndex t, int edge) {
   consider_vertex(mesh, 0.5 * (mesh.point(start) + mesh.point(end)));
 }
 
-void CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity) {
+void OverConstrainedRemoval::fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity) {
   const auto is_inside = [&](HalfFace side) {
     return side >= 0 && std::find(cavity.begin(), cavity.end(), side >> 2) != cavity.end();
   };
@@ -155,7 +158,7 @@ void CornerRelief::fill_around_vertex(TetMesh& mesh, const std::vector<LocalInde
   consider_vertex(mesh, place);
 }
 
-void CornerRelief::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
+void OverConstrainedRemoval::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
   _cavity.assign(1, t);
   for (int face = 0; face < 4; ++face) {
     if (const HalfFace other = mesh.twin(4 * t + face); other >= 0) _cavity.push_back(other >> 2);
@@ -166,7 +169,7 @@ void CornerRelief::split_neighbourhood(TetMesh& mesh, LocalIndex t) {
   for (std::size_t i = 1; i < all.size(); ++i) fill_around_vertex(mesh, {t, all[i]});
 }
 
-void CornerRelief::fill_stars(TetMesh& mesh, LocalIndex t) {
+void OverConstrainedRemoval::fill_stars(TetMesh& mesh, LocalIndex t) {
   std::vector<LocalIndex> both;
   const Corners corners = mesh.corners(t);
   for (const auto& [i, k] : mesh::tetrahedron_edges) {
@@ -184,9 +187,9 @@ void CornerRelief::fill_stars(TetMesh& mesh, LocalIndex t) {
   }
 }
 
-bool CornerRelief::is_good(const TetMesh& mesh, const Replacement& cavity) {
+bool OverConstrainedRemoval::is_good(const TetMesh& mesh, const CavityReplacement& cavity) {
   if (cavity.after < bar_of(mesh, cavity.before)) return false;
-  return _corners.added_by(mesh, cavity) < 0 &&
+  return _count.added_by(mesh, cavity) < 0 &&
          std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(),
                      [&](const Corners& c) { return mesh.is_positive(c); }) &&
          _limits.allow_sizes(mesh, cavity);

@@ -1,8 +1,8 @@
-#include "improve/corner_trials.hpp"
+#include "improve/over_constrained_trials.hpp"
 
-#include "improve/limits/attainable_quality.hpp"
-#include "improve/mending_queue.hpp"
-#include "improve/operations/corner_relief.hpp"
+#include "improve/limits/local_target.hpp"
+#include "improve/operations/over_constrained_removal.hpp"
+#include "improve/sweeps.hpp"
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace aeroloom::improve {
 namespace {
 
-/// Of the target: what a change may leave for the sweeps to mend. Chosen, not measured.
+/// Of the target: what a change may leave for the sweeps to improve. Chosen, not measured.
 constexpr double least_fraction = 0.2;
 constexpr int sweeps_after = 8;  // chosen, not measured
 
@@ -39,13 +39,14 @@ bool is_forced(const TetMesh& mesh, LocalIndex t) {
 
 }  // namespace
 
-CornerTrials::State CornerTrials::examine(const TetMesh& mesh, const std::vector<LocalIndex>& tets) {
+OverConstrainedTrials::State OverConstrainedTrials::examine(const TetMesh& mesh,
+                                                            const std::vector<LocalIndex>& tets) {
   State state;
   for (const LocalIndex t : tets) state.add(mesh, t);
   return state;
 }
 
-CornerTrials::State CornerTrials::examine(const TetMesh& mesh) {
+OverConstrainedTrials::State OverConstrainedTrials::examine(const TetMesh& mesh) {
   State state;
   for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
     if (mesh.is_alive(t)) state.add(mesh, t);
@@ -53,46 +54,47 @@ CornerTrials::State CornerTrials::examine(const TetMesh& mesh) {
   return state;
 }
 
-void CornerTrials::State::add(const TetMesh& mesh, LocalIndex t) {
+void OverConstrainedTrials::State::add(const TetMesh& mesh, LocalIndex t) {
   worst = std::min(worst, mesh.quality(t));
   bad += mesh.quality(t) < mesh.measure().target() ? 1 : 0;
-  corners += count_boundary_faces(mesh, t) > 1 ? 1 : 0;
+  over_constrained += count_boundary_faces(mesh, t) > 1 ? 1 : 0;
 }
 
-bool CornerTrials::is_better(const State& now, const State& before, double target) {
-  return now.corners < before.corners && now.bad <= before.bad && now.worst >= std::min(before.worst, target);
+bool OverConstrainedTrials::is_better(const State& now, const State& before, double target) {
+  return now.over_constrained < before.over_constrained && now.bad <= before.bad &&
+         now.worst >= std::min(before.worst, target);
 }
 
-std::int64_t CornerTrials::run(TetMesh& mesh) {
+std::int64_t OverConstrainedTrials::run(TetMesh& mesh) {
   if (_most == 0) return 0;
-  std::int64_t relieved = 0;
+  std::int64_t removed = 0;
   for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
     if (!mesh.is_alive(t) || count_boundary_faces(mesh, t) < 2 || is_forced(mesh, t)) continue;
-    if (relieve(mesh, t)) ++relieved;
+    if (remove(mesh, t)) ++removed;
   }
-  return relieved;
+  return removed;
 }
 
-bool CornerTrials::relieve(TetMesh& mesh, LocalIndex t) {
+bool OverConstrainedTrials::remove(TetMesh& mesh, LocalIndex t) {
   collect(mesh, t);
   const State before = examine(mesh, _tets);
   // Where some miss the target already, sweeps work on those, and long.
   if (before.bad > 0) return false;
   const mesh::Piece start = copy(mesh);
-  const AttainableQuality strips(start, mesh.measure());
-  const AttainableQuality everywhere(mesh.measure());
+  const LocalTarget strips(start, mesh.measure());
+  const LocalTarget everywhere(mesh.measure());
   const ChangeLimits limits(_field, &strips, _effort);
-  CornerRelief relief(limits, least_fraction);
+  OverConstrainedRemoval removal(limits, least_fraction);
   mesh::Piece piece = start;
   TetMesh untouched(piece, mesh.measure());
-  const std::vector<Relief>& found = relief.find(untouched, 0);
+  const std::vector<OverConstrainedChange>& found = removal.find(untouched, 0);
   for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(_most), found.size()); ++i) {
     piece = start;
     TetMesh copied(piece, mesh.measure());
-    const std::vector<LocalIndex>& fresh = relief.apply(copied, found[i]);
-    MendingQueue queue(copied, _effort == Effort::unsparing ? everywhere : strips, limits, _effort);
-    queue.follow_relief(fresh);
-    queue.run(sweeps_after);
+    const std::vector<LocalIndex>& fresh = removal.apply(copied, found[i]);
+    Sweeps sweeps(copied, _effort == Effort::full ? everywhere : strips, limits, _effort);
+    sweeps.follow_removal(fresh);
+    sweeps.run(sweeps_after);
     if (!is_better(examine(copied), before, mesh.measure().target())) continue;
     copied.finish();
     put_back(mesh, piece, copied.origin());
@@ -102,7 +104,7 @@ bool CornerTrials::relieve(TetMesh& mesh, LocalIndex t) {
 }
 
 // The tetrahedron comes first.
-void CornerTrials::collect(TetMesh& mesh, LocalIndex t) {
+void OverConstrainedTrials::collect(TetMesh& mesh, LocalIndex t) {
   for (const LocalIndex v : _vertices) _number[v] = -1;
   _number.resize(mesh.vertex_count(), -1);
   _tets.assign(1, t);
@@ -133,7 +135,7 @@ void CornerTrials::collect(TetMesh& mesh, LocalIndex t) {
     _inside[i] = i < inner_end && !mesh.is_fixed(_vertices[i]);
 }
 
-mesh::Piece CornerTrials::copy(const TetMesh& mesh) const {
+mesh::Piece OverConstrainedTrials::copy(const TetMesh& mesh) const {
   mesh::Piece piece;
   for (std::size_t i = 0; i < _vertices.size(); ++i) {
     const LocalIndex v = _vertices[i];
@@ -157,7 +159,8 @@ mesh::Piece CornerTrials::copy(const TetMesh& mesh) const {
   return piece;
 }
 
-void CornerTrials::put_back(TetMesh& mesh, const mesh::Piece& piece, const std::vector<LocalIndex>& origin) {
+void OverConstrainedTrials::put_back(TetMesh& mesh, const mesh::Piece& piece,
+                                     const std::vector<LocalIndex>& origin) {
   std::vector<LocalIndex> named(piece.vertex_count());
   const LocalIndex like =
       *std::max_element(_vertices.begin(), _vertices.end(),
@@ -174,7 +177,7 @@ void CornerTrials::put_back(TetMesh& mesh, const mesh::Piece& piece, const std::
   std::vector<Corners> before, after;
   for (const LocalIndex t : _tets) before.push_back(key_of(mesh.corners(t)));
   std::sort(before.begin(), before.end());
-  Replacement cavity;
+  CavityReplacement cavity;
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* c = piece.cell(t);
     const Corners corners{named[c[0]], named[c[1]], named[c[2]], named[c[3]]};

@@ -1,4 +1,4 @@
-/// The best quality that tetrahedra can have where the surface is finer across than along: beside strips
+/// The quality that tetrahedra should have, lower where the surface is finer across than along: beside strips
 /// between two CAD curves that are narrower than the elements along them.
 #pragma once
 
@@ -16,12 +16,12 @@ namespace aeroloom::improve {
 /// away has angles of about w / h at the edges to the apex, and leaves faces of height h on edges of length l
 /// to its neighbours, whose angles are about h / l: the best worst of both is sqrt(w / l). What touches such
 /// a triangle with fewer vertices comes in geometric steps between that and the target.
-class AttainableQuality {
+class LocalTarget {
 public:
-  /// The target is attainable everywhere.
-  explicit AttainableQuality(const mesh::TetQuality& measure) : _target(measure.target()) {}
+  /// The target holds everywhere.
+  explicit LocalTarget(const mesh::TetQuality& measure) : _target(measure.target()) {}
   /// Reads the boundary triangles of a piece.
-  AttainableQuality(const mesh::Piece& piece, const mesh::TetQuality& measure);
+  LocalTarget(const mesh::Piece& piece, const mesh::TetQuality& measure);
 
   /// The quality, at most the target, below which a tetrahedron with these vertices is worth working on.
   /// Vertices that the piece did not have count as free ones.
@@ -47,9 +47,9 @@ public:
   bool is_severe(double quality) const { return quality < severe * _target; }
   /// Whether a change that lifts the worst is worth what it leaves. Away from strips always. Beside them what
   /// lifts one tetrahedron easily leaves ten below their targets, all worked on in vain: the sum of squares
-  /// of what is missing, as fractions of the attainable quality, must fall, or a severe case end or get far
+  /// of what is missing, as fractions of the local target, must fall, or a severe case end or get far
   /// better.
-  bool pays(const TetMesh& mesh, const Replacement& cavity) const;
+  bool accepts(const TetMesh& mesh, const CavityReplacement& cavity) const;
 
 private:
   static constexpr double severe = 0.2;  ///< of the target: about 5 degrees

@@ -1,5 +1,5 @@
-/// Corners of the boundary that are relieved only at the cost of angles around them: tried on a copy of what
-/// is around, and kept where that can be made good again.
+/// Over-constrained tetrahedra that go only at the cost of angles around them: changes are tried on a copy of
+/// what is around, and kept where the angles can be made good again.
 #pragma once
 
 #include "improve/improve_options.hpp"
@@ -13,32 +13,32 @@
 namespace aeroloom::improve {
 
 /// For each tetrahedron with several faces on the boundary, by slot: what is within two edges is copied, the
-/// best few changes that relieve the corner (corner_relief.hpp) are done there one after the other, each on a
-/// copy of its own, the copy is improved like a piece whose boundary stays, and takes the place of the
+/// best few changes that remove it (over_constrained_removal.hpp) are done there one after the other, each on
+/// a copy of its own, the copy is improved like a piece whose boundary stays, and takes the place of the
 /// original as soon as no tetrahedron is below the target and below the worst of before, no more are below
 /// the target, and fewer have several faces on the boundary. Nothing is tried where some around it miss the
 /// target.
-class CornerTrials {
+class OverConstrainedTrials {
 public:
   /// At most so many changes for each.
-  CornerTrials(const sizing::SizeField* field, int most, Effort effort)
+  OverConstrainedTrials(const sizing::SizeField* field, int most, Effort effort)
       : _field(field), _most(most), _effort(effort) {}
 
   /// Returns how many copies took the place of the original.
   std::int64_t run(TetMesh& mesh);
 
 private:
-  /// The state of a corner, compared before and after a trial.
+  /// The state around one, compared before and after a trial.
   struct State {
     double worst = 1;
-    std::int64_t bad = 0, corners = 0;
+    std::int64_t bad = 0, over_constrained = 0;
     void add(const TetMesh& mesh, LocalIndex t);
   };
   static State examine(const TetMesh& mesh);
   static State examine(const TetMesh& mesh, const std::vector<LocalIndex>& tets);
   static bool is_better(const State& now, const State& before, double target);
 
-  bool relieve(TetMesh& mesh, LocalIndex t);
+  bool remove(TetMesh& mesh, LocalIndex t);
   void collect(TetMesh& mesh, LocalIndex t);
   mesh::Piece copy(const TetMesh& mesh) const;
   /// The copy's tetrahedra take the place of those they differ from; `origin`: of its vertices, the number

@@ -1,4 +1,4 @@
-#include "improve/limits/attainable_quality.hpp"
+#include "improve/limits/local_target.hpp"
 
 #include "mesh/data/cad_dimension.hpp"
 
@@ -10,14 +10,14 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 
-/// Of the target: less must be attainable where a strip counts as one. Triangles up to five times as long
-/// as wide are mended like others.
+/// Of the target: a lower one must hold where a strip counts as one. Triangles up to five times as long
+/// as wide are improved like others.
 constexpr double narrow = 0.9;
-/// Times the worst before: what a severe case must get to where it leaves more to mend than there was.
+/// Times the worst before: what a severe case must get to where it leaves more to improve than there was.
 /// Chosen, not measured.
 constexpr double far_better = 1.5;
 
-/// The square of what a tetrahedron lacks of the attainable quality, as a fraction of it.
+/// The square of what a tetrahedron lacks of its local target, as a fraction of it.
 double lack(double quality, double best) {
   const double lacking = std::max(0.0, 1 - quality / best);
   return lacking * lacking;
@@ -31,7 +31,7 @@ double width_to_length(Vec3 a, Vec3 b, Vec3 c) {
 
 }  // namespace
 
-AttainableQuality::AttainableQuality(const mesh::Piece& piece, const mesh::TetQuality& measure)
+LocalTarget::LocalTarget(const mesh::Piece& piece, const mesh::TetQuality& measure)
     : _target(measure.target()) {
   for (LocalIndex i = 0; i < piece.boundary_count(); ++i) {
     const LocalIndex* v = piece.boundary_triangle(i);
@@ -44,12 +44,12 @@ AttainableQuality::AttainableQuality(const mesh::Piece& piece, const mesh::TetQu
   }
 }
 
-double AttainableQuality::between(double least, int count) const {
+double LocalTarget::between(double least, int count) const {
   const double step = std::cbrt(least / _target);
   return count == 1 ? step * _target : count == 2 ? step * step * _target : least;
 }
 
-bool AttainableQuality::pays(const TetMesh& mesh, const Replacement& cavity) const {
+bool LocalTarget::accepts(const TetMesh& mesh, const CavityReplacement& cavity) const {
   if (_least.empty()) return true;
   double before = 0, after = 0;
   bool limited = false;

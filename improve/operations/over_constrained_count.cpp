@@ -1,4 +1,4 @@
-#include "improve/operations/corner_count.hpp"
+#include "improve/operations/over_constrained_count.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -11,7 +11,7 @@ int count_boundary_faces(const TetMesh& mesh, LocalIndex t) {
   return count;
 }
 
-int CornerCount::added_by(const TetMesh& mesh, const Replacement& cavity) {
+int OverConstrainedCount::added_by(const TetMesh& mesh, const CavityReplacement& cavity) {
   std::ptrdiff_t added = 0;
   _sides.clear();
   for (const LocalIndex t : cavity.old_tets) {

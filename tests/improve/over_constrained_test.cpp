@@ -1,6 +1,5 @@
-#include "improve/operations/corner_relief.hpp"
-
-#include "improve/corner_trials.hpp"
+#include "improve/operations/over_constrained_removal.hpp"
+#include "improve/over_constrained_trials.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>
@@ -35,24 +34,24 @@ mesh::Piece six_in_each_cube(int n, double shear = 0) {
   return examples::make_piece(points, cells);
 }
 
-int count_in_corners(const TetMesh& mesh) {
+int count_over_constrained(const TetMesh& mesh) {
   int count = 0;
   for (LocalIndex t = 0; t < mesh.slot_count(); ++t)
     count += mesh.is_alive(t) && count_boundary_faces(mesh, t) > 1 ? 1 : 0;
   return count;
 }
 
-TEST(CornerRelief, LeavesFewWithSeveralFacesOnTheBoundary) {
+TEST(OverConstrainedRemoval, LeavesFewWithSeveralFacesOnTheBoundary) {
   mesh::Piece piece = six_in_each_cube(4);
   examples::close_boundary(piece);
   const auto triangles = piece.boundary;
   const mesh::TetQuality measure(15);
   TetMesh mesh(piece, measure);
-  const int before = count_in_corners(mesh);
+  const int before = count_over_constrained(mesh);
   ASSERT_GT(before, 20);
   const ChangeLimits limits;
-  EXPECT_GT(CornerRelief(limits).run(mesh), 0);
-  EXPECT_LE(count_in_corners(mesh), before / 10);
+  EXPECT_GT(OverConstrainedRemoval(limits).run(mesh), 0);
+  EXPECT_LE(count_over_constrained(mesh), before / 10);
   for (LocalIndex t = 0; t < mesh.slot_count(); ++t) {
     if (mesh.is_alive(t)) {
       EXPECT_GE(mesh.quality(t), measure.target());
@@ -79,20 +78,20 @@ std::vector<double> boundary_points(const mesh::Piece& piece) {
   return points;
 }
 
-/// What is relieved at the cost of angles is kept where they come back to what they were.
-TEST(CornerTrials, RelievesWhatNoSingleChangeDoes) {
+/// What goes at the cost of angles is kept where they come back to what they were.
+TEST(OverConstrainedTrials, RemoveWhatNoSingleChangeDoes) {
   mesh::Piece piece = six_in_each_cube(4, 0.4);
   examples::close_boundary(piece);
   const std::vector<double> triangles = boundary_points(piece);
   TetMesh mesh(piece, mesh::TetQuality(32.6));
   ASSERT_GE(worst_of(mesh), mesh.measure().target());
   const ChangeLimits limits;
-  CornerRelief(limits).run(mesh);
-  const int before = count_in_corners(mesh);
+  OverConstrainedRemoval(limits).run(mesh);
+  const int before = count_over_constrained(mesh);
   ASSERT_GE(before, 10);
-  EXPECT_EQ(CornerTrials(nullptr, 0, Effort::sparing).run(mesh), 0);
-  EXPECT_GT(CornerTrials(nullptr, 20, Effort::sparing).run(mesh), 0);
-  EXPECT_LE(count_in_corners(mesh), before / 8);
+  EXPECT_EQ(OverConstrainedTrials(nullptr, 0, Effort::reduced).run(mesh), 0);
+  EXPECT_GT(OverConstrainedTrials(nullptr, 20, Effort::reduced).run(mesh), 0);
+  EXPECT_LE(count_over_constrained(mesh), before / 8);
   EXPECT_GE(worst_of(mesh), mesh.measure().target());
   mesh.finish();
   EXPECT_NEAR(examples::volume(piece), 64, 1e-9);
@@ -101,25 +100,25 @@ TEST(CornerTrials, RelievesWhatNoSingleChangeDoes) {
 
 /// Where two faces enclose less than twice the target, there is nothing to be tried, and no change is kept
 /// that leaves a tetrahedron worse than the worst before.
-TEST(CornerTrials, LeavesWhatIsForced) {
+TEST(OverConstrainedTrials, LeaveWhatIsForced) {
   mesh::Piece piece = six_in_each_cube(4, -1.0);
   examples::close_boundary(piece);
   TetMesh mesh(piece, mesh::TetQuality(28));
   const double worst = worst_of(mesh);
-  CornerTrials(nullptr, 20, Effort::sparing).run(mesh);
-  EXPECT_GT(count_in_corners(mesh), 0);
+  OverConstrainedTrials(nullptr, 20, Effort::reduced).run(mesh);
+  EXPECT_GT(count_over_constrained(mesh), 0);
   EXPECT_GE(worst_of(mesh), std::min(worst, mesh.measure().target()));
 }
 
 /// A single tetrahedron gives way to four around a vertex, unless its corners are too sharp for that.
-TEST(CornerRelief, LeavesWhatTheCornerForces) {
+TEST(OverConstrainedRemoval, LeavesWhatTheAnglesForce) {
   const ChangeLimits limits;
   for (const double target : {15.0, 40.0}) {
     mesh::Piece alone = examples::make_piece({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 1, 2, 3});
     examples::close_boundary(alone);
     const mesh::TetQuality measure(target);
     TetMesh mesh(alone, measure);
-    EXPECT_EQ(CornerRelief(limits).run(mesh), target < 20 ? 1 : 0) << target;
+    EXPECT_EQ(OverConstrainedRemoval(limits).run(mesh), target < 20 ? 1 : 0) << target;
     mesh.finish();
     EXPECT_EQ(alone.cell_count(), target < 20 ? 4 : 1) << target;
     EXPECT_NEAR(examples::volume(alone), 1.0 / 6, 1e-12);
