@@ -11,14 +11,14 @@ StageRecord::StageRecord() {
 
 void StageRecord::add_piece(const mesh::Piece& piece, double cells, double begin,
                             const ImproveReport& of_piece) {
-  parallel::note_task({"improved piece", piece.id, expected_work(cells, of_piece),
+  parallel::note_task({parallel::TaskKind::improved_piece, piece.id, expected_work(cells, of_piece),
                        parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
   mine.add(of_piece);
   parallel::add_pieces(1);
 }
 
 void StageRecord::note_cavity(const cavities::Cavity& cavity, double begin) {
-  parallel::note_task({"cavity", static_cast<std::int64_t>(cavity.id),
+  parallel::note_task({parallel::TaskKind::cavity, static_cast<std::int64_t>(cavity.id),
                        static_cast<double>(cavity.tets.size()), parallel::cpu_seconds() - begin,
                        static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
 }

@@ -1,55 +1,44 @@
 #include "io/file_formats.hpp"
 
 #include "io/cgns/cgns_writer.hpp"
+#include "io/gmsh/gmsh_reader.hpp"
 #include "io/gmsh/gmsh_writer.hpp"
+#include "io/medit/medit_reader.hpp"
 #include "io/medit/medit_writer.hpp"
 #include "io/openfoam/openfoam_writer.hpp"
-#include "io/staged_files.hpp"
+#include "io/su2/su2_reader.hpp"
 #include "io/su2/su2_writer.hpp"
+#include "io/ugrid/ugrid_reader.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
+#include "io/vtk/vtk_reader.hpp"
+#include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
-#include "parallel/communication/collective_error.hpp"
-#include "parallel/observation/log.hpp"
+#include "io/write_mesh.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
-#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace aeroloom::io {
 
 namespace {
 
 namespace fs = std::filesystem;
+using parallel::Communicator;
 
-/// More ends of paths than those of format_names.
-constexpr std::array<std::pair<std::string_view, FileFormat>, 3> other_extensions = {{
-    {".b8.ugrid", FileFormat::ugrid},
-    {".b8l.ugrid", FileFormat::ugrid64},
-    {".mesh", FileFormat::meshb},
-}};
-
-/// Whether a file of the format is cut into parts.
-bool has_parts(FileFormat format) {
-  return format == FileFormat::vtkhdf || format == FileFormat::msh_parts || format == FileFormat::openfoam;
+/// A writer that needs no options.
+template <void (*write)(const Communicator&, const FileMesh&, const std::string&)>
+void plain(const FileMesh& mesh, const std::string& path, const WriteOptions&) {
+  const Communicator& communicator = mesh.pieces->communicator;
+  write(communicator, mesh, path);
 }
 
-/// PATH without this end.
-std::string without(const std::string& path, std::string_view end) {
-  return path.ends_with(end) ? path.substr(0, path.size() - end.size()) : path;
-}
-
-/// NAME.msh for NAME_1.msh, which the first of its parts is called.
-std::string msh_name(const std::string& path) {
-  return without(written_path(FileFormat::msh_parts, path), "_1.msh") + ".msh";
-}
-
-void write_vtu(const FileMesh& mesh, const std::string& path, const WriteOptions& options) {
-  const fs::path file = without(written_path(FileFormat::vtu, path), ".pvtu");
+void write_pvtu(const FileMesh& mesh, const std::string& path, const WriteOptions& options) {
+  const fs::path file = without_end(path, ".pvtu");
   const std::string folder = file.parent_path().string(), name = file.filename().string();
   write_volume(mesh, folder, name, options.compression);
   if (!options.surface) return;
@@ -62,120 +51,190 @@ void write_vtu(const FileMesh& mesh, const std::string& path, const WriteOptions
   }
 }
 
-/// Says what of the mesh the format has no place for.
-void warn_of_losses(const FileMesh& mesh, FileFormat format, const std::string& file) {
-  const bool is_su2 = format == FileFormat::su2 || format == FileFormat::su2b;
-  const bool is_ugrid = format == FileFormat::ugrid || format == FileFormat::ugrid64;
-  if (!is_su2 && !is_ugrid && format != FileFormat::cgns) return;
-  std::vector<std::string> between;
-  for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
-    if (mesh.patches[p].type == mesh::PatchType::interior &&
-        mesh.patch_faces[p][0] + mesh.patch_faces[p][1] > 0)
-      between.push_back("'" + mesh.patches[p].name + "'");
-  }
-  const bool has_regions = format != FileFormat::cgns && mesh.regions.size() > 1;
-  if (between.empty() && !has_regions) return;
-  constexpr std::size_t shown = 5;
-  const std::size_t all = between.size();
-  between.resize(std::min(all, shown));
-  std::string lost = has_regions ? fmt::format("its {} regions", mesh.regions.size()) : "";
-  if (all > 0) {
-    lost += fmt::format("{}{} patch(es) between regions: {}{}", has_regions ? " and " : "", all,
-                        fmt::join(between, ", "), all > shown ? ", ..." : "");
-  }
-  parallel::log_warning(fmt::format(
-      "'{}' has no place for {}: left out; msh, meshb, openfoam and vtkhdf keep {}", file, lost, "them"));
+void write_vtkhdf_with_surface(const FileMesh& mesh, const std::string& path) {
+  write_vtkhdf(mesh, path);
+  write_vtkhdf_surface(mesh, without_end(path, ".vtkhdf") + "_surface.vtkhdf");
+}
+
+/// NAME.msh for NAME_1.msh, which the first of its parts is called.
+std::string msh_name(const std::string& path) {
+  return without_end(path, "_1.msh") + ".msh";
+}
+
+void write_msh_from_first(const FileMesh& mesh, const std::string& path) {
+  write_msh_parts(mesh, msh_name(path));
+}
+
+void remove_msh_after(const Communicator& communicator, const std::string& path, std::int32_t parts) {
+  remove_later_msh_parts(communicator, msh_name(path), parts);
+}
+
+void write_meshb(const FileMesh& mesh, const std::string& path) {
+  write_medit(mesh, path);
 }
 
 /// The case is the folder of the file, which viewers open and which holds nothing.
 void write_foam(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const Communicator& communicator = mesh.pieces->communicator;
   const fs::path folder = fs::path(path).parent_path();
   write_openfoam(mesh, folder.empty() ? "." : folder.string());
   parallel::write_shared_file(communicator, path, [](parallel::SharedFile&) {});
 }
 
-void write_parts_as_they_are(const FileMesh& mesh, FileFormat format, const std::string& path,
-                             const WriteOptions& options) {
-  switch (format) {
-    case FileFormat::vtu:
-      return write_vtu(mesh, path, options);
-    case FileFormat::vtkhdf:
-      write_vtkhdf(mesh, path);
-      return write_vtkhdf_surface(mesh, without(path, ".vtkhdf") + "_surface.vtkhdf");
-    case FileFormat::cgns:
-      return write_cgns(mesh, path);
-    case FileFormat::meshb:
-      return write_medit(mesh, path);
-    case FileFormat::ugrid:
-    case FileFormat::ugrid64:
-      return write_ugrid(mesh, path);
-    case FileFormat::su2:
-      return write_su2(mesh, path);
-    case FileFormat::su2b:
-      return write_su2b(mesh, path);
-    case FileFormat::msh:
-      return write_msh(mesh, path);
-    case FileFormat::msh_parts:
-      return write_msh_parts(mesh, msh_name(path));
-    case FileFormat::openfoam:
-      break;
-  }
+constexpr FormatContent whole_mesh{.regions = true, .interfaces = true};
+constexpr FormatContent whole_mesh_in_parts{.regions = true, .interfaces = true, .parts = true};
+constexpr FormatContent one_region{};
+
+constexpr FormatRow format_rows[] = {
+    {.format = FileFormat::vtu,
+     .name = "vtu",
+     .ends = {".pvtu"},
+     .readable_ends = {{{".vtu", "VTK XML (.vtu)"},
+                        {".pvtu", "VTK XML in parts (.pvtu)"},
+                        {".vtk", "VTK legacy (.vtk)"}}},
+     .read = read_vtk,
+     .write = write_pvtu,
+     .content = whole_mesh,
+     .replaced_end = ".vtu",
+     .announcement = "open in ParaView",
+     .named_parts = parts_named_in_pvtu},
+    {.format = FileFormat::vtkhdf,
+     .name = "vtkhdf",
+     .ends = {".vtkhdf"},
+     .readable_ends = {{{".vtkhdf", "VTKHDF"}}},
+     .read = read_vtkhdf,
+     .write = plain<write_vtkhdf_with_surface>,
+     .content = whole_mesh_in_parts},
+    {.format = FileFormat::cgns,
+     .name = "cgns",
+     .ends = {".cgns"},
+     .write = plain<write_cgns>,
+     .content = {.regions = true}},
+    // A single letter of byte order before `.ugrid` is the writer's affair.
+    {.format = FileFormat::ugrid,
+     .name = "ugrid",
+     .ends = {".lb8.ugrid", ".b8.ugrid"},
+     .readable_ends = {{{".ugrid", "UGRID"}}},
+     .read = read_ugrid,
+     .write = plain<write_ugrid>,
+     .content = one_region},
+    {.format = FileFormat::ugrid64,
+     .name = "ugrid64",
+     .ends = {".lb8l.ugrid", ".b8l.ugrid"},
+     .readable_ends = {{{".ugrid64", "UGRID, 64-bit"}}},
+     .read = read_ugrid,
+     .write = plain<write_ugrid>,
+     .content = one_region},
+    {.format = FileFormat::su2,
+     .name = "su2",
+     .ends = {".su2"},
+     .readable_ends = {{{".su2", "SU2, text"}}},
+     .read = read_su2,
+     .write = plain<write_su2>,
+     .content = one_region},
+    {.format = FileFormat::su2b,
+     .name = "su2b",
+     .ends = {".su2b"},
+     .readable_ends = {{{".su2b", "SU2, binary"}}},
+     .read = read_su2b,
+     .write = plain<write_su2b>,
+     .content = one_region},
+    {.format = FileFormat::msh,
+     .name = "msh",
+     .ends = {".msh"},
+     .readable_ends = {{{".msh", "Gmsh MSH"}}},
+     .read = read_msh,
+     .write = plain<write_msh>,
+     .content = whole_mesh},
+    {.format = FileFormat::msh_parts,
+     .name = "msh_parts",
+     .ends = {"_1.msh"},
+     .read = read_msh,
+     .write = plain<write_msh_from_first>,
+     .content = whole_mesh_in_parts,
+     .replaced_end = ".msh",
+     .remove_later_parts = remove_msh_after},
+    {.format = FileFormat::meshb,
+     .name = "meshb",
+     .ends = {".meshb", ".mesh"},
+     .readable_ends = {{{".mesh", "Medit (GMF), text"}, {".meshb", "Medit (GMF), binary"}}},
+     .read = read_medit,
+     .write = plain<write_meshb>,
+     .content = whole_mesh},
+    {.format = FileFormat::openfoam,
+     .name = "openfoam",
+     .ends = {".foam"},
+     .write = plain<write_foam>,
+     .content = whole_mesh_in_parts,
+     .folder = "openfoam",
+     .unit_warning = openfoam_unit_warning},
+};
+
+constexpr bool is_in_order() {
+  for (std::size_t i = 0; i < std::size(format_rows); ++i)
+    if (static_cast<std::size_t>(format_rows[i].format) != i) return false;
+  return true;
 }
+static_assert(is_in_order());
 
 }  // namespace
 
+std::string without_end(const std::string& path, std::string_view end) {
+  return path.ends_with(end) ? path.substr(0, path.size() - end.size()) : path;
+}
+
+std::span<const FormatRow> file_formats() {
+  return format_rows;
+}
+
+const FormatRow& row_of(FileFormat format) {
+  const auto number = static_cast<std::size_t>(format);
+  if (number >= std::size(format_rows)) throw std::logic_error("a format of files has no row");
+  return format_rows[number];
+}
+
+std::optional<FileFormat> format_called(std::string_view name) {
+  for (const FormatRow& row : format_rows)
+    if (row.name == name) return row.format;
+  return std::nullopt;
+}
+
 std::optional<FileFormat> format_of_path(const std::string& path) {
-  for (const FormatName& format : format_names) {
-    if (format.format != FileFormat::msh_parts && path.ends_with(format.extension)) return format.format;
-  }
-  for (const auto& [extension, format] : other_extensions) {
-    if (path.ends_with(extension)) return format;
+  for (const FormatRow& row : file_formats()) {
+    for (const std::string_view end : row.ends)
+      if (!end.empty() && path.ends_with(end)) return row.format;
   }
   return std::nullopt;
 }
 
 std::string_view name_of(FileFormat format) {
-  const auto found = std::find_if(format_names.begin(), format_names.end(),
-                                  [&](const FormatName& name) { return name.format == format; });
-  return found->name;
+  return row_of(format).name;
 }
 
 std::string known_extensions() {
-  std::string text;
-  for (const FormatName& format : format_names) {
-    if (format.format != FileFormat::msh_parts)
-      text += fmt::format("{}{}", text.empty() ? "" : ", ", format.extension);
+  std::string first, further;
+  for (const FormatRow& row : file_formats()) {
+    for (const std::string_view end : row.ends) {
+      // A part of several files is not asked for by the end of its name.
+      if (end.empty() || format_of_path(std::string(end)) != row.format) continue;
+      (end == row.ends.front() ? first : further) += fmt::format(", {}", end);
+    }
   }
-  for (const auto& [extension, format] : other_extensions) text += fmt::format(", {}", extension);
-  return text;
+  return (first + further).substr(2);
 }
 
 std::string written_path(FileFormat format, const std::string& path) {
-  if (format == FileFormat::vtu) return without(without(path, ".pvtu"), ".vtu") + ".pvtu";
-  if (format == FileFormat::msh_parts) return without(without(path, "_1.msh"), ".msh") + "_1.msh";
-  return path;
+  const FormatRow& row = row_of(format);
+  if (row.replaced_end.empty()) return path;
+  return without_end(without_end(path, row.ends.front()), row.replaced_end).append(row.ends.front());
 }
 
-void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
-                const WriteOptions& options) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const std::int32_t parts = options.parts > 0 ? options.parts : mesh.part_count;
-  const bool cut = has_parts(format) && (parts != mesh.part_count || (options.recut && parts > 1));
-  if (cut) {
-    WriteOptions as_they_are = options;
-    as_they_are.recut = false;
-    return write_mesh(repartition(mesh, parts), format, path, as_they_are);
+ReadableFile readable_file(const std::string& path) {
+  for (const FormatRow& row : format_rows) {
+    for (const ReadableEnd& end : row.readable_ends)
+      if (!end.text.empty() && path.ends_with(end.text)) return {&row, &end};
   }
-  // A case is a folder with files of its user.
-  if (format == FileFormat::openfoam) return write_foam(mesh, path);
-  const fs::path file = written_path(format, path);
-  if (communicator.is_root()) warn_of_losses(mesh, format, file.filename().string());
-  write_together(
-      communicator, file.parent_path().string(), file.filename().string(), [&](const std::string& staging) {
-        write_parts_as_they_are(mesh, format, (fs::path(staging) / file.filename()).string(), options);
-      });
-  if (format == FileFormat::msh_parts) remove_later_msh_parts(communicator, msh_name(path), mesh.part_count);
+  return {};
 }
 
 }  // namespace aeroloom::io

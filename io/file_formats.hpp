@@ -1,16 +1,20 @@
-/// The formats of mesh files, and writing by their names.
+/// The formats of mesh files: a row has all that the program asks of one.
 #pragma once
 
-#include "io/file_mesh.hpp"
-#include "io/vtk/vtk_writer.hpp"
+#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace aeroloom::io {
+
+struct FileMesh;
+struct RawMesh;
+struct WriteOptions;
 
 enum class FileFormat : std::uint8_t {
   vtu,        ///< .pvtu with .vtu parts, XML
@@ -26,30 +30,59 @@ enum class FileFormat : std::uint8_t {
   openfoam,   ///< OpenFOAM, a case with processor folders
 };
 
-/// A format, and the file that it makes of a mesh called `mesh`.
-struct FormatName {
-  FileFormat format;
-  std::string_view name;       ///< in the case
-  std::string_view extension;  ///< of the file or folder
+/// What the files of a format have a place for. Cells of all shapes and patches of the boundary have one in
+/// every format.
+struct FormatContent {
+  bool regions = false;     ///< more than one
+  bool interfaces = false;  ///< patches between regions
+  bool parts = false;       ///< as many parts as are asked for
 };
-inline constexpr std::array<FormatName, 11> format_names = {{
-    {FileFormat::vtu, "vtu", ".pvtu"},
-    {FileFormat::vtkhdf, "vtkhdf", ".vtkhdf"},
-    {FileFormat::cgns, "cgns", ".cgns"},
-    {FileFormat::ugrid, "ugrid", ".lb8.ugrid"},
-    {FileFormat::ugrid64, "ugrid64", ".lb8l.ugrid"},
-    {FileFormat::su2, "su2", ".su2"},
-    {FileFormat::su2b, "su2b", ".su2b"},
-    {FileFormat::msh, "msh", ".msh"},
-    {FileFormat::msh_parts, "msh_parts", "_1.msh"},
-    {FileFormat::meshb, "meshb", ".meshb"},
-    {FileFormat::openfoam, "openfoam", ".foam"},
-}};
+
+/// The end of the names of files that are read, and what such a file is.
+struct ReadableEnd {
+  std::string_view text;
+  std::string_view description;
+};
+
+struct FormatRow {
+  FileFormat format;
+  std::string_view name;  ///< in the case
+  /// Of paths to write; the first is that of the file of a run. What is empty is none.
+  std::array<std::string_view, 2> ends;
+  /// Of paths to read; none where files are read as those of another format. What is empty is none.
+  std::array<ReadableEnd, 3> readable_ends = {};
+  /// Null: the format is not read.
+  RawMesh (*read)(const parallel::Communicator& communicator, const std::string& path) = nullptr;
+  /// `path`: as written_path() has it.
+  void (*write)(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
+                const WriteOptions& options);
+  FormatContent content = {};
+  /// The file has the first of `ends` whatever is asked for, for viewers go by it: PATH and PATH with this
+  /// end both become PATH with that one. Empty: the file has the name that is asked for.
+  std::string_view replaced_end = {};
+  /// A folder with files of its user, of that name in the output directory of a run: written in its place,
+  /// after all other formats. Empty: a file that appears together with those beside it.
+  std::string_view folder = {};
+  std::string_view announcement = "mesh";  ///< before the path when a run ends
+  /// How many parts a file names; 0 where it names none. Null: files name none.
+  int (*named_parts)(const std::string& path) = nullptr;
+  /// Removes parts of an earlier mesh with more than `parts`. Null: there can be none.
+  void (*remove_later_parts)(const parallel::Communicator& communicator, const std::string& path,
+                             std::int32_t parts) = nullptr;
+  /// What to know of lengths in a unit that is not the metre. Null: files have any unit.
+  std::string (*unit_warning)(const std::string& unit, double in_metres) = nullptr;
+};
+
+/// All formats, in their order.
+std::span<const FormatRow> file_formats();
+const FormatRow& row_of(FileFormat format);
+std::string_view name_of(FileFormat format);
+/// Empty where no format is called so.
+std::optional<FileFormat> format_called(std::string_view name);
 
 /// The format that a path asks for by its end; empty where none does. A single letter of byte order before
 /// `.ugrid` is the writer's affair.
 std::optional<FileFormat> format_of_path(const std::string& path);
-std::string_view name_of(FileFormat format);
 /// All ends of paths that mean a format, for messages.
 std::string known_extensions();
 
@@ -57,24 +90,13 @@ std::string known_extensions();
 /// it, .pvtu instead of .vtu, _1.msh instead of .msh; otherwise `path` itself.
 std::string written_path(FileFormat format, const std::string& path);
 
-struct WriteOptions {
-  std::int32_t parts = 0;                       ///< of formats that come in parts; 0: those of the mesh
-  Compression compression = Compression::none;  ///< of .vtu and .vtp
-  /// Parts are cut anew even where the mesh has as many: those of assemble() are runs of the file's cells,
-  /// which may lie anywhere, and own vertices that they do not use.
-  bool recut = false;
-  /// Beside NAME.pvtu the boundary as NAME_surface.pvtp, and faces between regions, where there are some, as
-  /// NAME_interfaces.pvtp. NAME.vtkhdf has its surface always.
-  bool surface = false;
+/// The row and the readable end that a path has; null where it is not read.
+struct ReadableFile {
+  const FormatRow* row = nullptr;
+  const ReadableEnd* end = nullptr;
 };
-
-/// Writes a mesh to written_path(format, path); what lies beside it (`.mapbc`, folders of
-/// parts, surfaces for viewers) takes its name from there, and appears together with it or not at all
-/// (write_together; OpenFOAM: its mesh does). Formats in parts get as many as asked for, cut anew by
-/// repartition() where the mesh has others. Never gathers; the files depend on the parts, not on ranks.
-/// Collective; throws CollectiveError (files) where something cannot be written, (input) where the format
-/// cannot hold the mesh.
-void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
-                const WriteOptions& options);
+ReadableFile readable_file(const std::string& path);
+/// A path without an end, where it has it.
+std::string without_end(const std::string& path, std::string_view end);
 
 }  // namespace aeroloom::io

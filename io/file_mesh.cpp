@@ -254,6 +254,15 @@ GlobalIndex FileMesh::face_count(FaceShape shape) const {
   return count;
 }
 
+ShapeCounts FileMesh::counts(CountedFaces faces) const {
+  ShapeCounts counts{.vertices = vertex_count};
+  for (const FaceShape shape : face_shapes)
+    counts.faces[static_cast<std::size_t>(shape)] =
+        faces == CountedFaces::all ? face_count(shape) : boundary_count(shape);
+  for (const CellShape shape : cell_shapes) counts.cells[static_cast<std::size_t>(shape)] = cell_count(shape);
+  return counts;
+}
+
 FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering) {
   const parallel::Communicator& communicator = mesh.communicator;
   parallel::agree(communicator, [&] { require_fitting(mesh, numbering); });

@@ -87,6 +87,15 @@ struct FilePart {
   }
 };
 
+/// How much there is of a mesh, or of a file.
+struct ShapeCounts {
+  mesh::GlobalIndex vertices = 0;
+  std::array<mesh::GlobalIndex, face_shape_count> faces{};
+  std::array<mesh::GlobalIndex, cell_shape_count> cells{};
+};
+/// Of all patches, or of those that are not interior.
+enum class CountedFaces { all, boundary };
+
 /// The parts of one mesh that are on this rank: views of its pieces, no coordinates or cells are copied.
 struct FileMesh {
   const mesh::DistributedMesh* pieces = nullptr;  ///< what the parts look into, and must live on unchanged
@@ -107,6 +116,7 @@ struct FileMesh {
   /// Of patches that are not interior.
   mesh::GlobalIndex boundary_count(FaceShape shape) const;
   mesh::GlobalIndex face_count(FaceShape shape) const;
+  ShapeCounts counts(CountedFaces faces) const;
 };
 
 /// The layout of a mesh, a part each piece. A patch with faces between regions and others becomes two, the

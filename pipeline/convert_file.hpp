@@ -1,7 +1,7 @@
 /// A mesh from one file format to another.
 #pragma once
 
-#include "io/file_formats.hpp"
+#include "io/write_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
 
 #include <optional>
@@ -15,7 +15,7 @@ struct Conversion {
   io::WriteOptions options;
 };
 
-/// Reads a mesh (io/read_mesh.hpp) and writes it (io/file_formats.hpp), all ranks their share. Points and
+/// Reads a mesh (io/read_mesh.hpp) and writes it (io/write_mesh.hpp), all ranks their share. Points and
 /// cells keep the order of the file in formats of one part; the others are cut along a space-filling curve.
 /// Collective. Throws CollectiveError; std::invalid_argument for a name that means no format.
 void convert_file(const parallel::Communicator& communicator, const Conversion& conversion);

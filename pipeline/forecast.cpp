@@ -5,11 +5,13 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/observation/process_memory.hpp"
+#include "parallel/observation/task_kind.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,15 +29,16 @@ constexpr double base_bytes = 115e6, bytes_per_tetrahedron = 95;
 constexpr double surface_per_triangle = 23e-6;
 struct StageShare {
   const char* name;
-  const char* pieces;  // the kind of its tasks; null: it has none
+  std::optional<parallel::TaskKind> pieces;  // the kind of its tasks; empty: it has none
   double seconds_per_tetrahedron, repeated;
   double spread = 0;  // of what its tasks take
 };
-constexpr std::array<StageShare, 5> stage_shares{{{"decompose", nullptr, 1.0e-6, 0.05},
-                                                  {"volume", "zone", 2.1e-6, 0, 0.2},
-                                                  {"improve", "improved piece", 1.9e-6, 0, 0.6},
-                                                  {"inspect", nullptr, 0.7e-6, 0},
-                                                  {"output", nullptr, 0.4e-6, 0}}};
+constexpr std::array<StageShare, 5> stage_shares{
+    {{"decompose", std::nullopt, 1.0e-6, 0.05},
+     {"volume", parallel::TaskKind::zone, 2.1e-6, 0, 0.2},
+     {"improve", parallel::TaskKind::improved_piece, 1.9e-6, 0, 0.6},
+     {"inspect", std::nullopt, 0.7e-6, 0},
+     {"output", std::nullopt, 0.4e-6, 0}}};
 
 /// Of what layers add to the seconds of a run, the share of their own stage: 6.1 s for the 7 million prisms
 /// of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the rest.
@@ -71,7 +74,7 @@ constexpr double fraction_of_zones = 0.4;
 
 /// Tasks, as many as come of pieces of that size. They are scheduled as if they were equal and take from
 /// 1 - spread to 1 + spread times as long, in an order without pattern (multiples of the golden ratio).
-study::TaskGroup uneven_tasks(const char* kind, double seconds, double elements, double of_piece,
+study::TaskGroup uneven_tasks(parallel::TaskKind kind, double seconds, double elements, double of_piece,
                               double spread) {
   const double count = std::max(1.0, std::ceil(elements / of_piece));
   study::TaskGroup group{kind, 1, {}};
@@ -97,14 +100,15 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
   measured.ranks = 1;
   study::StageCosts surface{.name = "surface", .own_bytes = held};
   constexpr double spread_of_surface = 0.5;
-  surface.groups = {uneven_tasks("surface piece", surface_per_triangle * counts.triangles, counts.triangles,
-                                 static_cast<double>(input.surface.piece_triangles), spread_of_surface)};
+  surface.groups = {uneven_tasks(parallel::TaskKind::surface_piece, surface_per_triangle * counts.triangles,
+                                 counts.triangles, static_cast<double>(input.surface.piece_triangles),
+                                 spread_of_surface)};
   measured.stages.push_back(std::move(surface));
   const double layer_seconds = layers ? layers->seconds() : 0, layer_bytes = layers ? layers->bytes() : 0;
   if (layer_seconds > 0) {
     study::StageCosts stage{.name = "layers", .own_bytes = held + layer_bytes};
-    stage.groups = {uneven_tasks("wall piece", share_of_layer_stage * layer_seconds, counts.triangles,
-                                 double{layers::wall_piece_triangles}, spread_of_surface)};
+    stage.groups = {uneven_tasks(parallel::TaskKind::wall_piece, share_of_layer_stage * layer_seconds,
+                                 counts.triangles, double{layers::wall_piece_triangles}, spread_of_surface)};
     measured.stages.push_back(std::move(stage));
   }
   const auto of_piece = static_cast<double>(
@@ -114,11 +118,11 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
     study::StageCosts stage{.name = share.name, .repeated = share.repeated * seconds};
     stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra + layer_bytes;
     const double rest = seconds - stage.repeated;
-    if (share.pieces == nullptr)
+    if (!share.pieces)
       stage.divisible = rest;
     else
       stage.groups = {
-          uneven_tasks(share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
+          uneven_tasks(*share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
     measured.stages.push_back(std::move(stage));
   }
   measured.stages.back().divisible += (1 - share_of_layer_stage) * layer_seconds;

@@ -1,5 +1,6 @@
 #include "pipeline/info_file.hpp"
 
+#include "io/file_formats.hpp"
 #include "io/read_mesh.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/case/case.hpp"
@@ -7,10 +8,8 @@
 #include "pipeline/info_text.hpp"
 #include "pipeline/report/text_file.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -23,41 +22,6 @@ using Json = nlohmann::ordered_json;
 using parallel::Communicator;
 
 constexpr int info_schema_version = 1;
-
-bool ends_like(const std::string& file, const std::vector<std::string>& ends) {
-  return std::any_of(ends.begin(), ends.end(), [&](const std::string& end) { return file.ends_with(end); });
-}
-
-/// In words, by the end of the name.
-std::string format_in_words(const std::string& file) {
-  constexpr std::pair<std::string_view, std::string_view> formats[] = {{".pvtu", "VTK XML in parts (.pvtu)"},
-                                                                       {".vtu", "VTK XML (.vtu)"},
-                                                                       {".vtk", "VTK legacy (.vtk)"},
-                                                                       {".vtkhdf", "VTKHDF"},
-                                                                       {".ugrid", "UGRID"},
-                                                                       {".ugrid64", "UGRID, 64-bit"},
-                                                                       {".su2", "SU2, text"},
-                                                                       {".su2b", "SU2, binary"},
-                                                                       {".msh", "Gmsh MSH"},
-                                                                       {".mesh", "Medit (GMF), text"},
-                                                                       {".meshb", "Medit (GMF), binary"}};
-  for (const auto& [end, words] : formats) {
-    if (file.ends_with(end)) return std::string(words);
-  }
-  return file.substr(file.find_last_of('.'));
-}
-
-/// Of a .pvtu, which names its parts; 0 for others.
-int parts_named_in(const std::string& file) {
-  if (!file.ends_with(".pvtu")) return 0;
-  std::ifstream stream(file);
-  int parts = 0;
-  for (std::string line; std::getline(stream, line);) {
-    for (std::size_t at = line.find("<Piece"); at != std::string::npos; at = line.find("<Piece", at + 1))
-      ++parts;
-  }
-  return parts;
-}
 
 geometry::Box bounds_of(const io::FileMesh& mesh) {
   const Communicator& communicator = mesh.pieces->communicator;
@@ -91,8 +55,10 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
 
 void show_mesh(const Communicator& communicator, const InfoRequest& request) {
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
-  MeshFileFacts facts{format_in_words(request.file), 0, bounds_of(file.mesh)};
-  if (communicator.is_root()) facts.parts = parts_named_in(request.file);
+  const io::ReadableFile format = io::readable_file(request.file);
+  MeshFileFacts facts{std::string(format.end->description), 0, bounds_of(file.mesh)};
+  if (communicator.is_root() && format.row->named_parts != nullptr)
+    facts.parts = format.row->named_parts(request.file);
   parallel::agree(communicator,
                   [&] { show(communicator, request, info_json(file, facts), info_text(file, facts)); });
 }
@@ -134,8 +100,9 @@ void require_file(const Communicator& communicator, const std::string& file) {
 
 void show_info(const Communicator& communicator, const InfoRequest& request) {
   require_file(communicator, request.file);
-  if (ends_like(request.file, io::readable_extensions())) return show_mesh(communicator, request);
-  if (ends_like(request.file, {".yaml", ".yml"})) return show_case(communicator, request);
+  if (io::readable_file(request.file).row != nullptr) return show_mesh(communicator, request);
+  if (request.file.ends_with(".yaml") || request.file.ends_with(".yml"))
+    return show_case(communicator, request);
   const std::optional<io::FileFormat> written = io::format_of_path(request.file);
   if (written) {
     throw parallel::CollectiveError(

@@ -300,7 +300,7 @@ private:
     const std::int64_t of_file = io::cells_per_vtk_file(_record.counts.cells);
     const std::int64_t files = (_record.counts.cells + of_file - 1) / of_file;
     for (std::int64_t i = 0; _communicator.is_root() && i < files; ++i)
-      parallel::note_task({.kind = "file",
+      parallel::note_task({.kind = parallel::TaskKind::file,
                            .number = i,
                            .predicted = static_cast<double>(of_file),
                            .cpu_seconds = seconds / static_cast<double>(files)});

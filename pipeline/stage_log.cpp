@@ -1,5 +1,6 @@
 #include "pipeline/stage_log.hpp"
 
+#include "io/file_formats.hpp"
 #include "parallel/observation/log.hpp"
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/shown_changes.hpp"
@@ -52,14 +53,12 @@ void warn_of_sizes(const report::RunRecord& record) {
 }
 
 void warn_of_units(const report::RunRecord& record, const cases::OutputOptions& output) {
-  const auto& formats = output.formats;
-  if (std::find(formats.begin(), formats.end(), io::FileFormat::openfoam) == formats.end()) return;
   if (record.unit.empty() || record.unit_in_metres == 1) return;
-  parallel::log_warning(
-      fmt::format("output: lengths of the OpenFOAM case are in {}, its velocities and viscosity in metres "
-                  "and seconds. Remedy: "
-                  "transformPoints -scale '({:g} {:g} {:g})' in the case, with -parallel where it has parts",
-                  record.unit, record.unit_in_metres, record.unit_in_metres, record.unit_in_metres));
+  for (const io::FileFormat format : output.formats) {
+    const io::FormatRow& row = io::row_of(format);
+    if (row.unit_warning != nullptr)
+      parallel::log_warning("output: " + row.unit_warning(record.unit, record.unit_in_metres));
+  }
 }
 
 namespace {

@@ -1,7 +1,8 @@
 #include "pipeline/write_outputs.hpp"
 
-#include "io/gmsh/gmsh_writer.hpp"
+#include "io/file_formats.hpp"
 #include "io/staged_files.hpp"
+#include "io/write_mesh.hpp"
 #include "mesh/data/boundary_mesh.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/timers.hpp"
@@ -14,25 +15,20 @@
 
 namespace aeroloom::pipeline {
 
-bool wants(const cases::OutputOptions& output, io::FileFormat format) {
-  return std::find(output.formats.begin(), output.formats.end(), format) != output.formats.end();
-}
-
 bool wants_vtk(const cases::OutputOptions& output) {
-  return wants(output, io::FileFormat::vtu);
+  return std::find(output.formats.begin(), output.formats.end(), io::FileFormat::vtu) != output.formats.end();
 }
 
 std::string path_of(const cases::OutputOptions& output, io::FileFormat format) {
-  const auto name = std::find_if(io::format_names.begin(), io::format_names.end(),
-                                 [&](const io::FormatName& known) { return known.format == format; });
-  const std::string folder = format == io::FileFormat::openfoam ? "/openfoam" : "";
-  return fmt::format("{}{}/mesh{}", output.directory, folder, name->extension);
+  const io::FormatRow& row = io::row_of(format);
+  return fmt::format("{}{}{}/mesh{}", output.directory, row.folder.empty() ? "" : "/", row.folder,
+                     row.ends.front());
 }
 
 EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
   namespace fs = std::filesystem;
   std::vector<fs::path> places{output.directory + "/surface.pvtp", output.directory + "/interfaces.pvtp"};
-  for (const io::FormatName& known : io::format_names) places.emplace_back(path_of(output, known.format));
+  for (const io::FormatRow& row : io::file_formats()) places.emplace_back(path_of(output, row.format));
   for (const fs::path& place : places) {
     std::error_code ignored;  // what cannot be looked at is not there
     const fs::file_time_type written = fs::last_write_time(place, ignored);
@@ -103,17 +99,19 @@ void write_outputs(const mesh::DistributedMesh& volume, const mesh::Numbering& n
     cases::OutputOptions staged = output;
     staged.directory = staging;
     for (const io::FileFormat format : output.formats) {
-      if (format != io::FileFormat::openfoam) write_volume(mesh, format, output, path_of(staged, format));
+      if (io::row_of(format).folder.empty()) write_volume(mesh, format, output, path_of(staged, format));
     }
     if (surface != nullptr && wants_vtk(output)) write_surfaces(*surface, mesh, staging, output.compression);
-    // Last, for what may fail has not: its folder is its user's, too.
-    if (wants(output, io::FileFormat::openfoam)) {
-      write_volume(mesh, io::FileFormat::openfoam, output, path_of(output, io::FileFormat::openfoam));
+    // Last, for what may fail has not: these folders are their user's, too.
+    for (const io::FileFormat format : output.formats) {
+      if (!io::row_of(format).folder.empty()) write_volume(mesh, format, output, path_of(output, format));
     }
   });
-  if (wants(output, io::FileFormat::msh_parts)) {
-    const auto parts = static_cast<std::int32_t>(output.parts > 0 ? output.parts : mesh.part_count);
-    io::remove_later_msh_parts(communicator, output.directory + "/mesh.msh", parts);
+  const auto parts = static_cast<std::int32_t>(output.parts > 0 ? output.parts : mesh.part_count);
+  for (const io::FileFormat format : output.formats) {
+    const io::FormatRow& row = io::row_of(format);
+    if (row.remove_later_parts != nullptr)
+      row.remove_later_parts(communicator, path_of(output, format), parts);
   }
 }
 

@@ -41,7 +41,6 @@ private:
   std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> _files;
 };
 
-bool wants(const cases::OutputOptions& output, io::FileFormat format);
 bool wants_vtk(const cases::OutputOptions& output);
 /// Where the mesh is in this format.
 std::string path_of(const cases::OutputOptions& output, io::FileFormat format);

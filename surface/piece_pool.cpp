@@ -98,7 +98,7 @@ double PiecePool::seconds_per_triangle() const {
                                                   // chosen, not measured; no result depends on it
   double load = 0, seconds = 0;
   for (const parallel::TaskRecord& task : parallel::noted_tasks()) {
-    if (task.kind == "curve") load += task.predicted, seconds += task.cpu_seconds;
+    if (task.kind == parallel::TaskKind::curve) load += task.predicted, seconds += task.cpu_seconds;
   }
   load = _communicator.sum(load);
   seconds = _communicator.sum(seconds);
@@ -126,7 +126,7 @@ Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const 
       subfaces.emplace(key, subface_of_face(_model, faces[task], curves, field, _options));
       const double seconds = parallel::cpu_seconds() - begin;
       _costs[key] = seconds / of_triangle;
-      parallel::note_task({.kind = "face",
+      parallel::note_task({.kind = parallel::TaskKind::face,
                            .number = faces[task],
                            .predicted = loads[task],
                            .cpu_seconds = seconds,
@@ -185,7 +185,7 @@ void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curve
                     subface.load,
                     dealt.places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
-      parallel::note_task({"surface piece", key[0],
+      parallel::note_task({parallel::TaskKind::surface_piece, key[0],
                            load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
                            parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));

@@ -104,7 +104,7 @@ private:
       try {
         mesh::Piece piece = mesh_piece(_model, subface, _field, _options);
         parallel::note_task(
-            {"surface piece", face,
+            {parallel::TaskKind::surface_piece, face,
              load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
              parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
         _pieces.insert_or_assign({face, dealt.places.at(key)}, std::move(piece));

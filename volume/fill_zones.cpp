@@ -105,7 +105,7 @@ private:
       const ZoneResult& made = _results[content.zone] = make_pieces(content, filling);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
-      parallel::note_task({"zone", content.zone, _work.at(content.zone),
+      parallel::note_task({parallel::TaskKind::zone, content.zone, _work.at(content.zone),
                            parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
                            filling.child_peak_bytes});
       return static_cast<std::int64_t>(filling.owned.cells.size());

@@ -32,10 +32,7 @@ std::string_view name_of(MeditKeyword keyword);
 /// `binary` (.meshb) is version 3, with 32-bit numbers, or 4, with 64-bit numbers, where they do not suffice.
 enum class MeditEncoding : std::uint8_t { binary, text };
 
-struct MeditCounts {
-  mesh::GlobalIndex vertices = 0;
-  std::array<mesh::GlobalIndex, face_shape_count> faces{};
-  std::array<mesh::GlobalIndex, cell_shape_count> cells{};
+struct MeditCounts : ShapeCounts {
   mesh::GlobalIndex largest_reference = 1;
 };
 

@@ -65,15 +65,9 @@ private:
   fmt::memory_buffer _text;  ///< of a number
 };
 
-MeditCounts counts_of(const FileMesh& mesh) {
-  MeditCounts counts;
-  counts.vertices = mesh.vertex_count;
-  for (const FaceShape shape : face_shapes)
-    counts.faces[static_cast<std::size_t>(shape)] = mesh.face_count(shape);
-  for (const CellShape shape : cell_shapes)
-    counts.cells[static_cast<std::size_t>(shape)] = mesh.cell_count(shape);
-  counts.largest_reference = static_cast<GlobalIndex>(std::max(mesh.regions.size(), mesh.patches.size()));
-  return counts;
+MeditCounts medit_counts_of(const FileMesh& mesh) {
+  const std::size_t references = std::max(mesh.regions.size(), mesh.patches.size());
+  return {mesh.counts(CountedFaces::all), static_cast<GlobalIndex>(references)};
 }
 
 void write_vertices(const FilePart& part, const MeditSection& section, LineBuffer& buffer) {
@@ -152,8 +146,9 @@ void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptio
     throw parallel::CollectiveError(parallel::FailureKind::input,
                                     fmt::format("'{}': Medit files end in .meshb or .mesh", path));
   }
-  const MeditLayout layout = medit_layout(
-      counts_of(mesh), extension == ".mesh" ? MeditEncoding::text : MeditEncoding::binary, options.wide);
+  const MeditLayout layout =
+      medit_layout(medit_counts_of(mesh), extension == ".mesh" ? MeditEncoding::text : MeditEncoding::binary,
+                   options.wide);
   // Old mesh and new names must not stand beside each other.
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) std::filesystem::remove(path);

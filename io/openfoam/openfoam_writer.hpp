@@ -30,6 +30,9 @@ struct OpenFoamOptions {
 /// Nothing stays half written. A rank holds the face order of one part at a time. Collective.
 void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options = {});
 
+/// What a user has to do where lengths of the mesh are in another unit, which is so many metres.
+std::string openfoam_unit_warning(const std::string& unit, double in_metres);
+
 /// 32, or 64 where a number of the mesh, or of the corners of faces of one part, needs it.
 int foam_label_bits(mesh::GlobalIndex cells, mesh::GlobalIndex faces, mesh::GlobalIndex points,
                     mesh::GlobalIndex corners_of_part);

@@ -19,8 +19,7 @@ using mesh::LocalIndex;
 Su2bCounts counts_of(const FileMesh& mesh, const BoundaryPatches& patches) {
   Su2bCounts counts;
   counts.points = mesh.vertex_count;
-  for (const CellShape shape : cell_shapes)
-    counts.cells[static_cast<std::size_t>(shape)] = mesh.cell_count(shape);
+  counts.cells = mesh.counts(CountedFaces::boundary).cells;
   for (const std::int32_t id : patches.ids) counts.markers.push_back(mesh.patch_faces[id]);
   return counts;
 }

@@ -41,11 +41,16 @@ std::string mapbc_path_of(const std::string& path) {
   return ugrid_kind_of(path).stem + ".mapbc";
 }
 
-UgridLayout ugrid_layout(const UgridCounts& counts, int integer_bytes) {
+std::array<mesh::GlobalIndex, 7> in_ugrid_order(const ShapeCounts& counts) {
+  const auto& [points, faces, cells] = counts;
+  return {points, faces[0], faces[1], cells[0], cells[1], cells[2], 0};
+}
+
+UgridLayout ugrid_layout(const ShapeCounts& counts, int integer_bytes) {
   UgridLayout layout;
   std::int64_t at = 7 * static_cast<std::int64_t>(integer_bytes);
   layout.points = at;
-  at += 24 * counts.points;
+  at += 24 * counts.vertices;
   for (const FaceShape shape : face_shapes) {
     const auto s = static_cast<std::size_t>(shape);
     layout.faces[s] = at;
@@ -64,9 +69,9 @@ UgridLayout ugrid_layout(const UgridCounts& counts, int integer_bytes) {
   return layout;
 }
 
-void require_ugrid_fits(const UgridCounts& counts, const UgridKind& kind, const std::string& path) {
+void require_ugrid_fits(const ShapeCounts& counts, const UgridKind& kind, const std::string& path) {
   if (kind.integer_bytes > 4) return;
-  const auto values = counts.in_order();
+  const auto values = in_ugrid_order(counts);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] <= std::numeric_limits<std::int32_t>::max()) continue;
     throw std::runtime_error(fmt::format(

@@ -28,17 +28,10 @@ UgridKind ugrid_kind_of(const std::string& path);
 /// NAME.mapbc beside NAME.lb8.ugrid.
 std::string mapbc_path_of(const std::string& path);
 
-/// The counts at the beginning of a file, in its order.
-struct UgridCounts {
-  mesh::GlobalIndex points = 0;
-  std::array<mesh::GlobalIndex, face_shape_count> faces{};
-  std::array<mesh::GlobalIndex, cell_shape_count> cells{};
-  mesh::GlobalIndex hexahedra = 0;
+/// The counts at the beginning of a file: points, triangles, quadrilaterals, tetrahedra, pyramids, prisms,
+/// hexahedra, of which there are none.
+std::array<mesh::GlobalIndex, 7> in_ugrid_order(const ShapeCounts& counts);
 
-  std::array<mesh::GlobalIndex, 7> in_order() const {
-    return {points, faces[0], faces[1], cells[0], cells[1], cells[2], hexahedra};
-  }
-};
 /// Offsets of sections in bytes.
 struct UgridLayout {
   std::int64_t points = 0;
@@ -47,10 +40,10 @@ struct UgridLayout {
   std::int64_t end = 0;  ///< of the prisms
 };
 /// For counts whose sections fit 2^63 bytes.
-UgridLayout ugrid_layout(const UgridCounts& counts, int integer_bytes);
+UgridLayout ugrid_layout(const ShapeCounts& counts, int integer_bytes);
 /// Throws std::runtime_error where counts do not fit the integers of the file's kind, naming the suffix that
 /// does.
-void require_ugrid_fits(const UgridCounts& counts, const UgridKind& kind, const std::string& path);
+void require_ugrid_fits(const ShapeCounts& counts, const UgridKind& kind, const std::string& path);
 
 /// Corner k of a cell in UGRID's order is corner to_ugrid[shape][k] here. UG_IO has a pyramid's apex third:
 /// its base is 1, 4, 5, 2 counter-clockwise seen from the apex 3 (refine's faces of cells, ref_cell.c,

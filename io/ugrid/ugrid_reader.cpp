@@ -79,12 +79,12 @@ private:
     if (counts[6] > 0)
       _file.fail(6 * width,
                  fmt::format("{} hexahedra; only tetrahedra, pyramids and prisms are supported", counts[6]));
-    _counts = {counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}, 0};
+    _counts = {counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}};
     _layout = ugrid_layout(_counts, static_cast<int>(width));
   }
 
   void read_points(RawMesh& raw) {
-    const Share share = share_of(_counts.points);
+    const Share share = share_of(_counts.vertices);
     raw.coordinates.resize(3 * static_cast<std::size_t>(share.count()));
     const std::int64_t offset = _layout.points + 24 * share.begin;
     _file.read(offset, std::span<double>(raw.coordinates));
@@ -117,9 +117,9 @@ private:
     connectivity.resize(static_cast<std::size_t>(share.count() * corners));
     const std::int64_t offset = section + share.begin * corners * width;
     for_each_integer(offset, share.count() * corners, [&](std::int64_t point, std::int64_t i) {
-      if (point < 1 || point > _counts.points)
+      if (point < 1 || point > _counts.vertices)
         _file.fail(offset + i * width, fmt::format("{} {} has point {}, of {}", name,
-                                                   share.begin + i / corners + 1, point, _counts.points));
+                                                   share.begin + i / corners + 1, point, _counts.vertices));
       const std::int64_t k = i % corners;
       connectivity[static_cast<std::size_t>(order == nullptr ? i : i - k + order[k])] = point - 1;
     });
@@ -133,7 +133,7 @@ private:
 
   RangeReader& _file;
   int _rank, _size;
-  UgridCounts _counts;
+  ShapeCounts _counts;
   UgridLayout _layout;
 };
 

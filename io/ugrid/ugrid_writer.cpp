@@ -20,29 +20,19 @@ namespace {
 using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
-UgridCounts ugrid_counts_of(const FileMesh& mesh) {
-  UgridCounts counts;
-  counts.points = mesh.vertex_count;
-  for (const FaceShape shape : face_shapes)
-    counts.faces[static_cast<std::size_t>(shape)] = mesh.boundary_count(shape);
-  for (const CellShape shape : cell_shapes)
-    counts.cells[static_cast<std::size_t>(shape)] = mesh.cell_count(shape);
-  return counts;
-}
-
 /// Writes a mesh with integers of one width.
 template <class Integer>
 class UgridParts {
 public:
   UgridParts(const FileMesh& mesh, const BoundaryPatches& patches, RangeWriter& writer)
       : _patches(patches),
-        _counts(ugrid_counts_of(mesh)),
+        _counts(mesh.counts(CountedFaces::boundary)),
         _layout(ugrid_layout(_counts, sizeof(Integer))),
         _writer(writer) {}
 
   void write_counts() {
     _writer.move_to(0);
-    for (const GlobalIndex count : _counts.in_order()) _writer.put(static_cast<Integer>(count));
+    for (const GlobalIndex count : in_ugrid_order(_counts)) _writer.put(static_cast<Integer>(count));
   }
 
   void write_part(const FilePart& part) {
@@ -95,7 +85,7 @@ private:
   }
 
   const BoundaryPatches& _patches;
-  UgridCounts _counts;
+  ShapeCounts _counts;
   UgridLayout _layout;
   RangeWriter& _writer;
 };
@@ -166,7 +156,7 @@ void write_ugrid(const FileMesh& mesh, const std::string& path) {
   UgridKind kind;
   parallel::agree(communicator, [&] {
     kind = ugrid_kind_of(path);
-    require_ugrid_fits(ugrid_counts_of(mesh), kind, path);
+    require_ugrid_fits(mesh.counts(CountedFaces::boundary), kind, path);
     // Conditions of an earlier mesh must not stand beside this one if it remains alone.
     if (communicator.is_root()) std::filesystem::remove(mapbc_path_of(path));
   });

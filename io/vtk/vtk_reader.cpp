@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -211,6 +212,17 @@ RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& 
   if (share.raw.regions.empty()) share.raw.regions = {"volume"};
   share.raw.patches = merge_labels(communicator, share.patches, share.raw.face_patches);
   return std::move(share.raw);
+}
+
+int parts_named_in_pvtu(const std::string& path) {
+  if (!path.ends_with(".pvtu")) return 0;
+  std::ifstream stream(path);
+  int parts = 0;
+  for (std::string line; std::getline(stream, line);) {
+    for (std::size_t at = line.find("<Piece"); at != std::string::npos; at = line.find("<Piece", at + 1))
+      ++parts;
+  }
+  return parts;
 }
 
 }  // namespace aeroloom::io

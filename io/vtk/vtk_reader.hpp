@@ -25,4 +25,7 @@ namespace aeroloom::io {
 /// or of higher order. Collective; the same for any number of ranks.
 RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& path);
 
+/// The parts that a .pvtu names; 0 of other files. By one rank.
+int parts_named_in_pvtu(const std::string& path);
+
 }  // namespace aeroloom::io

@@ -160,4 +160,15 @@ std::vector<int> tasks_of_rank(std::span<const Rank> assignment, std::span<const
   return tasks;
 }
 
+std::vector<int> batches_of_tasks(std::span<const Rank> assignment, std::span<const double> loads,
+                                  int at_a_time) {
+  std::vector<int> batches(loads.size());
+  std::map<Rank, int> given;
+  for (const int task : largest_first(loads)) {
+    const auto t = static_cast<std::size_t>(task);
+    batches[t] = given[assignment[t]]++ / at_a_time;
+  }
+  return batches;
+}
+
 }  // namespace aeroloom::parallel

@@ -42,4 +42,8 @@ std::vector<Rank> rebalance(std::span<const double> loads, std::span<const Rank>
 /// The tasks of `rank` in the order it should run them: largest first.
 std::vector<int> tasks_of_rank(std::span<const Rank> assignment, std::span<const double> loads, Rank rank);
 
+/// The batch of each task where every rank runs its tasks as tasks_of_rank() has them, so many at a time.
+std::vector<int> batches_of_tasks(std::span<const Rank> assignment, std::span<const double> loads,
+                                  int at_a_time);
+
 }  // namespace aeroloom::parallel

@@ -3,6 +3,7 @@
 
 #include "parallel/communication/communicator.hpp"
 #include "parallel/communication/message_counts.hpp"
+#include "parallel/observation/task_kind.hpp"
 
 #include <cstdint>
 #include <span>
@@ -27,11 +28,11 @@ std::int64_t resident_bytes();
 
 /// One task as it was scheduled and what it cost: what a replay of the run on other numbers of ranks needs.
 struct TaskRecord {
-  std::string kind;         ///< what it makes: as the table in pipeline/study/task_schedule.cpp names them
-  std::int64_t number = 0;  ///< of that face, the piece's face, zone, piece or cavity
-  double predicted = 0;     ///< the load it was scheduled by, in the unit of its kind
-  double cpu_seconds = 0;   ///< children included
-  std::int64_t bytes = 0;   ///< of what it made, at rest
+  TaskKind kind = {};            ///< what it makes
+  std::int64_t number = 0;       ///< of that face, the piece's face, zone, piece or cavity
+  double predicted = 0;          ///< the load it was scheduled by, in the unit of its kind
+  double cpu_seconds = 0;        ///< children included
+  std::int64_t bytes = 0;        ///< of what it made, at rest
   std::int64_t child_bytes = 0;  ///< peak of the child it ran in; 0 where it ran in the rank
   double burden = 0;  ///< what it counts for when further tasks of its round are scheduled, in their unit
   std::string stage = {};  ///< filled in by the clock

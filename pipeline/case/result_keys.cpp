@@ -1,3 +1,4 @@
+#include "io/file_formats.hpp"
 #include "mesh/quality/cell_measures.hpp"
 #include "pipeline/case/case_keys.hpp"
 
@@ -63,8 +64,7 @@ void declare_files(KeyTable& keys, OutputOptions& output) {
             common("Folder of all output, relative to the working directory. `${NAME}` in the path is an "
                    "environment variable."));
   std::vector<std::pair<std::string, io::FileFormat>> formats;
-  formats.reserve(io::format_names.size());
-  for (const io::FormatName& format : io::format_names) formats.emplace_back(format.name, format.format);
+  for (const io::FormatRow& row : io::file_formats()) formats.emplace_back(row.name, row.format);
   keys.choices("formats", output.formats, formats,
                common("Formats in which the mesh is written ([Formats](formats.md))."));
   keys.integer("parts", output.parts, Range::between(0, 1e6),

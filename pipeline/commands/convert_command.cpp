@@ -1,3 +1,4 @@
+#include "io/file_formats.hpp"
 #include "pipeline/case/nearest_name.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
@@ -10,26 +11,26 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace aeroloom::pipeline {
 namespace {
 
+std::vector<std::string> format_names() {
+  std::vector<std::string> names;
+  for (const io::FormatRow& row : io::file_formats()) names.emplace_back(row.name);
+  return names;
+}
+
 /// "{cgns,meshb,...}": what completion and help show.
 std::string format_choices() {
-  std::string names;
-  for (const io::FormatName& format : io::format_names)
-    names += (names.empty() ? "" : ",") + std::string(format.name);
-  return "{" + names + "}";
+  return fmt::format("{{{}}}", fmt::join(format_names(), ","));
 }
 
 /// Throws CLI::ValidationError.
 io::FileFormat format_called(const std::string& name) {
-  std::vector<std::string> known;
-  for (const io::FormatName& format : io::format_names) {
-    if (format.name == name) return format.format;
-    known.emplace_back(format.name);
-  }
-  const std::optional<std::string> nearest = cases::nearest_name(name, known);
+  if (const std::optional<io::FileFormat> format = io::format_called(name)) return *format;
+  const std::optional<std::string> nearest = cases::nearest_name(name, format_names());
   throw CLI::ValidationError("--format", fmt::format("no format is called '{}'; {}", name,
                                                      nearest ? "did you mean '" + *nearest + "'?"
                                                              : "known are " + format_choices()));

@@ -1,5 +1,6 @@
 #include "pipeline/commands/staged_run.hpp"
 
+#include "io/file_formats.hpp"
 #include "parallel/communication/termination.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
@@ -106,7 +107,7 @@ int run_stages(const Communicator& communicator, const cases::Case& input,
   }
   for (const io::FileFormat format : input.output.formats) {
     const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
-    tell(fmt::format("{}: {}", format == io::FileFormat::vtu ? "open in ParaView" : "mesh", path));
+    tell(fmt::format("{}: {}", io::row_of(format).announcement, path));
   }
   const std::filesystem::path page = std::filesystem::absolute(input.output.directory) / "report.html";
   std::error_code ignored;  // what cannot be looked at is not there

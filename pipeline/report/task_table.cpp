@@ -1,5 +1,7 @@
 #include "pipeline/report/task_table.hpp"
 
+#include "parallel/observation/task_kind.hpp"
+
 #include <fmt/format.h>
 
 namespace aeroloom::report {
@@ -8,8 +10,8 @@ std::string task_table(const parallel::Communicator& communicator, const paralle
   std::string mine;
   for (const parallel::TaskRecord& task : clock.tasks()) {
     mine += fmt::format("{},{},{},{},{:.6g},{:.6f},{},{},{},{:.6g}\n", communicator.rank(), task.stage,
-                        task.kind, task.number, task.predicted, task.cpu_seconds, task.bytes,
-                        task.child_bytes, task.round, task.burden);
+                        parallel::name_of(task.kind), task.number, task.predicted, task.cpu_seconds,
+                        task.bytes, task.child_bytes, task.round, task.burden);
   }
   std::string table;
   for (const std::string& rows : communicator.gather_values(mine)) {

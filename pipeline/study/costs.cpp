@@ -1,6 +1,5 @@
 #include "pipeline/study/costs.hpp"
 
-#include "pipeline/study/task_schedule.hpp"
 #include "pipeline/study/text_files.hpp"
 
 #include <algorithm>
@@ -79,13 +78,19 @@ std::vector<TaskLine> rows_of(std::string_view text) {
   return rows;
 }
 
+/// The place of a kind among those of its round; unknown ones come last.
+std::size_t order_of(std::optional<parallel::TaskKind> kind) {
+  return kind ? static_cast<std::size_t>(*kind) : parallel::task_kinds.size();
+}
+
 /// One after another as they wait for each other.
 std::vector<TaskGroup> group_tasks(const std::vector<TaskLine>& rows, const std::string& stage) {
-  std::map<std::tuple<int, int, std::string>, TaskGroup> groups;
+  std::map<std::tuple<int, std::size_t, std::string>, TaskGroup> groups;
   for (const TaskLine& row : rows) {
     if (row.stage != stage) continue;
-    TaskGroup& group = groups[{row.round, order_of_kind(row.kind), row.kind}];
-    group.kind = row.kind;
+    const std::optional<parallel::TaskKind> kind = parallel::task_kind_called(row.kind);
+    TaskGroup& group = groups[{row.round, order_of(kind), row.kind}];
+    group.kind = kind;
     group.round = row.round;
     group.tasks.push_back(row.task);
   }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "parallel/communication/message_counts.hpp"
+#include "parallel/observation/task_kind.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,7 +27,7 @@ struct TaskCost {
 
 /// Tasks of one kind between two exchanges of all ranks.
 struct TaskGroup {
-  std::string kind;
+  std::optional<parallel::TaskKind> kind;  ///< empty: one that this program does not know
   int round = 0;
   std::vector<TaskCost> tasks = {};  ///< by number
 };

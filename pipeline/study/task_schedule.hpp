@@ -10,9 +10,6 @@
 
 namespace aeroloom::study {
 
-/// The place of a kind among those of its round; unknown ones come last.
-int order_of_kind(std::string_view kind);
-
 /// Tasks of a group on ranks. Batches of all ranks wait for each other.
 struct TaskSchedule {
   std::vector<parallel::Rank> owners;  ///< by task

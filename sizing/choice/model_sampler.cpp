@@ -98,7 +98,8 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
       const bool mine = _owners[f] == communicator.rank();
       const double begin = parallel::cpu_seconds();
       if (mine) add_face(f);
-      if (mine) parallel::note_task({"sampled face", f, loads[f], parallel::cpu_seconds() - begin});
+      if (mine)
+        parallel::note_task({parallel::TaskKind::sampled_face, f, loads[f], parallel::cpu_seconds() - begin});
       progress.advance(1, mine ? 1 : 0);
     }
     list_corners();

@@ -223,7 +223,8 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
       stretches.push_back(between_legs(model, edges[task], legs[edges[task]]));
       lengths.push_back(metric_length(model, field, edges[task], stretches.back()));
       measures.push_back(measure_edge(model, edges[task], lengths.back(), stretches.back().legs));
-      parallel::note_task({"curve", edges[task], loads[task], parallel::cpu_seconds() - begin});
+      parallel::note_task(
+          {parallel::TaskKind::curve, edges[task], loads[task], parallel::cpu_seconds() - begin});
     }
   });
   measures = communicator.all_gather_items(std::span<const EdgeMeasure>(measures));

@@ -100,11 +100,12 @@ void SubfaceDealer::divide(Subfaces::value_type& entry, int level, CoarseSizes& 
     part[level] = static_cast<std::int32_t>(i);
     divided.emplace(part, std::move(pieces.subfaces[i]));
   }
-  parallel::note_task({.kind = level == 1 ? "divided face" : "divided part",
-                       .number = key[0],
-                       .predicted = load,
-                       .cpu_seconds = parallel::cpu_seconds() - begin,
-                       .burden = load});
+  parallel::note_task(
+      {.kind = level == 1 ? parallel::TaskKind::divided_face : parallel::TaskKind::divided_part,
+       .number = key[0],
+       .predicted = load,
+       .cpu_seconds = parallel::cpu_seconds() - begin,
+       .burden = load});
   std::vector<CutAngle>& angles = _angles[key];  // its first part has the key of the face
   angles.insert(angles.end(), pieces.angles.begin(), pieces.angles.end());
 }

@@ -6,6 +6,7 @@
 #include "tests/mesh/meshes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,11 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
   EXPECT_EQ(mesh.region_cells[1][0], 96);
   EXPECT_EQ(mesh.vertex_count, 25 * 3 + 10 + 4);
   EXPECT_EQ(mesh.patch_faces[examples::MixedMesh::interface][0], 32);
+  const ShapeCounts all = mesh.counts(CountedFaces::all), outer = mesh.counts(CountedFaces::boundary);
+  EXPECT_EQ(all.vertices, mesh.vertex_count);
+  EXPECT_EQ(all.cells, (std::array<GlobalIndex, 3>{96 + 8, 20, 32}));  // tetrahedra, pyramids, prisms
+  EXPECT_EQ(outer.cells, all.cells);
+  EXPECT_EQ(outer.faces, (std::array<GlobalIndex, 2>{all.faces[0] - 32, all.faces[1]}));
   GlobalIndex owned = 0;
   double volume = 0;
   for (const FilePart& part : mesh.parts) {

@@ -81,7 +81,7 @@ TEST_F(Ugrid, FacesAreSortedByPatchAndPointIntoTheFluid) {
   std::array<std::int32_t, 7> counts{};
   std::memcpy(counts.data(), bytes.data(), sizeof counts);
   const UgridLayout layout =
-      ugrid_layout({counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}, 0}, 4);
+      ugrid_layout({counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}}, 4);
   EXPECT_EQ(static_cast<std::int64_t>(bytes.size()), layout.end);
   double volume = 0;
   const auto point = [&](std::int32_t number) {
@@ -161,8 +161,8 @@ TEST_F(Ugrid, NumbersOfUsm3dAreConditionsToo) {
 }
 
 TEST_F(Ugrid, MeshesTooLargeFor32BitsNameTheSuffixThatIsNot) {
-  UgridCounts counts;
-  counts.points = 500'000'000;
+  ShapeCounts counts;
+  counts.vertices = 500'000'000;
   counts.cells = {3'000'000'000, 7, 11};
   counts.faces = {2'000'000'000, 5};
   const UgridLayout layout = ugrid_layout(counts, 8);

@@ -112,6 +112,19 @@ TEST(ScheduleTest, MovesTasksOnlyWhereThatPays) {
   EXPECT_TRUE(rebalance({}, {}, 3).empty());
 }
 
+TEST(ScheduleTest, BatchesFollowTheOrderOfEachRank) {
+  const std::vector<double> loads{1, 5, 3, 3, 4, 2, 7};
+  const std::vector<Rank> assignment{0, 0, 0, 0, 0, 1, 1};
+  const std::vector<int> batches = batches_of_tasks(assignment, loads, 2);
+  EXPECT_EQ(batches, (std::vector<int>{2, 0, 1, 1, 0, 0, 0}));
+  for (const Rank r : {0, 1}) {
+    const std::vector<int> tasks = tasks_of_rank(assignment, loads, r);
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      EXPECT_EQ(batches[static_cast<std::size_t>(tasks[i])], static_cast<int>(i) / 2);
+  }
+  EXPECT_TRUE(batches_of_tasks({}, {}, 4).empty());
+}
+
 TEST(ScheduleTest, TasksOfRanksPartitionAllTasksLargestFirst) {
   const std::vector<double> loads{4, 9, 4, 1, 7, 4, 2};
   const auto assignment = assign_largest_first(loads, 3);

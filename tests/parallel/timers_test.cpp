@@ -292,13 +292,13 @@ TEST(StageClockTest, NotesRoundsOfTasks) {
   StageClock clock;
   clock.begin_round();  // of no stage
   clock.begin("surface");
-  clock.note_task({.kind = "curve"});
+  clock.note_task({.kind = TaskKind::curve});
   clock.begin_round();
-  clock.note_task({.kind = "face"});
+  clock.note_task({.kind = TaskKind::face});
   clock.end();
   clock.begin("volume");
   clock.begin_round();
-  clock.note_task({.kind = "zone"});
+  clock.note_task({.kind = TaskKind::zone});
   clock.end();
   ASSERT_EQ(clock.tasks().size(), 3u);
   EXPECT_EQ(clock.tasks()[0].round, 0);

@@ -341,7 +341,7 @@ private:
       cells += _mesh.pieces[i].cell_count();
       bytes += mesh::bytes_at_rest(_mesh.pieces[i]);
     }
-    parallel::note_task({"core piece", range, cells, seconds, bytes});
+    parallel::note_task({parallel::TaskKind::core_piece, range, cells, seconds, bytes});
   }
 
   /// Of the ranges that are this rank's; what others have of them comes later along the curve.

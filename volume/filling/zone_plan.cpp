@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
+#include "parallel/observation/task_kind.hpp"
 #include "volume/zones/halo.hpp"
 
 #include <algorithm>
@@ -9,10 +10,6 @@
 
 namespace aeroloom::volume {
 namespace {
-
-/// Zones that a rank is sent at a time. All that a zone is made of waits in memory until its turn. Chosen,
-/// not measured.
-constexpr std::size_t zones_at_a_time = 4;
 
 /// Triangles by the block that their centre lies in, of a range of blocks.
 class Centres {
@@ -123,12 +120,11 @@ std::vector<Assignment> schedule_zones(const std::vector<ZoneLoad>& loads, int r
   work.reserve(loads.size());
   for (const ZoneLoad& load : loads) work.push_back(load.work());
   const std::vector<parallel::Rank> owners = parallel::assign_largest_first(work, ranks);
+  const std::vector<int> batches =
+      parallel::batches_of_tasks(owners, work, parallel::row_of(parallel::TaskKind::zone).at_a_time);
   std::vector<Assignment> assignments(zones);
-  for (parallel::Rank r = 0; r < ranks; ++r) {
-    const std::vector<int> tasks = parallel::tasks_of_rank(owners, work, r);
-    for (std::size_t i = 0; i < tasks.size(); ++i)
-      assignments[loads[tasks[i]].zone] = {r, i / zones_at_a_time};
-  }
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    assignments[loads[i].zone] = {owners[i], static_cast<std::size_t>(batches[i])};
   return assignments;
 }
 

@@ -1,4 +1,5 @@
 /// The table of keys: every key is documented, and what is told of it holds.
+#include "io/file_formats.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/case/key_info.hpp"
 #include "tests/source_tree.hpp"
@@ -63,7 +64,7 @@ TEST(CaseKeys, TellsWhatIsDeclared) {
   EXPECT_EQ(growth.default_value, "1.3");
   EXPECT_EQ(keys.at("sizing.target_tetrahedra").default_value, "");  // depends on what else is given
   EXPECT_EQ(keys.at("output.formats").default_value, "[vtu]");
-  EXPECT_EQ(keys.at("output.formats").choices.size(), io::format_names.size());
+  EXPECT_EQ(keys.at("output.formats").choices.size(), io::file_formats().size());
   EXPECT_EQ(keys.at("output.pictures").default_value, "true");
   EXPECT_EQ(keys.at("patches.NAME").kind, KeyKind::named);
   EXPECT_EQ(keys.at("patches.NAME.type").choices.front(), "wall");

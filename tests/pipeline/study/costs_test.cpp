@@ -74,12 +74,13 @@ TEST(Costs, GroupsFollowEachOtherAsTheyWait) {
   const RunCosts costs = costs_of(a_report(), head +
                                                   "0,volume,surface piece,0,1,0,0,0,1,0\n"
                                                   "0,volume,another kind,0,1,0,0,0,1,0\n"
+                                                  "0,volume,a third kind,0,1,0,0,0,1,0\n"
                                                   "0,volume,face,0,1,0,0,0,2,0\n"
                                                   "0,volume,face,0,1,0,0,0,1,4\n");
   std::string order;
   for (const TaskGroup& group : costs.stages[0].groups)
-    order += fmt::format("{} {}, ", group.round, group.kind);
-  EXPECT_EQ(order, "1 face, 1 surface piece, 1 another kind, 2 face, ");
+    order += fmt::format("{} {}, ", group.round, group.kind ? parallel::name_of(*group.kind) : "unknown");
+  EXPECT_EQ(order, "1 face, 1 surface piece, 1 unknown, 1 unknown, 2 face, ");
   EXPECT_DOUBLE_EQ(costs.stages[0].groups[0].tasks[0].burden, 4);
 }
 

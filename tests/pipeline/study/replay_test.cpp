@@ -11,9 +11,11 @@
 namespace aeroloom::study {
 namespace {
 
+using parallel::TaskKind;
+
 constexpr Network no_network{0, 1e30};
 
-TaskGroup tasks_of(const std::string& kind, const std::vector<double>& seconds, int round = 0) {
+TaskGroup tasks_of(TaskKind kind, const std::vector<double>& seconds, int round = 0) {
   TaskGroup group{kind, round, {}};
   for (std::size_t i = 0; i < seconds.size(); ++i)
     group.tasks.push_back(
@@ -39,7 +41,8 @@ void expect_losses_add_up(const Prediction& prediction) {
 }
 
 TEST(Replay, EqualTasksAreSharedOut) {
-  const RunCosts costs = run_of({stage_of("volume", {tasks_of("cavity", std::vector<double>(12, 2.0))})});
+  const RunCosts costs =
+      run_of({stage_of("volume", {tasks_of(TaskKind::cavity, std::vector<double>(12, 2.0))})});
   for (const int ranks : {1, 2, 3, 4, 6, 12}) {
     const Prediction prediction = predict(costs, ranks, no_network);
     EXPECT_DOUBLE_EQ(prediction.seconds, 24.0 / ranks);
@@ -56,7 +59,7 @@ TEST(Replay, EqualTasksAreSharedOut) {
 
 TEST(Replay, TheLargestTaskBounds) {
   const RunCosts costs =
-      run_of({stage_of("surface", {tasks_of("face", {10, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1})})});
+      run_of({stage_of("surface", {tasks_of(TaskKind::face, {10, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1})})});
   EXPECT_DOUBLE_EQ(predict(costs, 2, no_network).seconds, 10);
   EXPECT_DOUBLE_EQ(predict(costs, 2, no_network).efficiency(), 1);
   const Prediction ten = predict(costs, 10, no_network);
@@ -84,7 +87,7 @@ TEST(Replay, SerialAndRepeatedWorkStays) {
 
 TEST(Replay, LoadsThatWereMisjudgedAreImbalance) {
   // Scheduled as two and two; one of the four takes three times what was thought.
-  RunCosts costs = run_of({stage_of("surface", {tasks_of("face", {1, 1, 1, 1})})});
+  RunCosts costs = run_of({stage_of("surface", {tasks_of(TaskKind::face, {1, 1, 1, 1})})});
   costs.stages[0].groups[0].tasks[0].seconds = 3;
   const Prediction prediction = predict(costs, 2, no_network);
   EXPECT_DOUBLE_EQ(prediction.seconds, 4);
@@ -94,8 +97,8 @@ TEST(Replay, LoadsThatWereMisjudgedAreImbalance) {
 
 TEST(Replay, RoundsWaitForEachOther) {
   // The first round has one task, the second another: each is done by rank 0 alone.
-  const RunCosts costs =
-      run_of({stage_of("improve", {tasks_of("cavity", {3}, 1), tasks_of("cavity", {1, 2}, 2)})});
+  const RunCosts costs = run_of(
+      {stage_of("improve", {tasks_of(TaskKind::cavity, {3}, 1), tasks_of(TaskKind::cavity, {1, 2}, 2)})});
   const Prediction prediction = predict(costs, 2, no_network);
   EXPECT_DOUBLE_EQ(prediction.seconds, 5);
   EXPECT_DOUBLE_EQ(prediction.busy_seconds, 5);  // rank 0 has the largest of each
@@ -110,10 +113,10 @@ TEST(Replay, RoundsWaitForEachOther) {
 
 TEST(Replay, BurdensOfARoundCount) {
   // A face that took long leaves its rank fewer pieces.
-  TaskGroup faces = tasks_of("face", {4, 1}, 1);
+  TaskGroup faces = tasks_of(TaskKind::face, {4, 1}, 1);
   faces.tasks[0].burden = 4;
   faces.tasks[1].burden = 1;
-  const TaskGroup pieces = tasks_of("surface piece", {2, 2, 1}, 1);
+  const TaskGroup pieces = tasks_of(TaskKind::surface_piece, {2, 2, 1}, 1);
   const Prediction prediction = predict(run_of({stage_of("surface", {faces, pieces})}), 2, no_network);
   EXPECT_DOUBLE_EQ(prediction.busy_seconds, 5);  // 4 + 1 and 1 + 2 + 2
   EXPECT_DOUBLE_EQ(prediction.seconds, 4 + 4);   // the faces first
@@ -125,7 +128,7 @@ TEST(Replay, BurdensOfARoundCount) {
 
 TEST(Replay, ZonesComeInBatchesOfFour) {
   // Five zones for each of two ranks: after four both wait.
-  TaskGroup zones = tasks_of("zone", std::vector<double>(10, 1));
+  TaskGroup zones = tasks_of(TaskKind::zone, std::vector<double>(10, 1));
   zones.tasks[0].seconds = 2;  // rank 0, first batch
   zones.tasks[9].seconds = 2;  // rank 1, second batch
   const Prediction prediction = predict(run_of({stage_of("volume", {zones})}), 2, no_network);
@@ -135,7 +138,7 @@ TEST(Replay, ZonesComeInBatchesOfFour) {
 }
 
 TEST(Replay, OutputFollowsPieces) {
-  TaskGroup pieces = tasks_of("improved piece", {1, 1, 1});
+  TaskGroup pieces = tasks_of(TaskKind::improved_piece, {1, 1, 1});
   for (TaskCost& piece : pieces.tasks) piece.bytes = 100;
   const RunCosts costs = run_of({stage_of("improve", {pieces}), stage_of("output", {}, 9)});
   const Prediction prediction = predict(costs, 9, no_network);
@@ -147,7 +150,7 @@ TEST(Replay, OutputFollowsPieces) {
 TEST(Replay, MoreRanksAreNeverSlowerWithoutANetwork) {
   std::vector<double> seconds;
   for (int i = 1; i < 60; ++i) seconds.push_back(1 + i % 7);
-  RunCosts costs = run_of({stage_of("volume", {tasks_of("cavity", seconds)}, 30)});
+  RunCosts costs = run_of({stage_of("volume", {tasks_of(TaskKind::cavity, seconds)}, 30)});
   costs.stages[0].serial = 1;
   double before = 1e9, efficiency = 1.01;
   for (int ranks = 1; ranks <= 4096; ranks *= 2) {
@@ -162,7 +165,7 @@ TEST(Replay, MoreRanksAreNeverSlowerWithoutANetwork) {
 }
 
 TEST(Replay, OneRankReproducesItsRecord) {
-  const RunCosts costs = run_of({stage_of("volume", {tasks_of("zone", {3, 4, 5, 6, 7})}, 2.5)});
+  const RunCosts costs = run_of({stage_of("volume", {tasks_of(TaskKind::zone, {3, 4, 5, 6, 7})}, 2.5)});
   const Prediction one = predict(costs, 1, {});
   EXPECT_DOUBLE_EQ(one.seconds, 27.5);
   EXPECT_DOUBLE_EQ(one.busy_seconds, 27.5);
@@ -173,7 +176,7 @@ TEST(Replay, MemoryIsAFloorAndAShare) {
   RunCosts costs = run_of({stage_of("geometry", {}), stage_of("sizing", {}, 1), stage_of("volume", {}, 1)});
   costs.stages[0].own_bytes = 70;
   costs.stages[1].own_bytes = 50;
-  TaskGroup zones = tasks_of("zone", {1});
+  TaskGroup zones = tasks_of(TaskKind::zone, {1});
   zones.tasks[0].child_bytes = 10;
   costs.stages[2].groups = {zones};
   costs.stages[2].own_bytes = 460;
@@ -195,7 +198,8 @@ TEST(Replay, RefusesWhatCannotBe) {
 }
 
 TEST(Replay, FilesTellOfAllRanks) {
-  RunCosts costs = run_of({stage_of("geometry", {}), stage_of("volume", {tasks_of("cavity", {1, 1, 1, 1})})});
+  RunCosts costs =
+      run_of({stage_of("geometry", {}), stage_of("volume", {tasks_of(TaskKind::cavity, {1, 1, 1, 1})})});
   costs.stages[0].serial = 4;
   const Forecasts forecasts = forecast_ranks(costs, "out", {1, 2, 4}, no_network);
   EXPECT_EQ(forecasts.worthwhile.ranks, 1);
