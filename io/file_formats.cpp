@@ -31,10 +31,9 @@ namespace fs = std::filesystem;
 using parallel::Communicator;
 
 /// A writer that needs no options.
-template <void (*write)(const Communicator&, const FileMesh&, const std::string&)>
+template <void (*write)(const FileMesh&, const std::string&)>
 void plain(const FileMesh& mesh, const std::string& path, const WriteOptions&) {
-  const Communicator& communicator = mesh.pieces->communicator;
-  write(communicator, mesh, path);
+  write(mesh, path);
 }
 
 void write_pvtu(const FileMesh& mesh, const std::string& path, const WriteOptions& options) {

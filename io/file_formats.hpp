@@ -54,8 +54,7 @@ struct FormatRow {
   /// Null: the format is not read.
   RawMesh (*read)(const parallel::Communicator& communicator, const std::string& path) = nullptr;
   /// `path`: as written_path() has it.
-  void (*write)(const parallel::Communicator& communicator, const FileMesh& mesh, const std::string& path,
-                const WriteOptions& options);
+  void (*write)(const FileMesh& mesh, const std::string& path, const WriteOptions& options);
   FormatContent content = {};
   /// The file has the first of `ends` whatever is asked for, for viewers go by it: PATH and PATH with this
   /// end both become PATH with that one. Empty: the file has the name that is asked for.

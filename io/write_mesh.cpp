@@ -52,11 +52,11 @@ void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path
     return write_mesh(repartition(mesh, parts), format, path, as_they_are);
   }
   const fs::path file = written_path(format, path);
-  if (!row.folder.empty()) return row.write(communicator, mesh, file.string(), options);
+  if (!row.folder.empty()) return row.write(mesh, file.string(), options);
   if (communicator.is_root()) warn_of_losses(mesh, row.content, file.filename().string());
   write_together(communicator, file.parent_path().string(), file.filename().string(),
                  [&](const std::string& staging) {
-                   row.write(communicator, mesh, (fs::path(staging) / file.filename()).string(), options);
+                   row.write(mesh, (fs::path(staging) / file.filename()).string(), options);
                  });
   if (row.remove_later_parts != nullptr) row.remove_later_parts(communicator, file.string(), mesh.part_count);
 }

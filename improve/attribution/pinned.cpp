@@ -50,7 +50,7 @@ public:
         _target(target),
         _surface_may_change(surface_may_change),
         _measure(target),
-        _vertex_faces(mesh.communicator, mesh),
+        _vertex_faces(mesh),
         _walls(_vertex_faces) {
     _report.smallest_angle = target;
     _report.largest_angle = largest_allowed(target);
