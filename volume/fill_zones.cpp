@@ -6,7 +6,7 @@
 #include "volume/filling/core_pieces.hpp"
 #include "volume/filling/decomposition_data.hpp"
 #include "volume/filling/filling_limits.hpp"
-#include "volume/filling/zone_ladder.hpp"
+#include "volume/filling/retry_policy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,54 +24,53 @@ using parallel::ScopedCpu;
 /// Fills zones until all are filled and fit together.
 class ZoneFiller {
 public:
-  ZoneFiller(const VolumeInput& input, Decomposition::Data& data, VolumeReport& report)
+  ZoneFiller(const VolumeInput& input, const Lattice& lattice, Shell& shell, VolumeReport& report)
       : _communicator(input.surface.communicator),
         _input(input),
-        _data(data),
+        _lattice(lattice),
+        _shell(shell),
         _report(report),
-        _ladder(input, data, report),
-        _budget(data.zones->count()) {}
+        _retries(input.surface.communicator, input.options, lattice, shell, report),
+        _budget(shell.zones.count()) {}
 
-  mesh::DistributedMesh run() {
-    fill(std::move(_data.plan));
-    _report.overlap = static_cast<double>(_communicator.sum(_known_points)) /
-                      static_cast<double>(std::max<std::int64_t>(1, _data.report.shell_points));
+  mesh::DistributedMesh run(ZonePlan plan) {
+    fill(std::move(plan));
+    note_overlap();
     for (_report.rounds = 1;; ++_report.rounds) {
-      std::vector<ZoneIndex> pending =
-          _ladder.change_failed(std::exchange(_failures, {}), std::exchange(_leaving, {}), _evidence);
-      if (pending.empty()) pending = _ladder.resolve_disputes(faces());
+      const std::vector<ZoneIndex> pending = change_failed_or_disputed();
       if (pending.empty()) return assemble();
       _budget.spend(pending.size(), _report.rounds, _input.options.halo);
-      fill(plan(pending));
+      fill(plan_zones(_communicator, _lattice, _shell, pending, _retries.widths()));
     }
   }
 
 private:
+  std::vector<ZoneIndex> change_failed_or_disputed() {
+    std::vector<ZoneIndex> pending =
+        _retries.change_failed(std::exchange(_failures, {}), std::exchange(_demoted, {}), _diagnostics);
+    return pending.empty() ? _retries.resolve_disputes(faces()) : pending;
+  }
+
   // --- one round of filling
 
   void fill(ZonePlan plan) {
     parallel::begin_round();
     for (const ZoneLoad& load : plan.loads) _results.erase(load.zone), _work[load.zone] = load.work();
-    std::erase_if(_results, [&](const auto& result) { return _ladder.is_gone(result.first); });
+    std::erase_if(_results, [&](const auto& result) { return _retries.is_gone(result.first); });
     constexpr std::int64_t steps = 1000;  // of a wave, whatever its zones
     parallel::Progress progress("volume", steps * static_cast<std::int64_t>(plan.batches.size()),
                                 "tetrahedra");
     std::int64_t waves = 0, made = 0;
-    for (const ZoneShipment& batch : plan.batches) {
-      std::vector<ZoneContent> contents = supply_zones(_communicator, _data.store(_input), batch);
+    for (const SendPlan& batch : plan.batches) {
+      std::vector<ZoneInput> inputs = gather_zone_inputs(_communicator, _lattice, _shell, batch);
       parallel::agree(_communicator, [&] {
-        for (std::size_t i = 0; i < contents.size(); contents[i++] = {}) {
-          made += fill_one(contents[i]);
-          progress.set_done(waves * steps + static_cast<std::int64_t>((i + 1) * steps / contents.size()),
-                            made);
+        for (std::size_t i = 0; i < inputs.size(); inputs[i++] = {}) {
+          made += fill_one(inputs[i]);
+          progress.set_done(waves * steps + static_cast<std::int64_t>((i + 1) * steps / inputs.size()), made);
         }
       });
       progress.set_done(++waves * steps, made);
     }
-  }
-
-  ZonePlan plan(const std::vector<ZoneIndex>& pending) {
-    return plan_zones(_communicator, _data.store(_input), pending, _ladder.widths());
   }
 
   std::vector<ZoneFace> faces() const {
@@ -82,43 +81,43 @@ private:
   }
 
   /// Tetrahedra made.
-  std::int64_t fill_one(ZoneContent& content) {
+  std::int64_t fill_one(ZoneInput& zone) {
     const ScopedCpu task(ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds(), seconds = _input.options.base_cpu_seconds;
-    require_size(content);
-    _known_points += static_cast<std::int64_t>(content.problem.regions.size());
-    const parallel::CrashNote note(fmt::format("stage volume, zone {}", content.zone));
-    ZoneFilling filling = fill_zone_in_child(content.problem, fault_of(content.zone), _input.tasks, seconds);
+    require_size(zone);
+    _known_points += static_cast<std::int64_t>(zone.problem.regions.size());
+    const parallel::CrashNote note(fmt::format("stage volume, zone {}", zone.zone));
+    ZoneFilling filling = fill_zone_in_child(zone.problem, fault_of(zone.zone), _input.tasks, seconds);
     parallel::add_task_cpu(filling.cpu_seconds);
     parallel::note_child_memory(filling.child_peak_bytes);
     parallel::log_verbose(fmt::format(
         "volume: zone {}: {} points and {} triangles known, {} tetrahedra of its own, {:.3g} CPU s",
-        content.zone, content.problem.points.size(), content.problem.triangles.size(),
-        filling.owned.cells.size(), filling.cpu_seconds));
+        zone.zone, zone.problem.points.size(), zone.problem.triangles.size(), filling.owned.cells.size(),
+        filling.cpu_seconds));
     if (filling.filled && !filling.owned.missing_borders.empty()) {
       for (const std::int32_t t : filling.owned.missing_borders)
-        _leaving.push_back({content.border_leaves[t], content.zone});
+        _demoted.push_back({zone.border_leaves[t], zone.zone});
       return 0;
     }
     if (filling.filled) {
       parallel::add_pieces(1);
-      const ZoneResult& made = _results[content.zone] = make_pieces(content, filling);
+      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
-      parallel::note_task({parallel::TaskKind::zone, content.zone, _work.at(content.zone),
+      parallel::note_task({parallel::TaskKind::zone, zone.zone, _work.at(zone.zone),
                            parallel::cpu_seconds() - begin + filling.cpu_seconds, bytes,
                            filling.child_peak_bytes});
       return static_cast<std::int64_t>(filling.owned.cells.size());
     }
-    _failures.push_back({content.zone, filling.failure});
-    _evidence.note(
-        content, _input.surface, filling.failure,
-        _ladder.changes_of(content.zone) == 0 ? Evidence::Look::later : Evidence::Look::for_defects);
+    _failures.push_back({zone.zone, filling.failure});
+    _diagnostics.note(zone, _input.surface, filling.failure,
+                      _retries.changes_of(zone.zone) == 0 ? FailureDiagnostics::Look::later
+                                                          : FailureDiagnostics::Look::for_defects);
     return 0;
   }
 
-  void require_size(const ZoneContent& content) const {
-    const std::int64_t predicted = predict_tetrahedra(content.problem);
+  void require_size(const ZoneInput& zone) const {
+    const std::int64_t predicted = predict_tetrahedra(zone.problem);
     if (predicted <= _input.options.largest_zone) return;
     throw std::runtime_error(fmt::format(
         "a zone would get {} tetrahedra, more than {}. Ask for smaller pieces (VolumeOptions::piece_tets) "
@@ -127,18 +126,24 @@ private:
   }
 
   parallel::Fault fault_of(ZoneIndex zone) const {
-    const bool is_faulty = _fault.number < 0 || (zone == _fault.number && !_ladder.is_merged(zone));
+    const bool is_faulty = _fault.number < 0 || (zone == _fault.number && !_retries.is_merged(zone));
     return is_faulty ? _fault.fault : parallel::Fault::none;
   }
 
   // --- the mesh
+
+  void note_overlap() {
+    const auto there = _communicator.sum(static_cast<std::int64_t>(_shell.local.points.points.size()));
+    _report.overlap = static_cast<double>(_communicator.sum(_known_points)) /
+                      static_cast<double>(std::max<std::int64_t>(1, there));
+  }
 
   /// The relative error that 90 % of the zones' expected loads stay below.
   double load_error() const {
     std::vector<double> mine;
     for (const auto& [zone, result] : _results) {
       mine.push_back(std::abs(
-          _data.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
+          _shell.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
     }
     std::vector<double> errors = _communicator.all_gather_items<double>(mine);
     std::sort(errors.begin(), errors.end());
@@ -147,11 +152,7 @@ private:
 
   mesh::DistributedMesh assemble() {
     _report.load_error_90 = load_error();
-    const LatticeSource lattice = _data.source(_input);
-    CoreMesh core = make_core(_communicator,
-                              {lattice, *_data.core, *_data.squares, _data.shell, *_data.zones,
-                               _data.finder(_input), _data.core_piece_tets},
-                              _results);
+    CoreMesh core = make_core(_communicator, _lattice, _shell, _results);
     _report.tetrahedra = core.tetrahedra;
     _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
     for (const auto& [zone, result] : _results) {
@@ -159,7 +160,7 @@ private:
       _report.steiner_points += result.steiner_points;
     }
     mesh::DistributedMesh mesh =
-        assemble_mesh(_input.surface, _results, std::move(core.pieces), _data.zones->count());
+        assemble_mesh(_input.surface, _results, std::move(core.pieces), _shell.zones.count());
     _report.tetrahedra = _communicator.sum(_report.tetrahedra);
     _report.steiner_points = _communicator.sum(_report.steiner_points);
     return mesh;
@@ -167,24 +168,26 @@ private:
 
   const parallel::Communicator& _communicator;
   const VolumeInput& _input;
-  Decomposition::Data& _data;
+  const Lattice& _lattice;
+  Shell& _shell;
   VolumeReport& _report;
-  ZoneLadder _ladder;
+  RetryPolicy _retries;
   FillingBudget _budget;
   std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   parallel::FaultRequest _fault = parallel::requested_fault("zone");
   std::map<ZoneIndex, double> _work;   // that zones were scheduled by
   std::vector<ZoneFailure> _failures;  // of this rank in this round
-  std::vector<LeavingLeaf> _leaving;   // as well
-  Evidence _evidence;
+  std::vector<DemotedLeaf> _demoted;   // as well
+  FailureDiagnostics _diagnostics;
 };
 
 }  // namespace
 
 mesh::DistributedMesh fill_zones(const VolumeInput& input, Decomposition decomposition,
                                  VolumeReport& report) {
-  return ZoneFiller(input, decomposition.data(), report).run();
+  Decomposition::Data& data = decomposition.data();
+  return ZoneFiller(input, *data.lattice, data.shell, report).run(std::move(data.plan));
 }
 
 }  // namespace aeroloom::volume

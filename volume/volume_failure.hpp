@@ -11,7 +11,7 @@
 
 namespace aeroloom::volume {
 
-/// A zone that no rung of the ladder fills. The message names CAD faces, place and sizes, what was tried and
+/// A zone that no retry fills. The message names CAD faces, place and sizes, what was tried and
 /// what to do; the triangles at fault are for a file to look at. The same on every rank.
 class VolumeFailure : public parallel::CollectiveError {
 public:

@@ -14,7 +14,7 @@ struct VolumeOptions {
   double halo = 1.2;               ///< width of what a zone knows around it, in the largest sizes there
   std::int64_t largest_zone = 20'000'000;  ///< predicted tetrahedra above which a zone is refused
   double base_cpu_seconds = 10;            ///< of the child of a zone; its size adds to them
-  int retries = 3;                         ///< rungs of the ladder after the first try
+  int retries = 3;                         ///< after the first try, before zones are merged
 };
 
 }  // namespace aeroloom::volume

@@ -45,15 +45,15 @@ struct Made {
         lattice(problem, box_of(surface)),
         around(problem, lattice) {}
 
-  LatticeSource source() const { return lattice.source(problem, around.regions); }
   BlockPoints make() const { return make(lattice.tree.first(), lattice.tree.last()); }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
-    return make_points(source(), first, last, around.surface, search_radii_of_blocks(source(), first, last));
+    return make_points(lattice, lattice.changes, first, last, around.surface,
+                       search_radii_of_blocks(lattice, first, last));
   }
 
   surfaces::Surface surface;
   Problem problem;
-  Lattice lattice;
+  GrownLattice lattice;
   Surroundings around;
 };
 
@@ -207,10 +207,11 @@ TEST_F(LatticePoints, have_their_regions_from_within_blocks_too) {
   const auto far = fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}});
   for (const Made& made : {Made(Communicator::self(), body, far), Made(Communicator::self())}) {
     const BlockIndex count = made.lattice.tree.block_count();
-    SearchRadii radii = search_radii_of_blocks(made.source(), 0, count);
+    SearchRadii radii = search_radii_of_blocks(made.lattice, 0, count);
     for (BlockIndex b = 0; b < count; ++b) radii.of_blocks[b].from_within = made.lattice.table.is_met(b);
-    const BlockPoints near = make_points(made.source(), 0, count, made.around.surface);
-    const BlockPoints within = make_points(made.source(), 0, count, made.around.surface, radii);
+    const BlockPoints near = make_points(made.lattice, made.lattice.changes, 0, count, made.around.surface);
+    const BlockPoints within =
+        make_points(made.lattice, made.lattice.changes, 0, count, made.around.surface, radii);
 
     EXPECT_EQ(within.slots, near.slots);
     EXPECT_EQ(within.regions, near.regions);
@@ -236,7 +237,7 @@ TEST_P(WithinRadii, are_all_triangles_that_points_need) {
     for (BlockIndex first = 0; first < tree.block_count(); first += 13) {
       const BlockIndex last = std::min(tree.block_count(), first + 13);
       std::set<std::int32_t> known;
-      const SearchRadii radii = search_radii_of_blocks(made.source(), first, last);
+      const SearchRadii radii = search_radii_of_blocks(made.lattice, first, last);
       for (BlockIndex b = first; b < last; ++b) {
         const double least = std::max(radii.of_blocks[b - first].least, radii.of_blocks[b - first].nearest);
         const double most = std::max(radii.of_blocks[b - first].most, least);
@@ -250,7 +251,8 @@ TEST_P(WithinRadii, are_all_triangles_that_points_need) {
       std::vector<SurfaceTriangle> triangles;
       for (const std::int32_t t : known) triangles.push_back(made.around.triangles[t]);
       fewest = std::min(fewest, triangles.size());
-      const BlockPoints part = make_points(made.source(), first, last, NearSurface(triangles), radii);
+      const BlockPoints part =
+          make_points(made.lattice, made.lattice.changes, first, last, NearSurface(triangles), radii);
       const auto from = static_cast<std::ptrdiff_t>(whole.starts[first]);
       ASSERT_EQ(static_cast<std::int64_t>(part.points.size()), whole.starts[last] - whole.starts[first]);
       EXPECT_TRUE(std::equal(part.points.begin(), part.points.end(), whole.points.begin() + from));

@@ -19,14 +19,14 @@ using parallel::Communicator;
 std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::SizeField& field,
                                 const std::function<RegionId(Vec3)>& expected) {
   const Problem problem(Communicator::world(), surface, field);
-  Lattice lattice(problem, box_of(surface));
+  GrownLattice lattice(problem, box_of(surface));
   const Surroundings around(problem, lattice);
   std::vector<int> counts(surfaces::region_count(surface) + 1, 0);
   int wrong = 0;
-  EXPECT_EQ(static_cast<BlockIndex>(around.regions.size()), lattice.tree.last() - lattice.tree.first());
+  EXPECT_EQ(static_cast<BlockIndex>(lattice.regions.size()), lattice.tree.last() - lattice.tree.first());
   const Communicator& ranks = problem.communicator;
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b) {
-    const RegionId region = around.regions[b - lattice.tree.first()];
+    const RegionId region = lattice.regions[b - lattice.tree.first()];
     if (lattice.table.is_met(b)) {
       EXPECT_EQ(region, no_region);
       continue;
@@ -110,7 +110,7 @@ TEST(BlockRegions, contradict_each_other_where_the_surface_has_a_gap_on_every_ra
       surface.face.erase(surface.face.begin() + static_cast<std::ptrdiff_t>(t));
     }
     const Problem problem(world, surface, fields::uniform(0.08));
-    Lattice lattice(problem, {{-1.3, -1.3, -1.3}, {1.3, 1.3, 1.3}});
+    GrownLattice lattice(problem, {{-1.3, -1.3, -1.3}, {1.3, 1.3, 1.3}});
     const Surroundings around(problem, lattice);
     const auto& contradiction = around.found.contradiction;
     ASSERT_TRUE(contradiction) << "the missing wall " << wall << " went unnoticed";

@@ -42,25 +42,32 @@ TEST_F(Squares, are_covered_whatever_points_stand_on_their_edges) {
 
 // --- cores of any shape
 
+/// The shell of the same lattice once blocks have changed.
+LocalShell remade(const Problem& problem, const Lattice& lattice, std::vector<BlockChange> changes) {
+  return make_local_shell(problem.communicator, lattice, gather_near_surface(problem.communicator, lattice),
+                          std::move(changes));
+}
+
 /// Leaves and blocks leave the core by chance: it has holes and stairs, and is one leaf thick in places.
 void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   const auto chance = [&] { return std::uniform_real_distribution<double>(0, 1)(random); };
   const double of_leaf = 0.6 * chance(), of_block = 0.3 * chance();
-  for (BlockNumber number = 0; number < data.tree->total(); ++number) {
+  const Lattice& lattice = *data.lattice;
+  std::vector<BlockChange> changes(lattice.tree.block_count());
+  for (BlockNumber number = 0; number < lattice.tree.total(); ++number) {
     std::uint8_t shell = 0;
     for (int child = 0; child < 8; ++child) {
       if (chance() < of_leaf) shell |= static_cast<std::uint8_t>(1U << child);
     }
     if (chance() < of_block) shell = 0xff;
-    if (data.tree->knows(number)) data.changes[data.tree->index(number)].shell = shell;
+    if (lattice.tree.has(number)) changes[lattice.tree.index(number)].shell = shell;
   }
-  const std::int64_t before = data.report.core_tetrahedra;
-  make_all_points(problem.input(), data);
-  EXPECT_LT(data.report.core_tetrahedra, before);
-  std::vector<ZoneIndex> all(data.zones->count());
+  data.shell.local = remade(problem, lattice, std::move(changes));
+  EXPECT_LT(problem.communicator.sum(data.shell.local.core_cells()), data.report.core_tetrahedra);
+  std::vector<ZoneIndex> all(data.shell.zones.count());
   std::iota(all.begin(), all.end(), 0);
-  data.plan = plan_zones(problem.communicator, data.store(problem.input()), all,
+  data.plan = plan_zones(problem.communicator, lattice, data.shell, all,
                          std::vector(all.size(), problem.options.halo));
 }
 
@@ -99,24 +106,25 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   const surfaces::Surface surface = surfaces::shaken(surfaces::cube_with_ball(10, 9), 0.03);
   const Problem problem(world, surface, fields::around_unit_sphere(0.1, 0.5));
   Decomposition decomposition = decompose(problem.input());
-  Decomposition::Data& data = decomposition.data();
+  const Decomposition::Data& data = decomposition.data();
+  const LatticeTree& tree = data.lattice->tree;
+  const CoreLeaves& core = data.shell.local.core;
   // A block that is all core.
-  const BlockIndex first = data.core->ghosts().first();
   std::int64_t chosen = INT64_MAX;
-  for (BlockIndex b = first; b < data.shell.points.last(); ++b) {
-    if (data.core->of(b) == 0xff) chosen = std::min(chosen, data.tree->number(b));
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+    if (core.of(b) == 0xff) chosen = std::min(chosen, tree.number(b));
   }
   chosen = world.minimum(chosen);
-  ASSERT_LT(chosen, data.tree->total());
-  const bool is_mine = data.tree->owner(chosen) == world.rank();
-  if (data.tree->knows(chosen)) data.changes[data.tree->index(chosen)].shell = 0xff;
-  const std::int64_t before = data.report.shell_points;
-  const std::vector<BlockIndex> changed = make_all_points(problem.input(), data);
-  EXPECT_GT(data.report.shell_points, before);
-  if (is_mine) {
-    const BlockIndex block = data.tree->index(chosen);
+  ASSERT_LT(chosen, tree.total());
+  std::vector<BlockChange> changes = data.shell.local.changes;
+  if (tree.has(chosen)) changes[tree.index(chosen)].shell = 0xff;
+  const LocalShell after = remade(problem, *data.lattice, std::move(changes));
+  EXPECT_GT(world.sum(static_cast<std::int64_t>(after.points.points.size())), data.report.shell_points);
+  if (tree.owner(chosen) == world.rank()) {
+    const std::vector<BlockIndex> changed = after.core.blocks_unlike(core);
+    const BlockIndex block = tree.index(chosen);
     EXPECT_NE(std::find(changed.begin(), changed.end(), block), changed.end());
-    EXPECT_EQ(data.core->of(block), 0);
+    EXPECT_EQ(after.core.of(block), 0);
   }
 }
 

@@ -1,4 +1,4 @@
-/// What the stage does about zones that cannot be filled: the ladder of retries, and the message at its end.
+/// What the stage does about zones that cannot be filled: the retries, and the message at its end.
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "tests/references.hpp"
@@ -52,7 +52,7 @@ void expect_same_everywhere(const Communicator& communicator, const std::string&
 
 class OneZone : public testing::TestWithParam<std::tuple<Fault, int>> {};
 
-TEST_P(OneZone, climbs_the_ladder_and_is_merged) {
+TEST_P(OneZone, has_all_retries_and_is_merged) {
   const Communicator world = Communicator::world();
   const auto [fault, retries] = GetParam();
   const Filled filled(world, body(), sizes(), Faulty(fault, 2, retries));
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(all, OneZone,
                          testing::Combine(testing::Values(Fault::throws, Fault::aborts),
                                           testing::Values(0, 1, 3)));
 
-TEST(Ladder, leads_to_the_same_mesh_on_any_number_of_ranks) {
+TEST(RetryPolicy, leads_to_the_same_mesh_on_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   for (const int retries : {0, 3}) {
     const Faulty options(Fault::throws, 1, retries);
@@ -95,7 +95,7 @@ TEST(Ladder, leads_to_the_same_mesh_on_any_number_of_ranks) {
 }
 
 /// A merger changes no point, and the mesh is unique: it is that of zones which nothing happened to.
-TEST(Ladder, changes_no_cell_where_zones_are_merged) {
+TEST(RetryPolicy, changes_no_cell_where_zones_are_merged) {
   const Communicator world = Communicator::world();
   const Filled merged(world, body(), sizes(), Faulty(Fault::throws, 0, 1));
   const Filled untouched(world, body(), sizes(), Faulty(Fault::none, -1, 1));
@@ -106,7 +106,7 @@ TEST(Ladder, changes_no_cell_where_zones_are_merged) {
   EXPECT_TRUE(cells_by_coordinates(merged) == cells_by_coordinates(untouched));
 }
 
-TEST(Ladder, moves_points_of_the_zone_on_its_later_rungs) {
+TEST(RetryPolicy, moves_points_of_the_zone_in_its_later_steps) {
   const Communicator world = Communicator::world();
   const Filled moved(world, body(), sizes(), Faulty(Fault::throws, 0, 2));
   const Filled untouched(world, body(), sizes(), Faulty(Fault::none, -1, 2));

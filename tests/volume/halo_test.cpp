@@ -38,7 +38,7 @@ struct Divided {
   std::vector<TakenBlock> take(ZoneIndex zone, double width) const {
     const LatticeTree& tree = lattice.tree;
     const std::vector<double> widths(zones.count(), width);
-    ZonesAround around(lattice.frame, tree, lattice.table, zones, widths);
+    ZonesAround around(lattice, zones, widths);
     std::vector<TakenBlock> taken;
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
       around.move_to(b);
@@ -53,8 +53,8 @@ struct Divided {
     return taken;
   }
 
-  void give(BlockIndex b, int child, ZoneIndex to) {
-    zones.give({lattice.tree.number(b), child, GridBox::of(lattice.tree.leaf(b, child)), to});
+  void reassign(BlockIndex b, int child, ZoneIndex to) {
+    zones.reassign({lattice.tree.number(b), child, GridBox::of(lattice.tree.leaf(b, child)), to});
   }
 
   /// The largest size in a block and those it touches.
@@ -97,7 +97,7 @@ struct Divided {
   }
 
   Problem problem;
-  Lattice lattice;
+  GrownLattice lattice;
   Zones zones;
   std::vector<double> sizes;  // per block
 };
@@ -150,14 +150,14 @@ TEST(Halo, is_what_the_rule_says_beside_long_triangles) {
   expect_rule(divided, {1.5});
 }
 
-TEST(Halo, is_what_the_rule_says_around_leaves_given_away) {
+TEST(Halo, is_what_the_rule_says_around_reassigned_leaves) {
   Divided divided(fields::around_unit_sphere(0.12, 0.8), surfaces::cube_with_ball(5, 9), 4);
   std::mt19937_64 random(2);
   const LatticeTree& tree = divided.lattice.tree;
   for (int i = 0; i < 40; ++i) {
     const auto b = static_cast<BlockIndex>(random() % tree.block_count());
     const int child = static_cast<int>(random() % tree.leaf_count(b));
-    divided.give(b, child, static_cast<ZoneIndex>(random() % 4));
+    divided.reassign(b, child, static_cast<ZoneIndex>(random() % 4));
   }
   expect_rule(divided, {1.5});
   divided.zones.merge(3, 1);
@@ -167,7 +167,7 @@ TEST(Halo, is_what_the_rule_says_around_leaves_given_away) {
 
 TEST(Halo, holds_all_leaves_of_the_zone_itself) {
   Divided divided(fields::uniform(0.25), surfaces::cube({0, 0, 0}, 1.9, 10), 6);
-  divided.give(divided.lattice.tree.block_count() / 2, 0, 5);
+  divided.reassign(divided.lattice.tree.block_count() / 2, 0, 5);
   for (ZoneIndex z = 0; z < 6; ++z) {
     const std::vector<TakenBlock> taken = divided.take(z, 0);
     for (const LeafOfBlock& leaf : all_leaves(divided.lattice.tree)) {
@@ -191,8 +191,7 @@ TEST(LargestSizeAround, looks_at_a_block_and_those_it_touches) {
   surfaces::Surface surface = surfaces::cube_with_ball(3, 9);
   const Divided divided(fields::around_unit_sphere(0.12, 0.8), surface, 2);
   for (BlockIndex b = 0; b < divided.lattice.tree.block_count(); b += 3) {
-    EXPECT_EQ(largest_size_around(divided.lattice.frame, divided.lattice.tree, divided.lattice.table, b),
-              divided.size_around(b));
+    EXPECT_EQ(largest_size_around(divided.lattice, b), divided.size_around(b));
   }
 }
 

@@ -20,23 +20,16 @@ class EndlessLattice : public OnOneRank {};
 
 /// In all space, without any surface.
 struct Endless {
-  Endless(const sizing::SizeField& sizes, const geometry::Box& box)
-      : field(sizes), frame(field, box), tree(Communicator::self(), frame, field, box) {
-    const auto blocks = static_cast<std::size_t>(tree.block_count());
-    table.longest_edge.assign(blocks, 0);
-    table.note_levels_met(tree);
-    table.triangles.assign(blocks, 0);
+  Endless(const sizing::SizeField& field, const geometry::Box& box) : frame(field, box) {
+    LatticeTree tree(Communicator::self(), frame, field, box);
+    const BlockIndex blocks = tree.block_count();
+    const SurfaceTable table = tabulate_surface(frame, tree, {});
     const std::vector<RegionId> regions(blocks, 0);
-    const std::vector<BlockChange> changes(blocks);
-    points = make_points({frame, tree, field, table, regions, {0.75, 0.005}, changes}, 0, tree.block_count(),
-                         NearSurface({}))
-                 .points;
+    const Lattice lattice{field, {0.75, 0.005}, frame, std::move(tree), table, {}, 0, {}, regions};
+    points = make_points(lattice, std::vector<BlockChange>(blocks), 0, blocks, NearSurface({})).points;
   }
 
-  const sizing::SizeField& field;
   LatticeFrame frame;
-  LatticeTree tree;
-  SurfaceTable table;
   std::vector<Vec3> points;
 };
 

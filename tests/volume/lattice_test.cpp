@@ -170,22 +170,22 @@ TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
   }
 }
 
-/// A rank that knows every third block, as of a tree that is all there.
+/// A rank with every third block as a ghost, as of a tree that is all there.
 TEST(LatticeTree, learns_of_blocks_of_other_ranks) {
   const Communicator world = Communicator::world();
   const Grown alone(graded());
   Grown shared(graded(), world);
   LatticeTree& tree = shared.tree;
-  std::vector<KnownBlock> some;
-  for (BlockIndex b = 0; b < alone.tree.block_count(); b += 3) some.push_back(alone.tree.known(b));
-  tree.learn(some);
+  std::vector<PackedBlock> some;
+  for (BlockIndex b = 0; b < alone.tree.block_count(); b += 3) some.push_back(alone.tree.packed(b));
+  tree.add(some);
   std::int64_t at = 0;
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
     const GridCube cube = tree.cube(b);
     EXPECT_EQ(static_cast<std::int64_t>(cube.key()), at);
     at += std::int64_t{1} << 3 * (sizing::finest_level - cube.level);
     EXPECT_EQ(tree.any_at(cube.low), b);
-    if (!tree.is_known(b)) {
+    if (!tree.is_local(b)) {
       EXPECT_THROW(static_cast<void>(tree.block_at(cube.low)), std::logic_error);
       EXPECT_THROW(tree.for_each_block_in(GridBox::of(cube), [](BlockIndex) {}), std::logic_error);
       continue;
@@ -198,7 +198,7 @@ TEST(LatticeTree, learns_of_blocks_of_other_ranks) {
   }
   EXPECT_EQ(at, std::int64_t{1} << 3 * sizing::finest_level);
   for (BlockNumber n = 0; n < tree.total(); ++n)
-    EXPECT_EQ(tree.knows(n), n % 3 == 0 || tree.owner(n) == world.rank());
+    EXPECT_EQ(tree.has(n), n % 3 == 0 || tree.owner(n) == world.rank());
   // Who has what is near a block.
   for (BlockIndex b = 0; b < alone.tree.block_count(); b += 50) {
     const GridBox box = GridBox::of(alone.tree.cube(b)).dilated(0.5);

@@ -66,58 +66,35 @@ inline geometry::Box box_of(const surfaces::Surface& surface) {
   return box;
 }
 
-/// Frame, tree and table of a problem: what a rank knows of the lattice.
-struct Lattice {
-  Lattice(const Problem& problem, const geometry::Box& box)
-      : frame(problem.field, box),
-        tree(problem.communicator, frame, problem.field, box),
-        own_triangles(deliver_surface(frame, tree, problem.surface, problem.numbering)),
-        table(tabulate_surface(frame, tree, own_triangles)) {
-    learn_what_touches(problem.communicator, known(), own_triangles);
-    changes.resize(tree.block_count());
-    learn_what_is_far_finer(problem.communicator, known(), source(problem, {}));
-    changes.resize(tree.block_count());
-  }
-  Lattice(const Lattice&) = delete;
-  Lattice& operator=(const Lattice&) = delete;
+struct Clocked {};
+/// The lattice of a problem, and what changes of its blocks a test may make.
+struct GrownLattice : Clocked, Lattice {
+  GrownLattice(const Problem& problem, const geometry::Box& box)
+      : Lattice(grow_lattice(problem.input(), box)), changes(tree.block_count()) {}
+  GrownLattice(const GrownLattice&) = delete;
+  GrownLattice& operator=(const GrownLattice&) = delete;
 
-  KnownLattice known() { return {frame, tree, table}; }
-  /// What points are made from. `regions` are those of this rank's blocks.
-  LatticeSource source(const Problem& problem, std::span<const mesh::RegionId> regions) const {
-    return {frame,  tree,    problem.field,
-            table,  regions, {problem.options.lattice_clearance, problem.options.perturbation},
-            changes};
-  }
-
-  LatticeFrame frame;
-  LatticeTree tree;
-  std::vector<SurfaceTriangle> own_triangles;
-  SurfaceTable table;
   std::vector<BlockChange> changes;
 };
 
-/// The triangles near a rank's blocks, and the regions of these.
+/// The triangles near a rank's blocks, and the regions of these, which the lattice gets.
 struct Surroundings {
-  Surroundings(const Problem& problem, Lattice& lattice)
-      : radii(radii_of(problem, lattice)),
-        triangles(deliver(problem, lattice)),
+  Surroundings(const Problem& problem, GrownLattice& lattice)
+      : triangles(deliver(problem, lattice)),
         surface(triangles),
-        found(find_block_regions(problem.communicator, lattice.known(), {triangles, surface, radii})),
-        regions(found.of_block) {}
-
-  static SearchRadii radii_of(const Problem& problem, Lattice& lattice) {
-    return search_radii_of_blocks(lattice.source(problem, {}), lattice.tree.first(), lattice.tree.last());
-  }
-  static std::vector<SurfaceTriangle> deliver(const Problem& problem, Lattice& lattice) {
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii_of(problem, lattice),
-                          lattice.own_triangles);
+        found(find_block_regions(problem.communicator, lattice, triangles, surface)) {
+    lattice.regions = found.of_block;
   }
 
-  SearchRadii radii;
+  static std::vector<SurfaceTriangle> deliver(const Problem& problem, GrownLattice& lattice) {
+    lattice.radii = search_radii_of_blocks(lattice, lattice.tree.first(), lattice.tree.last());
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, lattice.radii,
+                          lattice.triangles);
+  }
+
   std::vector<SurfaceTriangle> triangles;
   NearSurface surface;
   BlockRegions found;
-  std::span<const mesh::RegionId> regions;
 };
 
 /// Zones of a lattice on one rank, of equal load.

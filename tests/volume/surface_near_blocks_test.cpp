@@ -32,12 +32,12 @@ struct Shared {
   std::vector<SurfaceTriangle> deliver(double radius) {
     const SearchRadii radii{
         std::vector<BlockSearchRadii>(lattice.tree.last() - lattice.tree.first(), {radius, radius}), 0};
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii, lattice.own_triangles);
+    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii, lattice.triangles);
   }
 
   surfaces::Surface surface;
   Problem problem;
-  Lattice lattice;
+  GrownLattice lattice;
 };
 
 double longest_edge(const std::array<Vec3, 3>& p) {
@@ -50,7 +50,7 @@ TEST(SurfaceTable, knows_the_longest_edge_that_meets_each_block) {
   const std::vector<SurfaceTriangle> triangles = surfaces::numbered_triangles(shared.surface);
   int met = 0, free = 0;
   for (BlockIndex b = 0; b < lattice.tree.block_count(); ++b) {
-    if (!lattice.tree.is_known(b)) continue;
+    if (!lattice.tree.is_local(b)) continue;
     const GridBox box = GridBox::of(lattice.tree.cube(b));
     float longest = 0;
     for (const SurfaceTriangle& t : triangles) {
@@ -82,7 +82,7 @@ TEST(SurfaceTable, counts_each_triangle_in_the_block_of_its_centre) {
     }
   }
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
-    found[b] = lattice.table.triangles[b];
+    found[b] = lattice.table.triangles[b - lattice.tree.first()];
   EXPECT_EQ(found, expected);
 }
 
@@ -91,12 +91,12 @@ TEST(SurfaceTable, is_the_same_on_any_number_of_ranks) {
   Shared shared(world), alone(Communicator::self());
   const LatticeTree& tree = shared.lattice.tree;
   for (BlockIndex b = 0; b < tree.block_count(); ++b) {
-    if (!tree.is_known(b)) continue;
+    if (!tree.is_local(b)) continue;
     const auto same = static_cast<BlockIndex>(tree.number(b));
     EXPECT_EQ(shared.lattice.table.longest_edge[b], alone.lattice.table.longest_edge[same]);
     if (!tree.is_own(b)) continue;
-    EXPECT_EQ(shared.lattice.table.triangles[b], alone.lattice.table.triangles[same]);
-    EXPECT_EQ(shared.lattice.table.nearest[b], alone.lattice.table.nearest[same]);
+    EXPECT_EQ(shared.lattice.table.triangles[b - tree.first()], alone.lattice.table.triangles[same]);
+    EXPECT_EQ(shared.lattice.table.nearest[b - tree.first()], alone.lattice.table.nearest[same]);
   }
 }
 
@@ -144,7 +144,7 @@ TEST(DeliverSurface, leaves_a_body_to_the_ranks_around_it) {
   surfaces::append(surface, surfaces::sphere({0, 0, 0}, 1, 24), surfaces::Turn::inward);
   const Problem problem(world, surface,
                         fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}}));
-  Lattice lattice(problem, box_of(surface));
+  GrownLattice lattice(problem, box_of(surface));
   const auto delivered = static_cast<std::int64_t>(Surroundings::deliver(problem, lattice).size());
   const auto all = static_cast<std::int64_t>(surface.triangles.size());
   EXPECT_GE(world.sum(delivered), all);

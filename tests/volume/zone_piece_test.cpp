@@ -22,11 +22,11 @@ using mesh::SharedVertexKey;
 using parallel::Communicator;
 
 struct Zone {
-  ZoneContent content;
+  ZoneInput input;
   ZoneFilling filling;
   ZoneResult result;
 
-  SharedVertexKey vertex_key(LocalIndex v) const { return content.vertex_keys[v]; }
+  SharedVertexKey vertex_key(LocalIndex v) const { return input.vertex_keys[v]; }
 };
 
 /// All zones of two nested regions, filled one by one.
@@ -41,12 +41,12 @@ protected:
     decomposition = new Decomposition(decompose(*communicator, problem->input()));
     Decomposition::Data& data = decomposition->data();
     zones = new std::vector<Zone>;
-    for (const ZoneShipment& batch : data.plan.batches) {
-      for (ZoneContent& content : supply_zones(*communicator, data.store(problem->input()), batch)) {
-        ZoneFilling filling = fill_zone_in_child(content.problem, parallel::Fault::none);
+    for (const SendPlan& batch : data.plan.batches) {
+      for (ZoneInput& input : gather_zone_inputs(*communicator, *data.lattice, data.shell, batch)) {
+        ZoneFilling filling = fill_zone_in_child(input.problem, parallel::Fault::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
-        ZoneResult result = make_pieces(content, filling);
-        zones->push_back({std::move(content), std::move(filling), std::move(result)});
+        ZoneResult result = make_pieces(input, filling);
+        zones->push_back({std::move(input), std::move(filling), std::move(result)});
       }
     }
   }
@@ -82,7 +82,7 @@ TEST_F(ZonePieces, are_one_per_region_with_all_its_cells) {
     for (const RegionId region : zone.filling.owned.regions) ++expected[region];
     ASSERT_EQ(zone.result.pieces.size(), expected.size());
     both += expected.size() == 2;
-    EXPECT_EQ(zone.result.zone, zone.content.zone);
+    EXPECT_EQ(zone.result.zone, zone.input.zone);
     EXPECT_EQ(zone.result.tetrahedra, static_cast<std::int64_t>(zone.filling.owned.cells.size()));
     EXPECT_EQ(zone.result.steiner_points, 0);
     auto at = expected.begin();
@@ -123,18 +123,18 @@ TEST_F(ZonePieces, have_the_triangles_of_their_front_sides) {
 TEST_F(ZonePieces, classify_their_vertices) {
   for (const Zone& zone : *zones) {
     std::map<std::array<double, 3>, std::size_t> known;
-    for (std::size_t v = 0; v < zone.content.problem.points.size(); ++v) {
-      const Vec3 p = zone.content.problem.points[v];
+    for (std::size_t v = 0; v < zone.input.problem.points.size(); ++v) {
+      const Vec3 p = zone.input.problem.points[v];
       known[{p.x, p.y, p.z}] = v;
     }
     for (const mesh::Piece& piece : zone.result.pieces) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
         const Vec3 p = piece.point(v);
         const std::size_t w = known.at({p.x, p.y, p.z});
-        const bool on_surface = w < zone.content.problem.surface_points();
+        const bool on_surface = w < zone.input.problem.surface_points();
         EXPECT_EQ(piece.vertex_dimension[v],
-                  on_surface ? zone.content.dimension[w] : mesh::CadDimension::region);
-        EXPECT_EQ(piece.vertex_entity[v], on_surface ? zone.content.entity[w] : piece.region);
+                  on_surface ? zone.input.dimension[w] : mesh::CadDimension::region);
+        EXPECT_EQ(piece.vertex_entity[v], on_surface ? zone.input.entity[w] : piece.region);
       }
     }
   }
@@ -148,8 +148,8 @@ TEST_F(ZonePieces, share_the_vertices_on_faces_to_other_zones_and_between_region
         if (k != crossing.face) expected.insert(zone.vertex_key(zone.filling.owned.cells[crossing.cell][k]));
       }
     }
-    for (std::size_t v = 0; v < zone.content.problem.surface_points(); ++v) {
-      const Vec3 p = zone.content.problem.points[v];
+    for (std::size_t v = 0; v < zone.input.problem.surface_points(); ++v) {
+      const Vec3 p = zone.input.problem.points[v];
       if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) == 0.5)
         expected.insert(zone.vertex_key(static_cast<LocalIndex>(v)));
     }
@@ -158,9 +158,9 @@ TEST_F(ZonePieces, share_the_vertices_on_faces_to_other_zones_and_between_region
     std::set<SharedVertexKey> found;
     for (const mesh::Piece& piece : zone.result.pieces) {
       std::map<std::array<double, 3>, SharedVertexKey> vertex_keys;
-      for (std::size_t v = 0; v < zone.content.vertex_keys.size(); ++v) {
-        const Vec3 p = zone.content.problem.points[v];
-        vertex_keys[{p.x, p.y, p.z}] = zone.content.vertex_keys[v];
+      for (std::size_t v = 0; v < zone.input.vertex_keys.size(); ++v) {
+        const Vec3 p = zone.input.problem.points[v];
+        vertex_keys[{p.x, p.y, p.z}] = zone.input.vertex_keys[v];
       }
       std::set<SharedVertexKey> of_piece(piece.shared_keys.begin(), piece.shared_keys.end());
       for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s) {
@@ -182,14 +182,14 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
   for (const Zone& zone : *zones) {
     ASSERT_EQ(zone.result.faces.size(), zone.filling.owned.crossings.size());
     std::map<SharedVertexKey, LocalIndex> known;
-    for (std::size_t v = 0; v < zone.content.vertex_keys.size(); ++v)
-      known[zone.content.vertex_keys[v]] = static_cast<LocalIndex>(v);
-    const ZoneFinder finder = decomposition->data().finder(problem->input());
+    for (std::size_t v = 0; v < zone.input.vertex_keys.size(); ++v)
+      known[zone.input.vertex_keys[v]] = static_cast<LocalIndex>(v);
+    const Lattice& lattice = *decomposition->data().lattice;
     for (std::size_t i = 0; i < zone.result.faces.size(); ++i) {
       const ZoneFace& face = zone.result.faces[i];
       const Crossing& crossing = zone.filling.owned.crossings[i];
       const LocalCell& cell = zone.filling.owned.cells[crossing.cell];
-      EXPECT_EQ(face.zone, zone.content.zone);
+      EXPECT_EQ(face.zone, zone.input.zone);
       EXPECT_EQ(face.region, zone.filling.owned.regions[crossing.cell]);
       EXPECT_TRUE(std::is_sorted(face.vertices.begin(), face.vertices.end()));
       std::array<LocalIndex, 3> v;
@@ -198,12 +198,12 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
         EXPECT_NE(v[k], cell[crossing.face]);
         EXPECT_NE(std::find(cell.begin(), cell.end(), v[k]), cell.end());
         const auto number = static_cast<std::int64_t>(face.vertices[k]) - problem->numbering.vertex_count;
-        const Leaf leaf = number >= 0 ? leaf_of_lattice(*decomposition->data().tree, number)
-                                      : finder.leaf_of_place(zone.content.problem.points[v[k]]);
+        const Leaf leaf = number >= 0 ? leaf_of_lattice(lattice.tree, number)
+                                      : lattice.leaf_at(zone.input.problem.points[v[k]]);
         EXPECT_EQ(face.leaves[k], 8 * std::int64_t{leaf.block} + leaf.child);
       }
       // Counter-clockwise seen from outside: the fourth vertex lies on the other side.
-      const auto& x = zone.content.problem.points;
+      const auto& x = zone.input.problem.points;
       EXPECT_EQ(geometry::orient3d(x[v[0]], x[v[1]], x[v[2]], x[cell[crossing.face]]), face.odd ? 1 : -1);
     }
   }
@@ -211,23 +211,23 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
 
 TEST(MakePieces, names_points_that_were_added_after_the_zone_alone) {
   // Two tetrahedra of a zone with an added point, as if more were beside them.
-  ZoneContent content;
-  content.zone = 5;
-  content.problem.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
-  content.problem.regions.assign(3, 2);
-  content.dimension = {mesh::CadDimension::face};
-  content.entity = {7};
-  content.problem.owners.assign(4, Owner::mine);
-  content.vertex_keys = {0, 101, 102, 103};
-  content.surface_vertices = 100;
-  content.leaves = {3, 4, 5, 6};
+  ZoneInput input;
+  input.zone = 5;
+  input.problem.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+  input.problem.regions.assign(3, 2);
+  input.dimension = {mesh::CadDimension::face};
+  input.entity = {7};
+  input.problem.owners.assign(4, Owner::mine);
+  input.vertex_keys = {0, 101, 102, 103};
+  input.surface_vertices = 100;
+  input.leaves = {3, 4, 5, 6};
   ZoneFilling filling;
   filling.added = {{0.2, 0.2, 1}};
   filling.owned.cells = {{0, 1, 2, 4}, {0, 2, 1, 3}};
   filling.owned.regions = {2, 2};
   filling.owned.crossings = {{0, 0}, {1, 0}};
   filling.owned.touched = {0};
-  const ZoneResult result = make_pieces(content, filling);
+  const ZoneResult result = make_pieces(input, filling);
   ASSERT_EQ(result.pieces.size(), 1u);
   EXPECT_EQ(result.steiner_points, 1);
   const mesh::Piece& piece = result.pieces.front();

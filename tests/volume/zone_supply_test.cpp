@@ -2,6 +2,7 @@
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 #include "volume/filling/decomposition_data.hpp"
+#include "volume/zones/halo.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -24,7 +25,7 @@ VolumeOptions in_zones_of(std::int64_t tets) {
   return options;
 }
 
-/// A leaf that is given away.
+/// A leaf that is reassigned.
 struct Away {
   BlockNumber block;
   std::int32_t child;
@@ -32,42 +33,45 @@ struct Away {
   static constexpr auto fields() { return std::tuple(&Away::block, &Away::child, &Away::box); }
 };
 
-/// Two nested regions, divided into a dozen zones, one of which was given some leaves of others.
+/// Two nested regions, divided into a dozen zones, some leaves of which were reassigned to one.
 struct Divided {
   explicit Divided(const Communicator& communicator)
       : surface(surfaces::nested_cubes(8)),
         problem(communicator, surface, fields::around_unit_sphere(0.1, 0.4), in_zones_of(1500)),
         decomposition(decompose(problem.input())),
         data(decomposition.data()),
-        finder(data.finder(problem.input())) {
+        lattice(*data.lattice),
+        shell(data.shell) {
+    const LatticeTree& tree = lattice.tree;
     std::vector<Away> rows;  // every rank is told
-    for (BlockIndex b = data.tree->first(); b < data.tree->last(); ++b) {
-      if (data.tree->number(b) % 50 == 10)
-        rows.push_back({data.tree->number(b), data.tree->leaf_count(b) / 2,
-                        GridBox::of(data.tree->leaf(b, data.tree->leaf_count(b) / 2))});
+    for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+      if (tree.number(b) % 50 == 10)
+        rows.push_back(
+            {tree.number(b), tree.leaf_count(b) / 2, GridBox::of(tree.leaf(b, tree.leaf_count(b) / 2))});
     }
     for (const Away& row : communicator.all_gather_items<Away>(rows))
-      data.zones->give({row.block, row.child, row.box, 3});
-    all.resize(data.zones->count());
+      shell.zones.reassign({row.block, row.child, row.box, 3});
+    all.resize(shell.zones.count());
     std::iota(all.begin(), all.end(), 0);
     widths.assign(all.size(), problem.options.halo);
-    plan = plan_zones(communicator, data.store(problem.input()), all, widths);
+    plan = plan_zones(communicator, lattice, shell, all, widths);
   }
 
-  std::vector<ZoneContent> supply_all() {
-    std::vector<ZoneContent> contents;
-    for (const ZoneShipment& batch : plan.batches) {
-      for (ZoneContent& content : supply_zones(problem.communicator, data.store(problem.input()), batch))
-        contents.push_back(std::move(content));
+  std::vector<ZoneInput> gather_all() {
+    std::vector<ZoneInput> inputs;
+    for (const SendPlan& batch : plan.batches) {
+      for (ZoneInput& input : gather_zone_inputs(problem.communicator, lattice, shell, batch))
+        inputs.push_back(std::move(input));
     }
-    return contents;
+    return inputs;
   }
 
   surfaces::Surface surface;
   Problem problem;
   Decomposition decomposition;
   Decomposition::Data& data;
-  ZoneFinder finder;
+  const Lattice& lattice;
+  Shell& shell;
   std::vector<ZoneIndex> all;
   std::vector<double> widths;
   ZonePlan plan;
@@ -77,17 +81,16 @@ struct Divided {
 class Nearness {
 public:
   Nearness(const Divided& divided, ZoneIndex zone) : _divided(divided) {
-    for (const LeafOfBlock& leaf : all_leaves(*divided.data.tree)) {
-      if (divided.data.zones->of(leaf.block, leaf.child) == zone) _leaves.push_back(GridBox::of(leaf.cell));
+    for (const LeafOfBlock& leaf : all_leaves(divided.lattice.tree)) {
+      if (divided.shell.zones.of(leaf.block, leaf.child) == zone) _leaves.push_back(GridBox::of(leaf.cell));
     }
   }
   /// Whether a box that lies in a block, or has its middle there, is as near to the zone as is asked for.
   bool holds(const GridBox& box, BlockIndex b) {
     if (b != _block) {
       _block = b;
-      _radius = _divided.data.frame->grid_distance(
-          _divided.problem.options.halo *
-          largest_size_around(*_divided.data.frame, *_divided.data.tree, _divided.data.table, b));
+      _radius = _divided.lattice.frame.grid_distance(_divided.problem.options.halo *
+                                                     largest_size_around(_divided.lattice, b));
     }
     return std::any_of(_leaves.begin(), _leaves.end(),
                        [&](const GridBox& leaf) { return leaf.gap_to(box) <= _radius; });
@@ -158,7 +161,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   const std::vector<ZoneIndex> some{2, 5};
   std::vector<double> widths = divided.widths;
   widths[5] *= 1.5;
-  const ZonePlan plan = plan_zones(world, divided.data.store(divided.problem.input()), some, widths);
+  const ZonePlan plan = plan_zones(world, divided.lattice, divided.shell, some, widths);
   ASSERT_EQ(plan.loads.size(), 2u);
   EXPECT_EQ(plan.loads[0].zone, 2);
   EXPECT_EQ(plan.loads[1].zone, 5);
@@ -166,7 +169,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   EXPECT_GT(plan.loads[1].points, divided.plan.loads[5].points);
 }
 
-TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
+TEST(GatherZoneInputs, brings_the_points_of_a_zone_and_those_near_it) {
   const Communicator world = Communicator::world();
   Divided divided(world), alone(Communicator::self());
   struct Row {
@@ -177,105 +180,104 @@ TEST(SupplyZones, brings_the_points_of_a_zone_and_those_near_it) {
     static constexpr auto fields() { return std::tuple(&Row::number, &Row::point, &Row::region); }
   };
   std::vector<Row> mine;
-  const BlockPoints& points = divided.data.shell.points;
+  const BlockPoints& points = divided.shell.local.points;
   for (BlockIndex b = points.first; b < points.last(); ++b) {
     for (std::int64_t i = points.starts[b - points.first]; i < points.starts[b - points.first + 1]; ++i)
       mine.push_back(
-          {lattice_number(*divided.data.tree, b, points.slots[i]), points.points[i], points.regions[i]});
+          {lattice_number(divided.lattice.tree, b, points.slots[i]), points.points[i], points.regions[i]});
   }
   const std::vector<Row> all = world.all_gather_items<Row>(mine);
   std::int64_t zones = 0;
-  for (const ZoneContent& content : divided.supply_all()) {
+  for (const ZoneInput& input : divided.gather_all()) {
     ++zones;
-    Nearness nearness(alone, content.zone);
-    std::size_t at = content.problem.surface_points();
+    Nearness nearness(alone, input.zone);
+    std::size_t at = input.problem.surface_points();
     const std::size_t first = at;
     for (const Row& row : all) {
-      const Leaf leaf = leaf_of_lattice(*alone.data.tree, row.number);
-      const Vec3 place = divided.data.frame->to_grid(row.point);
+      const Leaf leaf = leaf_of_lattice(alone.lattice.tree, row.number);
+      const Vec3 place = divided.lattice.frame.to_grid(row.point);
       if (!nearness.holds({place, place}, leaf.block)) continue;
-      ASSERT_LT(at, content.vertex_keys.size());
-      EXPECT_EQ(content.vertex_keys[at],
+      ASSERT_LT(at, input.vertex_keys.size());
+      EXPECT_EQ(input.vertex_keys[at],
                 static_cast<mesh::SharedVertexKey>(divided.problem.numbering.vertex_count + row.number));
-      EXPECT_EQ(content.problem.points[at], row.point);
-      EXPECT_EQ(content.problem.regions[at - first], row.region);
+      EXPECT_EQ(input.problem.points[at], row.point);
+      EXPECT_EQ(input.problem.regions[at - first], row.region);
       ++at;
     }
-    EXPECT_EQ(at, content.vertex_keys.size());
-    EXPECT_EQ(content.problem.points.size(), content.vertex_keys.size());
-    EXPECT_EQ(divided.plan.loads[content.zone].points, static_cast<std::int64_t>(at - first));
+    EXPECT_EQ(at, input.vertex_keys.size());
+    EXPECT_EQ(input.problem.points.size(), input.vertex_keys.size());
+    EXPECT_EQ(divided.plan.loads[input.zone].points, static_cast<std::int64_t>(at - first));
   }
   EXPECT_EQ(world.sum(zones), static_cast<std::int64_t>(divided.all.size()));
 }
 
-TEST(SupplyZones, brings_each_triangle_of_a_zone_or_near_it_once) {
+TEST(GatherZoneInputs, brings_each_triangle_of_a_zone_or_near_it_once) {
   const Communicator world = Communicator::world();
   Divided divided(world), alone(Communicator::self());
-  const LatticeFrame& frame = *divided.data.frame;
+  const LatticeFrame& frame = divided.lattice.frame;
   std::set<mesh::GlobalIndex> numbers;
   std::vector<SurfaceTriangle> all;
-  for (const SurfaceTriangle& t : world.all_gather_items<SurfaceTriangle>(divided.data.triangles)) {
+  for (const SurfaceTriangle& t : world.all_gather_items<SurfaceTriangle>(divided.lattice.triangles)) {
     if (numbers.insert(t.number).second) all.push_back(t);
   }
   ASSERT_EQ(all.size(), divided.surface.triangles.size());
   std::sort(all.begin(), all.end(),
             [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
-  for (const ZoneContent& content : divided.supply_all()) {
+  for (const ZoneInput& input : divided.gather_all()) {
     std::size_t at = 0;
     std::set<mesh::GlobalIndex> vertices;
-    Nearness nearness(alone, content.zone);
+    Nearness nearness(alone, input.zone);
     for (const SurfaceTriangle& t : all) {
       const GridBox box = grid_box(frame, t.points);
       const Vec3 middle = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
-      if (!nearness.holds(box, alone.finder.leaf_of_place(middle).block)) continue;
-      ASSERT_LT(at, content.problem.triangles.size());
+      if (!nearness.holds(box, alone.lattice.leaf_at(middle).block)) continue;
+      ASSERT_LT(at, input.problem.triangles.size());
       for (int k = 0; k < 3; ++k) {
-        const auto v = content.problem.triangles[at][k];
+        const auto v = input.problem.triangles[at][k];
         vertices.insert(t.vertices[k]);
-        EXPECT_EQ(content.vertex_keys[v], static_cast<mesh::SharedVertexKey>(t.vertices[k]));
-        EXPECT_EQ(content.problem.points[v], t.points[k]);
-        EXPECT_EQ(content.dimension[v], t.dimension[k]);
-        EXPECT_EQ(content.entity[v], t.entity[k]);
+        EXPECT_EQ(input.vertex_keys[v], static_cast<mesh::SharedVertexKey>(t.vertices[k]));
+        EXPECT_EQ(input.problem.points[v], t.points[k]);
+        EXPECT_EQ(input.dimension[v], t.dimension[k]);
+        EXPECT_EQ(input.entity[v], t.entity[k]);
       }
-      EXPECT_EQ(content.problem.front[at], t.front);
-      EXPECT_EQ(content.problem.back[at], t.back);
-      EXPECT_EQ(content.face[at], t.face);
-      EXPECT_EQ(content.patch[at], t.patch);
+      EXPECT_EQ(input.problem.front[at], t.front);
+      EXPECT_EQ(input.problem.back[at], t.back);
+      EXPECT_EQ(input.face[at], t.face);
+      EXPECT_EQ(input.patch[at], t.patch);
       ++at;
     }
-    EXPECT_EQ(at, content.problem.triangles.size());
-    EXPECT_EQ(vertices.size(), content.problem.surface_points());
+    EXPECT_EQ(at, input.problem.triangles.size());
+    EXPECT_EQ(vertices.size(), input.problem.surface_points());
   }
 }
 
-TEST(SupplyZones, tells_whose_each_vertex_is) {
+TEST(GatherZoneInputs, tells_whose_each_vertex_is) {
   Divided divided(Communicator::world()), alone(Communicator::self());
-  for (const ZoneContent& content : divided.supply_all()) {
-    const auto& vertex_keys = content.vertex_keys;
+  for (const ZoneInput& input : divided.gather_all()) {
+    const auto& vertex_keys = input.vertex_keys;
     EXPECT_EQ(std::adjacent_find(vertex_keys.begin(), vertex_keys.end(), std::greater_equal<>()),
               vertex_keys.end());
     std::array<int, 3> count{};
-    for (std::size_t v = 0; v < content.vertex_keys.size(); ++v) {
-      const bool is_surface = v < content.problem.surface_points();
-      EXPECT_EQ(content.vertex_keys[v] < mesh::running_key(divided.problem.numbering.vertex_count),
-                is_surface);
+    for (std::size_t v = 0; v < input.vertex_keys.size(); ++v) {
+      const bool is_surface = v < input.problem.surface_points();
+      EXPECT_EQ(input.vertex_keys[v] < mesh::running_key(divided.problem.numbering.vertex_count), is_surface);
       Leaf leaf{};
       if (is_surface) {  // by brute force
-        const Vec3 g = divided.data.frame->to_grid(content.problem.points[v]);
-        for (const LeafOfBlock& other : all_leaves(*alone.data.tree)) {
+        const Vec3 g = divided.lattice.frame.to_grid(input.problem.points[v]);
+        for (const LeafOfBlock& other : all_leaves(alone.lattice.tree)) {
           const GridBox box = GridBox::of(other.cell);
           const auto within = [&](int axis) { return g[axis] >= box.low[axis] && g[axis] < box.high[axis]; };
           if (within(0) && within(1) && within(2)) leaf = {other.block, other.child};
         }
       } else {
-        leaf = leaf_of_lattice(*alone.data.tree, static_cast<std::int64_t>(content.vertex_keys[v]) -
-                                                     divided.problem.numbering.vertex_count);
+        leaf = leaf_of_lattice(alone.lattice.tree, static_cast<std::int64_t>(input.vertex_keys[v]) -
+                                                       divided.problem.numbering.vertex_count);
       }
-      const ZoneIndex zone = alone.data.zones->of(leaf.block, leaf.child);
-      const Owner expected = zone == content.zone  ? Owner::mine
-                             : zone < content.zone ? Owner::lower
-                                                   : Owner::higher;
-      EXPECT_EQ(content.problem.owners[v], expected);
+      const ZoneIndex zone = alone.shell.zones.of(leaf.block, leaf.child);
+      const Owner expected = zone == input.zone  ? Owner::mine
+                             : zone < input.zone ? Owner::lower
+                                                 : Owner::higher;
+      EXPECT_EQ(input.problem.owners[v], expected);
       ++count[static_cast<int>(expected)];
     }
     EXPECT_GT(count[0], 0);
@@ -283,21 +285,21 @@ TEST(SupplyZones, tells_whose_each_vertex_is) {
   }
 }
 
-TEST(SupplyZones, brings_the_same_on_any_number_of_ranks) {
+TEST(GatherZoneInputs, brings_the_same_on_any_number_of_ranks) {
   Divided divided(Communicator::world()), alone(Communicator::self());
-  std::map<ZoneIndex, ZoneContent> expected;
-  for (ZoneContent& content : alone.supply_all()) expected.emplace(content.zone, content);
-  for (const ZoneContent& content : divided.supply_all()) {
-    const ZoneContent& same = expected.at(content.zone);
-    EXPECT_EQ(content.vertex_keys, same.vertex_keys);
-    EXPECT_EQ(content.problem.points, same.problem.points);
-    EXPECT_EQ(content.problem.owners, same.problem.owners);
-    EXPECT_EQ(content.problem.triangles, same.problem.triangles);
-    EXPECT_EQ(content.problem.regions, same.problem.regions);
-    EXPECT_EQ(content.problem.front, same.problem.front);
-    EXPECT_EQ(content.dimension, same.dimension);
-    EXPECT_EQ(content.entity, same.entity);
-    EXPECT_EQ(content.face, same.face);
+  std::map<ZoneIndex, ZoneInput> expected;
+  for (ZoneInput& input : alone.gather_all()) expected.emplace(input.zone, input);
+  for (const ZoneInput& input : divided.gather_all()) {
+    const ZoneInput& same = expected.at(input.zone);
+    EXPECT_EQ(input.vertex_keys, same.vertex_keys);
+    EXPECT_EQ(input.problem.points, same.problem.points);
+    EXPECT_EQ(input.problem.owners, same.problem.owners);
+    EXPECT_EQ(input.problem.triangles, same.problem.triangles);
+    EXPECT_EQ(input.problem.regions, same.problem.regions);
+    EXPECT_EQ(input.problem.front, same.problem.front);
+    EXPECT_EQ(input.dimension, same.dimension);
+    EXPECT_EQ(input.entity, same.entity);
+    EXPECT_EQ(input.face, same.face);
   }
 }
 

@@ -152,22 +152,22 @@ struct Cut {
       if (lattice.tree.leaf_count(b) == 8) blocks[zones.of(b, 0)] = b;
     }
   }
-  void give(BlockIndex b, int child, ZoneIndex to) {
-    zones.give({lattice.tree.number(b), child, GridBox::of(lattice.tree.leaf(b, child)), to});
+  void reassign(BlockIndex b, int child, ZoneIndex to) {
+    zones.reassign({lattice.tree.number(b), child, GridBox::of(lattice.tree.leaf(b, child)), to});
   }
   Tree lattice;
   Zones zones;
   std::array<BlockIndex, 4> blocks{};
 };
 
-TEST(Zones, give_leaves_away) {
+TEST(Zones, reassign_leaves) {
   Cut cut;
   Zones& zones = cut.zones;
   const auto [a, b, c, d] = cut.blocks;
-  cut.give(b, 5, 0);
-  cut.give(b, 2, 2);
-  cut.give(a, 7, 2);
-  cut.give(b, 2, 0);  // a second time counts
+  cut.reassign(b, 5, 0);
+  cut.reassign(b, 2, 2);
+  cut.reassign(a, 7, 2);
+  cut.reassign(b, 2, 0);  // a second time counts
   EXPECT_EQ(zones.of(b, 5), 0);
   EXPECT_EQ(zones.of(b, 2), 0);
   EXPECT_EQ(zones.of(a, 7), 2);
@@ -181,12 +181,12 @@ TEST(Zones, give_leaves_away) {
   EXPECT_TRUE(zones.has(0, b) && zones.has(1, b) && !zones.has(2, b));
 }
 
-TEST(Zones, merge_blocks_and_given_leaves) {
+TEST(Zones, merge_blocks_and_reassigned_leaves) {
   Cut cut;
   Zones& zones = cut.zones;
   const auto [a, b, c, d] = cut.blocks;
-  cut.give(a, 3, 2);
-  cut.give(c, 4, 1);
+  cut.reassign(a, 3, 2);
+  cut.reassign(c, 4, 1);
   zones.merge(2, 0);
   EXPECT_EQ(zones.of(a, 3), 0);
   EXPECT_EQ(zones.of(c, 0), 0);

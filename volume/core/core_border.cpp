@@ -1,6 +1,9 @@
 #include "volume/core/core_border.hpp"
 
+#include "parallel/communication/collective_error.hpp"
+
 #include <algorithm>
+#include <utility>
 
 namespace aeroloom::volume {
 
@@ -20,30 +23,27 @@ bool may_be_beside_core(const LeafSurroundings& around, const CoreLeaves& core) 
   return found;
 }
 
-}  // namespace
-
-ShellShare find_shell(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares,
-                      BlockPoints points) {
-  ShellShare share;
-  BlockPoints& kept = share.points;
-  kept.first = share.borders.first = points.first;
+/// Of all points keeps those of the shell, and finds the border.
+void find_shell(const LatticeTree& tree, const BlockPoints& points, LocalShell& shell) {
+  BlockPoints& kept = shell.points;
+  kept.first = shell.borders.first = points.first;
   kept.starts.push_back(0);
-  share.borders.starts.push_back(0);
-  CoreCells cells(tree, core, squares);
+  shell.borders.starts.push_back(0);
+  CoreCells cells(tree, shell.core, shell.squares);
   const BlockIndex last = points.last();
   for (BlockIndex b = points.first; b < last; ++b) {
     const std::int64_t begin = points.starts[b - points.first], end = points.starts[b - points.first + 1];
-    const std::uint8_t leaves = core.of(b);
+    const std::uint8_t leaves = shell.core.of(b);
     std::uint8_t deep = 0;
     std::uint16_t inner_cells = 0, border_cells = 0;
-    const bool all_core = leaves != 0 && !core.is_beside_shell(b);
+    const bool all_core = leaves != 0 && !shell.core.is_beside_shell(b);
     if (!all_core && (begin != end || leaves != 0)) cells.move_to(b);
     if (all_core) {
       deep = leaves;
       inner_cells = static_cast<std::uint16_t>(cells_per_leaf * __builtin_popcount(leaves));
     } else if (leaves != 0) {
       cells.make_here();
-      share.borders.triangles.insert(share.borders.triangles.end(), cells.borders().begin(),
+      shell.borders.triangles.insert(shell.borders.triangles.end(), cells.borders().begin(),
                                      cells.borders().end());
       inner_cells =
           static_cast<std::uint16_t>(std::count_if(cells.cells().begin(), cells.cells().end(),
@@ -54,7 +54,7 @@ ShellShare find_shell(const LatticeTree& tree, const CoreLeaves& core, const Cor
       }
     }
     if (!all_core && begin != end) {
-      const bool all_shell = leaves == 0 && !may_be_beside_core(cells.around(), core);
+      const bool all_shell = leaves == 0 && !may_be_beside_core(cells.around(), shell.core);
       for (std::int64_t i = begin; i < end; ++i) {
         const HalfPlace leaf = cells.around().place_of(points.slots[i] / slots_per_leaf);
         const int(&place)[3] = slot_places[points.slots[i] % slots_per_leaf];
@@ -67,12 +67,32 @@ ShellShare find_shell(const LatticeTree& tree, const CoreLeaves& core, const Cor
       }
     }
     kept.starts.push_back(static_cast<std::int64_t>(kept.points.size()));
-    share.borders.starts.push_back(static_cast<std::int64_t>(share.borders.triangles.size()));
-    share.deep.push_back(deep);
-    share.inner_cells.push_back(inner_cells);
-    share.border_cells.push_back(border_cells);
+    shell.borders.starts.push_back(static_cast<std::int64_t>(shell.borders.triangles.size()));
+    shell.deep.push_back(deep);
+    shell.inner_cells.push_back(inner_cells);
+    shell.border_cells.push_back(border_cells);
   }
-  return share;
+}
+
+}  // namespace
+
+LocalShell make_local_shell(const parallel::Communicator& communicator, const Lattice& lattice,
+                            std::unique_ptr<const NearSurface> surface, std::vector<BlockChange> changes) {
+  using parallel::ScopedCpu;
+  BlockPoints points;
+  parallel::agree(communicator, [&] {
+    const ScopedCpu task(ScopedCpu::As::task);
+    points =
+        make_points(lattice, changes, lattice.tree.first(), lattice.tree.last(), *surface, lattice.radii);
+    surface.reset();
+  });
+  CoreLeaves core(communicator, lattice.tree, changes, points);
+  const ScopedCpu task(ScopedCpu::As::task);
+  const auto count = static_cast<std::int64_t>(points.points.size());
+  LocalShell shell{
+      std::move(changes), CoreSquares(lattice.frame), std::move(core), count, {}, {}, {}, {}, {}};
+  find_shell(lattice.tree, points, shell);
+  return shell;
 }
 
 }  // namespace aeroloom::volume

@@ -1,9 +1,12 @@
-/// The points of the shell and the border of the core, which zones are given where there is a core.
+/// The shell in a rank's blocks: its points, and the border of the core, behind which a table tells the
+/// tetrahedra.
 #pragma once
 
 #include "volume/core/core_cells.hpp"
+#include "volume/core/core_squares.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -21,9 +24,13 @@ struct BlockBorders {
   }
 };
 
-/// The shell and the core in this rank's blocks.
-struct ShellShare {
-  BlockPoints points;  ///< those of the shell
+/// The shell and the core in this rank's blocks. Immutable: where retries change points, another one is made.
+struct LocalShell {
+  std::vector<BlockChange> changes;  ///< per block: what the points are made with
+  CoreSquares squares;
+  CoreLeaves core;
+  std::int64_t lattice_points = 0;  ///< with those of the core
+  BlockPoints points;               ///< those of the shell
   BlockBorders borders;
   std::vector<std::uint8_t> deep;  ///< per block: core leaves without points of the shell, a bit each
   /// Per block: cells of the core without points of the shell, and those with some.
@@ -36,8 +43,9 @@ struct ShellShare {
   }
 };
 
-/// `points` are all those of this rank's blocks.
-ShellShare find_shell(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares,
-                      BlockPoints points);
+/// Makes the points of this rank's blocks, and tells core from shell. `surface` has the triangles within the
+/// search radii, and is let go once there are points. Collective.
+LocalShell make_local_shell(const parallel::Communicator& communicator, const Lattice& lattice,
+                            std::unique_ptr<const NearSurface> surface, std::vector<BlockChange> changes);
 
 }  // namespace aeroloom::volume

@@ -8,9 +8,9 @@ namespace aeroloom::volume {
 using mesh::RegionId;
 using parallel::ScopedCpu;
 
-CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
-                       const BlockPoints& points)
-    : _ghosts(communicator, source.tree), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
+CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const LatticeTree& tree,
+                       std::span<const BlockChange> changes, const BlockPoints& points)
+    : _ghosts(communicator, tree), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
   {
     const ScopedCpu task(ScopedCpu::As::task);
     for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
@@ -28,18 +28,26 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
   _ghosts.update(communicator, _present);
   {
     const ScopedCpu task(ScopedCpu::As::task);
-    choose(source, points);
+    choose(tree, changes, points);
   }
   _ghosts.update(communicator, _core);
-  shrink_until_stable(communicator, source.tree);
+  shrink_until_stable(communicator, tree);
   {
     const ScopedCpu task(ScopedCpu::As::task);
-    claim(source.tree);
+    claim(tree);
   }
   _ghosts.update(communicator, _claims);
   _regions.reserve(_ghosts.own_count());
   for (std::size_t i = 0; i < _ghosts.own_count(); ++i) _regions.push_back(_present[i].region);
   std::vector<Present>().swap(_present);
+}
+
+std::vector<BlockIndex> CoreLeaves::blocks_unlike(const CoreLeaves& other) const {
+  std::vector<BlockIndex> found;
+  for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
+    if (_core[i] != other._core[i]) found.push_back(_ghosts.first() + static_cast<BlockIndex>(i));
+  }
+  return found;
 }
 
 /// Whether all leaves around have one size and all their points in a region: nothing is to be looked for
@@ -60,25 +68,26 @@ bool CoreLeaves::has_all_around(const LeafSurroundings& around, RegionId region)
 }
 
 /// Leaves that have all their points, clear of the surface.
-void CoreLeaves::choose(const LatticeSource& source, const BlockPoints& points) {
-  LeafSurroundings around(source.tree);
+void CoreLeaves::choose(const LatticeTree& tree, std::span<const BlockChange> changes,
+                        const BlockPoints& points) {
+  LeafSurroundings around(tree);
   for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
     const BlockIndex b = _ghosts.first() + static_cast<BlockIndex>(i);
     const RegionId region = _present[i].region;
-    const auto candidates = static_cast<std::uint8_t>(points.clear_leaves[i] & ~source.changes[b].shell);
+    const auto candidates = static_cast<std::uint8_t>(points.clear_leaves[i] & ~changes[b].shell);
     if (region == mesh::no_region || candidates == 0) continue;
     around.move_to(b);
     if (has_all_around(around, region)) {
-      _core[i] = candidates & source.tree.all_leaves(b);
+      _core[i] = candidates & tree.all_leaves(b);
       continue;
     }
     const auto exists = [&](const HalfPlace& at) {
       const std::int64_t number = around.number(at);
       if (number < 0) return false;
-      const Present& has = _present[_ghosts.place(source.tree.index(number / slots_per_block))];
+      const Present& has = _present[_ghosts.place(tree.index(number / slots_per_block))];
       return has.region == region && (has.slots >> number % slots_per_block & 1) != 0;
     };
-    for (int child = 0; child < source.tree.leaf_count(b); ++child) {
+    for (int child = 0; child < tree.leaf_count(b); ++child) {
       if ((candidates >> child & 1) && around.all_points_of(around.place_of(child), exists))
         _core[i] |= static_cast<std::uint8_t>(1U << child);
     }

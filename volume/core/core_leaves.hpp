@@ -27,18 +27,16 @@ namespace aeroloom::volume {
 /// Of this rank's blocks and of those that touch them. The same on any number of ranks.
 class CoreLeaves {
 public:
-  /// `points` are all those of this rank's blocks. Collective.
-  CoreLeaves(const parallel::Communicator& communicator, const LatticeSource& source,
-             const BlockPoints& points);
+  /// `points` are all those of this rank's blocks, `changes` those of all blocks. Collective.
+  CoreLeaves(const parallel::Communicator& communicator, const LatticeTree& tree,
+             std::span<const BlockChange> changes, const BlockPoints& points);
 
   /// The core leaves of a block, a bit each.
   std::uint8_t of(BlockIndex b) const { return _core[_ghosts.place(b)]; }
   bool is_core(const Leaf& leaf) const { return of(leaf.block) >> leaf.child & 1; }
-  /// Core leaves of this rank's blocks, along the curve.
-  std::span<const std::uint8_t> own() const { return std::span(_core).first(_ghosts.own_count()); }
+  /// This rank's blocks whose core is another than in `other`, of the same lattice.
+  std::vector<BlockIndex> blocks_unlike(const CoreLeaves& other) const;
   const GhostBlocks& ghosts() const { return _ghosts; }
-  /// Indices of blocks have changed.
-  void follow(const LatticeTree& tree) { _ghosts.follow(tree); }
   /// The region of the core leaves of one of this rank's blocks.
   mesh::RegionId region(BlockIndex b) const { return _regions[_ghosts.place(b)]; }
 
@@ -58,7 +56,7 @@ public:
 
 private:
   bool has_shell_at(const Leaf& leaf, const LeafSurroundings& around, const HalfPlace& at) const;
-  void choose(const LatticeSource& source, const BlockPoints& points);
+  void choose(const LatticeTree& tree, std::span<const BlockChange> changes, const BlockPoints& points);
   bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
   bool is_beside_shell(const LeafSurroundings& around) const;
   void shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree);

@@ -1,4 +1,4 @@
-/// Whether zones fit together, and where they do not; what is done about it is in zone_ladder.hpp.
+/// Whether zones fit together, and where they do not; what is done about it is in retry_policy.hpp.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"

@@ -44,12 +44,12 @@ struct CorePoint {
 /// Points of the lattice and what pieces call them.
 class CoreNaming {
 public:
-  explicit CoreNaming(const CoreSource& source) : _source(source) {}
-  const LatticeTree& tree() const { return _source.lattice.tree; }
+  /// `changes` are those of all blocks. Refers to both.
+  CoreNaming(const Lattice& lattice, std::span<const BlockChange> changes)
+      : _lattice(lattice), _changes(changes) {}
+  const LatticeTree& tree() const { return _lattice.tree; }
   geometry::Vec3 place(std::int64_t number) const {
-    const LeafNumber leaf = leaf_number_of_lattice(number);
-    if (tree().knows(leaf / 8))
-      return lattice_point(_source.lattice, tree().leaf_of(leaf), static_cast<int>(number % slots_per_leaf));
+    if (tree().has(leaf_number_of_lattice(number) / 8)) return lattice_point(_lattice, _changes, number);
     return std::lower_bound(_arrived.begin(), _arrived.end(), number,
                             [](const CorePoint& p, std::int64_t wanted) { return p.number < wanted; })
         ->point;
@@ -68,7 +68,7 @@ public:
     piece.vertex_dimension.push_back(mesh::CadDimension::region);
     piece.vertex_entity.push_back(region);
   }
-  mesh::SharedVertexKey vertex_key(std::int64_t number) const { return _source.finder.vertex_key_of(number); }
+  mesh::SharedVertexKey vertex_key(std::int64_t number) const { return _lattice.vertex_key(number); }
 
 private:
   using Wanted = std::pair<parallel::Rank, std::int64_t>;
@@ -88,7 +88,8 @@ private:
     return wanted;
   }
 
-  const CoreSource& _source;
+  const Lattice& _lattice;
+  std::span<const BlockChange> _changes;
   std::vector<CorePoint> _arrived;
 };
 

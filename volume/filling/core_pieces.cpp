@@ -237,14 +237,15 @@ std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
 /// Makes and schedules.
 class CoreMaker {
 public:
-  CoreMaker(const parallel::Communicator& communicator, const CoreSource& source,
+  CoreMaker(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
             std::map<ZoneIndex, ZoneResult>& results)
       : _communicator(communicator),
-        _source(source),
+        _lattice(lattice),
+        _shell(shell),
         _results(results),
-        _naming(source),
-        _ranges(communicator, source.lattice.tree, source.core, source.share, source.piece_tets),
-        _cells(source.lattice.tree, source.core, source.squares) {}
+        _naming(lattice, shell.local.changes),
+        _ranges(communicator, lattice.tree, shell),
+        _cells(lattice.tree, shell.local.core, shell.local.squares) {}
 
   CoreMesh run() {
     std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
@@ -255,7 +256,7 @@ public:
       return a.target != b.target ? a.target < b.target : a.region < b.region;
     });
     auto at = parcels.begin();
-    while (at != parcels.end() && at->target < _source.zones.count()) {
+    while (at != parcels.end() && at->target < _shell.zones.count()) {
       const auto end = end_of_group(at, parcels.end());
       const auto [piece, side] = piece_in(at->region, _results.at(at->target));
       extend_piece(_naming, std::span(at, end), *side, *piece);
@@ -292,7 +293,7 @@ private:
     };
     std::vector<ZoneRank> rows;
     for (const auto& [zone, result] : _results) rows.push_back({zone, _communicator.rank()});
-    std::vector<parallel::Rank> ranks(_source.zones.count(), -1);
+    std::vector<parallel::Rank> ranks(_shell.zones.count(), -1);
     for (const ZoneRank& row : _communicator.all_gather_items<ZoneRank>(rows)) ranks[row.zone] = row.rank;
     return ranks;
   }
@@ -301,21 +302,21 @@ private:
   std::vector<CoreParcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
     const ScopedCpu task(ScopedCpu::As::task);
     std::vector<CoreParcel> parcels;
-    const GhostBlocks& ghosts = _source.core.ghosts();
+    const GhostBlocks& ghosts = _shell.local.core.ghosts();
     for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
       const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
-      if (_source.core.of(b) == 0) continue;
+      if (_shell.local.core.of(b) == 0) continue;
       const std::int32_t range = _ranges.of(b);
       const bool goes = range >= 0 && _ranges.rank(range) != _communicator.rank();
-      if (!goes && _source.share.border_cells[i] == 0) continue;
-      const RegionId region = _source.core.region(b);
+      if (!goes && _shell.local.border_cells[i] == 0) continue;
+      const RegionId region = _shell.local.core.region(b);
       _cells.make(b);
       for (const CoreCell& cell : _cells.cells()) {
         if (cell.of_shell != 0) {
           const ZoneIndex zone = lowest_zone(cell);
           parcels.push_back({zone, ranks_of_zones[zone], region, 0, cell.points});
         } else if (goes) {
-          parcels.push_back({_source.zones.count() + range, _ranges.rank(range), region,
+          parcels.push_back({_shell.zones.count() + range, _ranges.rank(range), region,
                              _ranges.shared_of(b, cell), cell.points});
         }
       }
@@ -324,11 +325,10 @@ private:
   }
 
   ZoneIndex lowest_zone(const CoreCell& cell) const {
-    ZoneIndex lowest = _source.zones.count();
+    ZoneIndex lowest = _shell.zones.count();
     for (int k = 0; k < 4; ++k) {
       if (cell.of_shell >> k & 1)
-        lowest =
-            std::min(lowest, _source.finder.zone_of(leaf_of_lattice(_source.lattice.tree, cell.points[k])));
+        lowest = std::min(lowest, _shell.zones.of(leaf_of_lattice(_lattice.tree, cell.points[k])));
     }
     return lowest;
   }
@@ -346,7 +346,7 @@ private:
 
   /// Of the ranges that are this rank's; what others have of them comes later along the curve.
   void make_pieces(std::span<const CoreParcel> arrived) {
-    const GhostBlocks& ghosts = _source.core.ghosts();
+    const GhostBlocks& ghosts = _shell.local.core.ghosts();
     std::size_t next = 0;
     for (std::size_t i = 0; i < ghosts.own_count();) {
       const std::size_t first = i, made = _mesh.pieces.size();
@@ -357,15 +357,15 @@ private:
       for (; i < ghosts.own_count(); ++i) {
         const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
         if (_ranges.of(b) != range) break;
-        if (!is_mine || _source.share.inner_cells[i] == 0) continue;
+        if (!is_mine || _shell.local.inner_cells[i] == 0) continue;
         _cells.make(b);
-        std::vector<NumberedCell>& of_region = cells[_source.core.region(b)];
+        std::vector<NumberedCell>& of_region = cells[_shell.local.core.region(b)];
         for (const CoreCell& cell : _cells.cells()) {
           if (cell.of_shell == 0) of_region.push_back({cell.points, _ranges.shared_of(b, cell)});
         }
       }
       if (!is_mine) continue;
-      for (; next < arrived.size() && arrived[next].target == _source.zones.count() + range; ++next)
+      for (; next < arrived.size() && arrived[next].target == _shell.zones.count() + range; ++next)
         cells[arrived[next].region].push_back({arrived[next].points, arrived[next].shared});
       for (auto& [region, of_region] : cells) {
         if (of_region.empty()) continue;
@@ -380,7 +380,8 @@ private:
   }
 
   const parallel::Communicator& _communicator;
-  const CoreSource& _source;
+  const Lattice& _lattice;
+  const Shell& _shell;
   std::map<ZoneIndex, ZoneResult>& _results;
   CoreNaming _naming;
   CoreRanges _ranges;
@@ -390,9 +391,9 @@ private:
 
 }  // namespace
 
-CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
+CoreMesh make_core(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
                    std::map<ZoneIndex, ZoneResult>& results) {
-  return CoreMaker(communicator, source, results).run();
+  return CoreMaker(communicator, lattice, shell, results).run();
 }
 
 }  // namespace aeroloom::volume

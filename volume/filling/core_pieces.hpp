@@ -4,26 +4,15 @@
 #pragma once
 
 #include "parallel/observation/timers.hpp"
-#include "volume/core/core_border.hpp"
 #include "volume/filling/zone_piece.hpp"
+#include "volume/lattice/lattice.hpp"
+#include "volume/zones/shell.hpp"
 
 #include <cstdint>
 #include <map>
-#include <span>
 #include <vector>
 
 namespace aeroloom::volume {
-
-/// Everything by which the core's cells are made and scheduled.
-struct CoreSource {
-  const LatticeSource& lattice;
-  const CoreLeaves& core;
-  const CoreSquares& squares;
-  const ShellShare& share;
-  const Zones& zones;
-  ZoneFinder finder;
-  std::int64_t piece_tets;  ///< of a piece of the core
-};
 
 /// A piece of the core, the place of its range along the curve in its id.
 struct CoreMesh {
@@ -33,7 +22,7 @@ struct CoreMesh {
 
 /// Adds to the zones' results what is theirs; a zone without piece in a region gets one. Collective. Throws
 /// std::logic_error where a tetrahedron is flat or inverted.
-CoreMesh make_core(const parallel::Communicator& communicator, const CoreSource& source,
+CoreMesh make_core(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
                    std::map<ZoneIndex, ZoneResult>& results);
 
 }  // namespace aeroloom::volume

@@ -1,7 +1,5 @@
 #include "volume/filling/core_ranges.hpp"
 
-#include "volume/zones/zones.hpp"
-
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -10,15 +8,15 @@
 namespace aeroloom::volume {
 
 CoreRanges::CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree,
-                       const CoreLeaves& core, const ShellShare& share, std::int64_t piece_tets)
-    : _tree(tree), _core(core), _range(core.ghosts().count(), -1), _deep(share.deep) {
-  const GhostBlocks& ghosts = core.ghosts();
-  const std::vector<std::uint16_t>& weights = share.inner_cells;
+                       const Shell& shell)
+    : _tree(tree), _core(shell.local.core), _range(_core.ghosts().count(), -1), _deep(shell.local.deep) {
+  const GhostBlocks& ghosts = _core.ghosts();
+  const std::vector<std::uint16_t>& weights = shell.local.inner_cells;
   const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
   const std::vector<std::int64_t> all = communicator.all_gather_items<std::int64_t>(std::array{mine});
   const std::int64_t total = std::accumulate(all.begin(), all.end(), std::int64_t{0});
   std::int64_t before = std::accumulate(all.begin(), all.begin() + communicator.rank(), std::int64_t{0});
-  _count = wanted_zones(static_cast<double>(total), piece_tets);
+  _count = wanted_zones(static_cast<double>(total), shell.core_piece_tets);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (total > 0) _range[i] = static_cast<std::int32_t>(std::min(before, total - 1) * _count / total);
     before += weights[i];

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "parallel/observation/timers.hpp"
-#include "volume/core/core_border.hpp"
+#include "volume/zones/shell.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -13,9 +13,8 @@ namespace aeroloom::volume {
 /// alone, and the same on any number of ranks.
 class CoreRanges {
 public:
-  /// Refers to `tree`, `core` and `share`. Collective.
-  CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree, const CoreLeaves& core,
-             const ShellShare& share, std::int64_t piece_tets);
+  /// Refers to `tree` and `shell`. Collective.
+  CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree, const Shell& shell);
 
   /// The range of one of this rank's blocks; -1 where there is no core at all.
   std::int32_t of(BlockIndex own) const { return _range[_core.ghosts().place(own)]; }

@@ -1,4 +1,4 @@
-/// The ladder for zones that cannot be filled, and how often zones may be filled again.
+/// What retries do with zones that cannot be filled, and how often zones may be filled again.
 #pragma once
 
 #include "parallel/communication/collective_error.hpp"
@@ -10,13 +10,13 @@
 
 namespace aeroloom::volume {
 
-/// A rung of the ladder: what is done differently to get a stubborn zone filled. Each makes its halo wider.
-struct Rung {
+/// What a retry does differently to get a stubborn zone filled. Each makes its halo wider.
+struct RetryStep {
   const char* name;
   bool other_points;     ///< or only this zone is filled again, and the mesh stays what it was to be
   std::uint8_t farther;  ///< see BlockChange
 };
-inline constexpr Rung ladder[] = {
+inline constexpr RetryStep retry_steps[] = {
     {"a wider halo", false, 0},
     {"a wider halo, other perturbations of its points", true, 0},
     {"a wider halo, points farther off the surface", true, 1},

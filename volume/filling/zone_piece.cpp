@@ -15,8 +15,8 @@ namespace {
 
 class PieceMaker {
 public:
-  PieceMaker(const ZoneContent& content, const ZoneFilling& filling)
-      : _content(content), _filling(filling), _shared(content.problem.points.size(), 0) {
+  PieceMaker(const ZoneInput& input, const ZoneFilling& filling)
+      : _input(input), _filling(filling), _shared(input.problem.points.size(), 0) {
     mark_shared();
   }
 
@@ -25,7 +25,7 @@ public:
     Piece piece;
     piece.id = region;
     piece.region = region;
-    std::vector<LocalIndex> number(_content.problem.points.size() + _filling.added.size(), -1);
+    std::vector<LocalIndex> number(_input.problem.points.size() + _filling.added.size(), -1);
     std::size_t count = 0;
     for (std::size_t c = 0; c < owned.cells.size(); ++c) {
       if (owned.regions[c] != region) continue;
@@ -40,10 +40,10 @@ public:
       for (const LocalIndex v : owned.cells[c]) piece.cells.push_back(number[v]);
     }
     for (const std::int32_t t : owned.triangles) {
-      if (_content.problem.front[t] != region) continue;
-      for (const LocalIndex v : _content.problem.triangles[t]) piece.boundary.push_back(number[v]);
-      piece.triangle_face.push_back(_content.face[t]);
-      piece.triangle_patch.push_back(_content.patch[t]);
+      if (_input.problem.front[t] != region) continue;
+      for (const LocalIndex v : _input.problem.triangles[t]) piece.boundary.push_back(number[v]);
+      piece.triangle_face.push_back(_input.face[t]);
+      piece.triangle_patch.push_back(_input.patch[t]);
     }
     return piece;
   }
@@ -53,7 +53,7 @@ public:
     for (const Crossing& crossing : _filling.owned.crossings) {
       const int* corner = mesh::tetrahedron_faces[crossing.face];
       ZoneFace face{};
-      face.zone = _content.zone;
+      face.zone = _input.zone;
       face.region = _filling.owned.regions[crossing.cell];
       std::array<LocalIndex, 3> v;
       for (int k = 0; k < 3; ++k) v[k] = _filling.owned.cells[crossing.cell][corner[k]];
@@ -73,10 +73,10 @@ public:
 private:
   /// `number` has the piece's vertices by those of the zone.
   void note_core_side(RegionId region, const std::vector<LocalIndex>& number, CoreSide& side) const {
-    for (std::size_t v = _content.problem.surface_points(); v < given(); ++v) {
+    for (std::size_t v = _input.problem.surface_points(); v < given(); ++v) {
       if (number[v] < 0) continue;
       if (side.lattice.empty()) side.first_lattice = number[v];
-      side.lattice.push_back(static_cast<std::int64_t>(_content.vertex_keys[v]) - _content.surface_vertices);
+      side.lattice.push_back(static_cast<std::int64_t>(_input.vertex_keys[v]) - _input.surface_vertices);
     }
     for (const Crossing& border : _filling.owned.borders) {
       if (_filling.owned.regions[border.cell] != region) continue;
@@ -86,13 +86,13 @@ private:
     }
   }
 
-  std::size_t given() const { return _content.problem.points.size(); }
+  std::size_t given() const { return _input.problem.points.size(); }
   mesh::SharedVertexKey vertex_key(LocalIndex v) const {
-    if (static_cast<std::size_t>(v) < given()) return _content.vertex_keys[v];
-    return mesh::added_key(_content.zone, static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
+    if (static_cast<std::size_t>(v) < given()) return _input.vertex_keys[v];
+    return mesh::added_key(_input.zone, static_cast<std::int64_t>(v) - static_cast<std::int64_t>(given()));
   }
   LeafNumber leaf(LocalIndex v) const {
-    return static_cast<std::size_t>(v) < given() ? _content.leaves[v] : -1;
+    return static_cast<std::size_t>(v) < given() ? _input.leaves[v] : -1;
   }
 
   /// Vertices on faces to other zones, and where triangles of several regions meet.
@@ -105,7 +105,7 @@ private:
       }
     }
     for (const LocalIndex v : _filling.owned.touched) _shared[v] = 1;
-    const ZoneProblem& problem = _content.problem;
+    const ZoneProblem& problem = _input.problem;
     std::vector<RegionId> first(problem.surface_points(), mesh::no_region);
     for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
       for (const RegionId region : {problem.front[t], problem.back[t]}) {
@@ -120,7 +120,7 @@ private:
 
   /// Numbers the vertices that are used, in their order.
   void add_vertices(RegionId region, std::vector<LocalIndex>& number, Piece& piece) const {
-    const std::size_t surface_points = _content.problem.surface_points();
+    const std::size_t surface_points = _input.problem.surface_points();
     const auto used = static_cast<std::size_t>(std::count(number.begin(), number.end(), 0));
     piece.coordinates.reserve(3 * used);
     piece.vertex_dimension.reserve(used);
@@ -129,31 +129,31 @@ private:
     for (std::size_t v = 0; v < number.size(); ++v) {
       if (number[v] < 0) continue;
       number[v] = next++;
-      const Vec3 p = v < given() ? _content.problem.points[v] : _filling.added[v - given()];
+      const Vec3 p = v < given() ? _input.problem.points[v] : _filling.added[v - given()];
       piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
       const bool on_surface = v < surface_points;
-      piece.vertex_dimension.push_back(on_surface ? _content.dimension[v] : mesh::CadDimension::region);
-      piece.vertex_entity.push_back(on_surface ? _content.entity[v] : region);
+      piece.vertex_dimension.push_back(on_surface ? _input.dimension[v] : mesh::CadDimension::region);
+      piece.vertex_entity.push_back(on_surface ? _input.entity[v] : region);
       if (v >= given() || !_shared[v]) continue;
       piece.shared_vertices.push_back(number[v]);
-      piece.shared_keys.push_back(_content.vertex_keys[v]);
+      piece.shared_keys.push_back(_input.vertex_keys[v]);
     }
   }
 
-  const ZoneContent& _content;
+  const ZoneInput& _input;
   const ZoneFilling& _filling;
   std::vector<std::uint8_t> _shared;  // per given point
 };
 
 }  // namespace
 
-ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling) {
+ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling) {
   ZoneResult result;
-  result.zone = content.zone;
+  result.zone = input.zone;
   std::vector<RegionId> regions = filling.owned.regions;
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  const PieceMaker maker(content, filling);
+  const PieceMaker maker(input, filling);
   for (const RegionId region : regions)
     result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));
   result.faces = maker.faces();

@@ -3,7 +3,7 @@
 
 #include "mesh/data/distributed_mesh.hpp"
 #include "volume/filling/zone_in_child.hpp"
-#include "volume/filling/zone_supply.hpp"
+#include "volume/filling/zone_inputs.hpp"
 
 #include <array>
 #include <cstdint>
@@ -29,10 +29,10 @@ struct ZoneFace {
 };
 
 /// A core leaf beside a triangle of the border that a zone's mesh does not have.
-struct LeavingLeaf {
+struct DemotedLeaf {
   LeafNumber leaf;
   ZoneIndex zone;
-  static constexpr auto fields() { return std::tuple(&LeavingLeaf::leaf, &LeavingLeaf::zone); }
+  static constexpr auto fields() { return std::tuple(&DemotedLeaf::leaf, &DemotedLeaf::zone); }
 };
 
 /// Where a piece meets the core.
@@ -58,6 +58,6 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<mesh::Piece> core,
                                     ZoneIndex zones);
 
-ZoneResult make_pieces(const ZoneContent& content, const ZoneFilling& filling);
+ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling);
 
 }  // namespace aeroloom::volume

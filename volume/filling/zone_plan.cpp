@@ -14,14 +14,14 @@ namespace {
 /// Triangles by the block that their centre lies in, of a range of blocks.
 class Centres {
 public:
-  Centres(const ZoneStore& store) : _first(store.points.first), _starts(store.points.last() - _first + 1, 0) {
+  explicit Centres(const Lattice& lattice)
+      : _first(lattice.tree.first()), _starts(lattice.tree.last() - _first + 1, 0) {
     std::vector<BlockIndex> blocks;
-    blocks.reserve(store.triangles.size());
-    for (const SurfaceTriangle& t : store.triangles) {
+    blocks.reserve(lattice.triangles.size());
+    for (const SurfaceTriangle& t : lattice.triangles) {
       const geometry::Vec3 centre = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
-      // Of a large triangle beside small blocks the centre may lie in one that is not known, so not own.
-      blocks.push_back(
-          store.lattice.tree.any_at(store.lattice.frame.cell_at(store.lattice.frame.to_grid(centre))));
+      // Of a large triangle beside small blocks the centre may lie in one that is not local, so not own.
+      blocks.push_back(lattice.tree.any_at(lattice.frame.cell_at(lattice.frame.to_grid(centre))));
       if (is_own(blocks.back())) ++_starts[blocks.back() - _first + 1];
     }
     std::partial_sum(_starts.begin(), _starts.end(), _starts.begin());
@@ -47,57 +47,59 @@ private:
 /// Finds what zones know of a rank's blocks.
 class Finding {
 public:
-  Finding(const ZoneStore& store, std::span<const ZoneIndex> zones, std::span<const double> widths)
-      : _store(store), _is_wanted(widths.size(), 0) {
+  Finding(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
+          std::span<const double> widths)
+      : _lattice(lattice), _shell(shell), _is_wanted(widths.size(), 0) {
     for (const ZoneIndex z : zones) _is_wanted[z] = 1;
-    const Centres centres(store);
-    ZonesAround around(store.lattice.frame, store.lattice.tree, store.lattice.table, store.finder.zones(),
-                       widths);
-    for (BlockIndex b = store.points.first; b < store.points.last(); ++b) {
-      if (store.points.count(b) == 0 && store.borders.of(b).empty() && centres.of(b).empty()) continue;
+    const Centres centres(lattice);
+    const BlockPoints& points = shell.local.points;
+    ZonesAround around(lattice, shell.zones, widths);
+    for (BlockIndex b = points.first; b < points.last(); ++b) {
+      if (points.count(b) == 0 && shell.local.borders.of(b).empty() && centres.of(b).empty()) continue;
       around.move_to(b);
       for (const NearZone& near : around.zones()) {
         if (!_is_wanted[near.zone]) continue;
         look_at(near, b);
         for (const std::int32_t t : centres.of(b)) {
-          if (near.knows(grid_box(store.lattice.frame, store.triangles[t].points)))
+          if (near.knows(grid_box(lattice.frame, lattice.triangles[t].points)))
             found.triangles.push_back({near.zone, t});
         }
       }
     }
   }
 
-  ZoneShipment found;
+  SendPlan found;
 
 private:
   void look_at(const NearZone& near, BlockIndex b) {
-    const LatticeTree& tree = _store.lattice.tree;
-    ZoneShipment::OfBlock want{near.zone, b, 0, 0};
+    const LatticeTree& tree = _lattice.tree;
+    SendPlan::OfBlock want{near.zone, b, 0, 0};
     std::uint8_t own = 0;
     for (int child = 0; child < tree.leaf_count(b); ++child) {
-      const bool is_own = _store.finder.zone_of({b, child}) == near.zone;
+      const bool is_own = _shell.zones.of(b, child) == near.zone;
       own |= static_cast<std::uint8_t>(is_own << child);
       if (is_own || near.knows(GridBox::of(tree.leaf(b, child))))
         want.leaves |= static_cast<std::uint8_t>(1U << child);
     }
     if (want.leaves == 0) return;
-    const BlockPoints& points = _store.points;
+    const BlockPoints& points = _shell.local.points;
     const std::int64_t first = points.starts[b - points.first];
     for (std::int64_t i = 0; i < points.count(b); ++i) {
       const int child = points.slots[first + i] / slots_per_leaf;
       if (!(want.leaves >> child & 1)) continue;
-      const geometry::Vec3 place = _store.lattice.frame.to_grid(points.points[first + i]);
+      const geometry::Vec3 place = _lattice.frame.to_grid(points.points[first + i]);
       if ((own >> child & 1) || near.knows({place, place})) want.points |= std::uint64_t{1} << i;
     }
-    if (want.points != 0 || !_store.borders.of(b).empty()) found.blocks.push_back(want);
+    if (want.points != 0 || !_shell.local.borders.of(b).empty()) found.blocks.push_back(want);
   }
 
-  const ZoneStore& _store;
+  const Lattice& _lattice;
+  const Shell& _shell;
   std::vector<std::uint8_t> _is_wanted;  // per zone
 };
 
 /// The sum over all ranks of what they have of each zone, by zone. Collective.
-std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const ZoneShipment& mine,
+std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const SendPlan& mine,
                              std::span<const ZoneIndex> zones, std::size_t all_zones) {
   std::vector<std::int64_t> points(all_zones, 0), triangles(all_zones, 0);
   for (const auto& want : mine.blocks) points[want.zone] += __builtin_popcountll(want.points);
@@ -131,7 +133,7 @@ std::vector<Assignment> schedule_zones(const std::vector<ZoneLoad>& loads, int r
 /// Items go to their batches, by zone, in their order within one.
 template <class Item, class Member>
 void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments,
-            std::vector<ZoneShipment>& batches, Member member) {
+            std::vector<SendPlan>& batches, Member member) {
   std::stable_sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.zone < b.zone; });
   for (const Item& item : items) (batches[assignments[item.zone].batch].*member).push_back(item);
   std::vector<Item>().swap(items);
@@ -139,12 +141,12 @@ void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments
 
 }  // namespace
 
-ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore& store,
+ZonePlan plan_zones(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
                     std::span<const ZoneIndex> zones, std::span<const double> widths) {
-  ZoneShipment mine;
+  SendPlan mine;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    mine = std::move(Finding(store, zones, widths).found);
+    mine = std::move(Finding(lattice, shell, zones, widths).found);
   });
   ZonePlan plan;
   plan.loads = add_up(communicator, mine, zones, widths.size());
@@ -152,9 +154,9 @@ ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore&
   std::size_t batches = 0;
   for (const ZoneLoad& load : plan.loads) batches = std::max(batches, assignments[load.zone].batch + 1);
   plan.batches.resize(batches);
-  divide(mine.blocks, assignments, plan.batches, &ZoneShipment::blocks);
-  divide(mine.triangles, assignments, plan.batches, &ZoneShipment::triangles);
-  for (ZoneShipment& batch : plan.batches) {
+  divide(mine.blocks, assignments, plan.batches, &SendPlan::blocks);
+  divide(mine.triangles, assignments, plan.batches, &SendPlan::triangles);
+  for (SendPlan& batch : plan.batches) {
     for (const Assignment& assignment : assignments) batch.ranks.push_back(assignment.rank);
   }
   return plan;

@@ -3,7 +3,7 @@
 
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
-#include "volume/filling/zone_supply.hpp"
+#include "volume/filling/zone_inputs.hpp"
 
 #include <span>
 #include <vector>
@@ -24,13 +24,13 @@ struct ZoneLoad {
 
 /// Zones that are to be filled.
 struct ZonePlan {
-  std::vector<ZoneLoad> loads;        ///< of all of them, by zone, the same on every rank
-  std::vector<ZoneShipment> batches;  ///< of what this rank has, batch after batch
+  std::vector<ZoneLoad> loads;    ///< of all of them, by zone, the same on every rank
+  std::vector<SendPlan> batches;  ///< of what this rank has, batch after batch
 };
 
 /// Finds what zones know of this rank's blocks, `widths[zone]` being that of their halo, and deals zones out,
 /// largest first, in batches of a few for each rank. Collective.
-ZonePlan plan_zones(const parallel::Communicator& communicator, const ZoneStore& store,
+ZonePlan plan_zones(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
                     std::span<const ZoneIndex> zones, std::span<const double> widths);
 
 }  // namespace aeroloom::volume

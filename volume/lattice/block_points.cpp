@@ -18,7 +18,7 @@ namespace {
 /// The size of boundary triangles counts in the clearance as far as it is within these bounds, in local
 /// sizes: beyond them the surface is not what sizes ask for. Chosen, not measured.
 constexpr double smallest_edge = 0.3, largest_edge = 1.5;
-/// The factor by which the clearance grows in each step of a retry, up to the steps that the ladder has:
+/// The factor by which the clearance grows in each step of a retry, up to the steps that there are:
 /// points move off what TetGen could not mesh, and still fill the space. Chosen, not measured.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
@@ -37,13 +37,13 @@ constexpr Touching hanging[] = {{1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}},
                                 {6, 1, {{-1, 0, 0}}}};
 
 /// The largest size in a block, at most.
-double largest_size(const LatticeSource& source, BlockIndex b) {
-  const GridCube cell = source.tree.cube(b);
+double largest_size(const Lattice& lattice, BlockIndex b) {
+  const GridCube cell = lattice.tree.cube(b);
   const double half = 0.5 * cell.edge();
-  const Vec3 center = source.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
-  const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.frame.edge(cell.level);
-  const double slope = slope_margin * std::log(source.field.options().growth);
-  return std::min(source.field.maximum(), source.field(center) + slope * half_diagonal);
+  const Vec3 center = lattice.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
+  const double half_diagonal = 0.5 * std::numbers::sqrt3 * lattice.frame.edge(cell.level);
+  const double slope = slope_margin * std::log(lattice.field.options().growth);
+  return std::min(lattice.field.maximum(), lattice.field(center) + slope * half_diagonal);
 }
 
 /// Radius of the balls around core leaves that no point of the surface stands in, in leaf edges: half a
@@ -51,56 +51,57 @@ double largest_size(const LatticeSource& source, BlockIndex b) {
 constexpr double core_ball = 0.9;
 
 /// How far the surface is from corners and centres of leaves of the core, in space.
-double core_distance(const LatticeSource& source, BlockIndex b) {
-  return core_clearance * source.frame.edge(source.tree.leaf_level(b));
+double core_distance(const Lattice& lattice, BlockIndex b) {
+  return core_clearance * lattice.frame.edge(lattice.tree.leaf_level(b));
 }
 
-double clearance_of(const LatticeSource& source, BlockIndex b) {
-  return source.options.clearance * std::pow(step_factor, source.changes[b].farther);
+double clearance_of(const Lattice& lattice, const BlockChange& change) {
+  return lattice.options.clearance * std::pow(step_factor, change.farther);
 }
 
-/// Whether there are far smaller triangles within a distance of the points of a block. Of what is not known,
-/// none is there (learn_what_is_far_finer).
-bool sees_far_finer(const LatticeSource& source, BlockIndex b, double radius) {
-  const LatticeTree& tree = source.tree;
+/// Whether there are far smaller triangles within a distance of the points of a block. Where a block is not
+/// local, none is there (fetch_finer_ghosts).
+bool sees_far_finer(const Lattice& lattice, BlockIndex b, double radius) {
+  const LatticeTree& tree = lattice.tree;
   const int level = far_finer_level(tree.level(b));
   return tree.any_block_in(
       GridBox::of(tree.cube(b)).dilated(radius),
-      [&](BlockIndex n) { return tree.level(n) >= level && source.table.is_met(n); },
+      [&](BlockIndex n) { return tree.level(n) >= level && lattice.table.is_met(n); },
       [&](BlockIndex first, BlockIndex last, const GridCube&) {
-        return !source.table.any_met(first, last, level);
+        return !lattice.table.any_met(first, last, level);
       });
 }
 
 /// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.
-bool may_have_core(const LatticeSource& source, BlockIndex b) {
-  return !sees_far_finer(source, b, source.frame.grid_distance(core_distance(source, b)));
+bool may_have_core(const Lattice& lattice, BlockIndex b) {
+  return !sees_far_finer(lattice, b, lattice.frame.grid_distance(core_distance(lattice, b)));
 }
 
 /// Makes the points of one block after the other.
 class PointMaker {
 public:
-  PointMaker(const LatticeSource& source, const NearSurface& surface, const SearchRadii& radii,
-             BlockPoints& result)
-      : _source(source),
+  PointMaker(const Lattice& lattice, std::span<const BlockChange> changes, const NearSurface& surface,
+             const SearchRadii& radii, BlockPoints& result)
+      : _lattice(lattice),
+        _changes(changes),
         _surface(surface),
         _radii(radii),
         _result(result),
-        _within(source.frame, source.tree, source.table, surface) {}
+        _within(lattice, surface) {}
 
   void make(BlockIndex b) {
     _result.clear_leaves.push_back(0);
-    const bool met = _source.table.is_met(b);
-    if (!met && _source.regions[b - _source.tree.first()] == mesh::no_region) return;
+    const bool met = _lattice.table.is_met(b);
+    if (!met && _lattice.regions[b - _lattice.tree.first()] == mesh::no_region) return;
     _block = b;
     _offered.clear();
     _box = {};
-    for (int child = 0; child < _source.tree.leaf_count(b); ++child) make_leaf(child);
+    for (int child = 0; child < _lattice.tree.leaf_count(b); ++child) make_leaf(child);
     const bool near = met || is_near();
     if (near) find_triangles();
     _result.clear_leaves.back() = clear_leaves();
     for (const Offer& offer : _offered) {
-      mesh::RegionId region = _source.regions[b - _source.tree.first()];
+      mesh::RegionId region = _lattice.regions[b - _lattice.tree.first()];
       if (near && !is_clear(offer)) continue;
       if (met) region = region_of(offer.point);
       if (region == mesh::no_region) continue;
@@ -121,7 +122,8 @@ private:
   /// Whether triangles may be too near to a point of the block.
   bool is_near() const {
     if (_surface.empty()) return false;
-    const double radius = largest_edge * clearance_of(_source, _block) * largest_size(_source, _block);
+    const double radius =
+        largest_edge * clearance_of(_lattice, _changes[_block]) * largest_size(_lattice, _block);
     return _surface.distance().any_in(_box.dilated(radius));
   }
 
@@ -129,37 +131,38 @@ private:
   void find_triangles() {
     double largest = 0;
     for (Offer& offer : _offered) {
-      offer.size = _source.field(offer.point);
+      offer.size = _lattice.field(offer.point);
       largest = std::max(largest, offer.size);
     }
-    _triangles.collect(_surface.distance(), _box, largest_edge * clearance_of(_source, _block) * largest);
+    _triangles.collect(_surface.distance(), _box,
+                       largest_edge * clearance_of(_lattice, _changes[_block]) * largest);
   }
 
   /// The leaves whose corners and centre keep off the surface as far as those of the core do.
   std::uint8_t clear_leaves() {
-    const LatticeTree& tree = _source.tree;
-    if (!may_have_core(_source, _block)) return 0;
-    const double radius = core_distance(_source, _block);
+    const LatticeTree& tree = _lattice.tree;
+    if (!may_have_core(_lattice, _block)) return 0;
+    const double radius = core_distance(_lattice, _block);
     const GridBox whole = GridBox::of(tree.cube(_block));
     if (_surface.empty()) return tree.all_leaves(_block);
     geometry::Box box;
-    for (int corner = 0; corner < 8; ++corner) box.add(_source.frame.to_space(whole.corner(corner)));
+    for (int corner = 0; corner < 8; ++corner) box.add(_lattice.frame.to_space(whole.corner(corner)));
     if (!_surface.distance().any_in(box.dilated(radius))) return tree.all_leaves(_block);
     _around.collect(_surface.distance(), box, radius);
     std::uint8_t clear = 0;
     for (int child = 0; child < tree.leaf_count(_block); ++child) {
       const GridBox leaf = GridBox::of(tree.leaf(_block, child));
       const auto is_near = [&](Vec3 grid) {
-        return _around.any_nearer(_source.frame.to_space(grid), {1, radius, radius});
+        return _around.any_nearer(_lattice.frame.to_space(grid), {1, radius, radius});
       };
       bool near = is_near(0.5 * (leaf.low + leaf.high));
       for (int corner = 0; corner < 8 && !near; ++corner) near = is_near(leaf.corner(corner));
       // Balls through the corners of squares: of the leaf, and of its octants where finer leaves touch it.
-      const double ball = core_ball * _source.frame.edge(tree.leaf_level(_block));
-      near = near || _around.any_corner_nearer(_source.frame.to_space(0.5 * (leaf.low + leaf.high)), ball);
+      const double ball = core_ball * _lattice.frame.edge(tree.leaf_level(_block));
+      near = near || _around.any_corner_nearer(_lattice.frame.to_space(0.5 * (leaf.low + leaf.high)), ball);
       for (int corner = 0; corner < 8 && !near; ++corner) {
         const Vec3 middle = 0.25 * leaf.corner(corner) + 0.75 * leaf.corner(7 - corner);
-        near = _around.any_corner_nearer(_source.frame.to_space(middle), 0.5 * ball);
+        near = _around.any_corner_nearer(_lattice.frame.to_space(middle), 0.5 * ball);
       }
       if (!near) clear |= static_cast<std::uint8_t>(1U << child);
     }
@@ -167,7 +170,7 @@ private:
   }
 
   void make_leaf(int child) {
-    const GridCube leaf = _source.tree.leaf(_block, child);
+    const GridCube leaf = _lattice.tree.leaf(_block, child);
     offer(child, 0);
     for (const Touching& touching : hanging) {
       const auto is_split = [&](const int(&offset)[3]) { return is_neighbour_split(leaf, offset); };
@@ -182,21 +185,21 @@ private:
     if ((offset[0] < 0 && leaf.low.x == 0) || (offset[1] < 0 && leaf.low.y == 0) ||
         (offset[2] < 0 && leaf.low.z == 0))
       return false;
-    return _source.tree.is_split(
+    return _lattice.tree.is_split(
         {{leaf.low.x - (offset[0] < 0 ? edge : 0), leaf.low.y - (offset[1] < 0 ? edge : 0),
           leaf.low.z - (offset[2] < 0 ? edge : 0)},
          leaf.level});
   }
 
   void offer(int child, int slot) {
-    const Vec3 p = lattice_point(_source, {_block, child}, slot);
+    const Vec3 p = lattice_point(_lattice, _changes, {_block, child}, slot);
     _offered.push_back({p, 0, static_cast<std::uint8_t>(child * slots_per_leaf + slot)});
     _box.add(p);
   }
 
   bool is_clear(const Offer& offer) const {
-    return !_triangles.any_nearer(
-        offer.point, {clearance_of(_source, _block), smallest_edge * offer.size, largest_edge * offer.size});
+    return !_triangles.any_nearer(offer.point, {clearance_of(_lattice, _changes[_block]),
+                                                smallest_edge * offer.size, largest_edge * offer.size});
   }
 
   /// The region of a point in a block that the surface meets.
@@ -214,7 +217,8 @@ private:
     return region;
   }
 
-  const LatticeSource& _source;
+  const Lattice& _lattice;
+  std::span<const BlockChange> _changes;
   const NearSurface& _surface;
   const SearchRadii& _radii;
   BlockPoints& _result;
@@ -232,24 +236,25 @@ private:
 constexpr double more_for_shear = 1.1;
 
 /// How far a triangle is from any point of a block that the surface meets, at most, and its inside.
-double nearest_in(const LatticeSource& source, BlockIndex b) {
+double nearest_in(const Lattice& lattice, BlockIndex b) {
   constexpr double inward = 0.1;  // of the longest edge; chosen, not measured
-  const double half_diagonal = 0.5 * std::numbers::sqrt3 * source.tree.cube(b).edge();
+  const double half_diagonal = 0.5 * std::numbers::sqrt3 * lattice.tree.cube(b).edge();
   return more_for_shear * half_diagonal +
-         source.frame.grid_distance(source.table.nearest[b] + inward * source.table.longest_edge[b]);
+         lattice.frame.grid_distance(lattice.table.nearest[b - lattice.tree.first()] +
+                                     inward * lattice.table.longest_edge[b]);
 }
 
 /// How far from a block the way may lead from one of its points to a triangle whose box meets it.
-double radius_from_within(const LatticeSource& source, BlockIndex b) {
-  const double perturbation = source.options.perturbation * source.tree.cube(b).edge();
-  return more_for_shear * source.frame.grid_distance(source.table.longest_edge[b]) + perturbation;
+double radius_from_within(const Lattice& lattice, BlockIndex b) {
+  const double perturbation = lattice.options.perturbation * lattice.tree.cube(b).edge();
+  return more_for_shear * lattice.frame.grid_distance(lattice.table.longest_edge[b]) + perturbation;
 }
 
-Vec3 perturbation(const LatticeSource& source, const Leaf& which, const GridCube& leaf, int slot) {
-  std::uint64_t state = mesh::mix_in(source.changes[which.block].variant, static_cast<std::uint64_t>(slot));
+Vec3 perturbation(const Lattice& lattice, const BlockChange& change, const GridCube& leaf, int slot) {
+  std::uint64_t state = mesh::mix_in(change.variant, static_cast<std::uint64_t>(slot));
   state = mesh::mix_in(state, static_cast<std::uint64_t>(leaf.level));
   state = mesh::mix_in(state, sizing::morton_key(leaf.low));
-  const double width = source.options.perturbation * mean_edge_of_cell * source.frame.edge(leaf.level);
+  const double width = lattice.options.perturbation * mean_edge_of_cell * lattice.frame.edge(leaf.level);
   Vec3 shift;
   for (int axis = 0; axis < 3; ++axis) {
     state = mesh::mix_in(state, 0);
@@ -260,51 +265,51 @@ Vec3 perturbation(const LatticeSource& source, const Leaf& which, const GridCube
 
 }  // namespace
 
-Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot) {
-  const GridCube cube = source.tree.leaf(leaf);
+Vec3 lattice_point(const Lattice& lattice, std::span<const BlockChange> changes, const Leaf& leaf, int slot) {
+  const GridCube cube = lattice.tree.leaf(leaf);
   const double half = 0.5 * cube.edge();
   const int(&place)[3] = slot_places[slot];
   const Vec3 grid = GridBox::of(cube).low + Vec3{half * place[0], half * place[1], half * place[2]};
-  return source.frame.to_space(grid) + perturbation(source, leaf, cube, slot);
+  return lattice.frame.to_space(grid) + perturbation(lattice, changes[leaf.block], cube, slot);
 }
 
-std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b) {
-  return {source.frame.grid_distance(core_distance(source, b)),
-          source.table.is_met(b) ? nearest_in(source, b) : 0};
+std::array<double, 2> looks_of_block(const Lattice& lattice, BlockIndex b) {
+  return {lattice.frame.grid_distance(core_distance(lattice, b)),
+          lattice.table.is_met(b) ? nearest_in(lattice, b) : 0};
 }
 
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
-SearchRadii search_radii_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last) {
-  const double farthest = source.options.clearance * std::pow(step_factor, most_steps);
+SearchRadii search_radii_of_blocks(const Lattice& lattice, BlockIndex first, BlockIndex last) {
+  const double farthest = lattice.options.clearance * std::pow(step_factor, most_steps);
   SearchRadii radii;
-  radii.per_edge = source.frame.grid_distance(farthest);
+  radii.per_edge = lattice.frame.grid_distance(farthest);
   for (BlockIndex b = first; b < last; ++b) {
-    const double clear = source.frame.grid_distance(farthest * largest_size(source, b));
-    const double of_core = source.frame.grid_distance(core_distance(source, b));
+    const double clear = lattice.frame.grid_distance(farthest * largest_size(lattice, b));
+    const double of_core = lattice.frame.grid_distance(core_distance(lattice, b));
     BlockSearchRadii block{smallest_edge * clear, largest_edge * clear};
-    if (source.table.is_met(b)) block.nearest = nearest_in(source, b);
+    if (lattice.table.is_met(b)) block.nearest = nearest_in(lattice, b);
     // Far finer blocks cost a search. Where all triangles that could matter are at hand none is spared by it.
     const double farthest_of_all = std::max({block.most, block.nearest, of_core});
     const auto [lowest, highest] =
-        source.tree.range_of(GridBox::of(source.tree.cube(b)).dilated(farthest_of_all));
+        lattice.tree.range_of(GridBox::of(lattice.tree.cube(b)).dilated(farthest_of_all));
     const bool is_inside = lowest >= first && highest < last;
-    if (!is_inside && source.table.is_met(b)) {
-      block.from_within = sees_far_finer(source, b, block.nearest);
-      if (block.from_within) block.nearest = radius_from_within(source, b);
+    if (!is_inside && lattice.table.is_met(b)) {
+      block.from_within = sees_far_finer(lattice, b, block.nearest);
+      if (block.from_within) block.nearest = radius_from_within(lattice, b);
     }
-    if (is_inside || may_have_core(source, b)) block.least = std::max(block.least, of_core);
+    if (is_inside || may_have_core(lattice, b)) block.least = std::max(block.least, of_core);
     radii.of_blocks.push_back(block);
   }
   return radii;
 }
 
-BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                        const NearSurface& surface, const SearchRadii& radii) {
+BlockPoints make_points(const Lattice& lattice, std::span<const BlockChange> changes, BlockIndex first,
+                        BlockIndex last, const NearSurface& surface, const SearchRadii& radii) {
   BlockPoints result;
   result.first = first;
   result.starts.push_back(0);
-  PointMaker maker(source, surface, radii, result);
+  PointMaker maker(lattice, changes, surface, radii, result);
   for (BlockIndex b = first; b < last; ++b) {
     maker.make(b);
     result.starts.push_back(static_cast<std::int64_t>(result.points.size()));

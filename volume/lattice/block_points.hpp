@@ -3,10 +3,8 @@
 
 #include "geometry/vec.hpp"
 #include "mesh/data/piece.hpp"
-#include "sizing/field/size_field.hpp"
-#include "volume/lattice/lattice_tree.hpp"
+#include "volume/lattice/lattice.hpp"
 #include "volume/lattice/near_surface.hpp"
-#include "volume/lattice/surface_near_blocks.hpp"
 
 #include <array>
 #include <cstdint>
@@ -14,16 +12,6 @@
 #include <vector>
 
 namespace aeroloom::volume {
-
-struct LatticeOptions {
-  /// Distance from the surface, in local sizes: fewest bad tetrahedra of seven values on two aircraft
-  /// (benchmarks/results/volume_pieces.md).
-  double clearance = 0.5;
-  /// In mean edges of the lattice: enough for general position, and so little that no triangle of the core's
-  /// border was missing in the mesh of the shell of nineteen aircraft and parts
-  /// (benchmarks/results/volume_pieces.md).
-  double perturbation = 0.005;
-};
 
 /// Changes that retries have made to a block.
 struct BlockChange {
@@ -72,19 +60,16 @@ struct BlockPoints {
   std::int64_t count(BlockIndex b) const { return starts[b - first + 1] - starts[b - first]; }
 };
 
-/// Everything that a point of the lattice is a function of.
-struct LatticeSource {
-  const LatticeFrame& frame;
-  const LatticeTree& tree;
-  const sizing::SizeField& field;
-  const SurfaceTable& table;
-  std::span<const mesh::RegionId> regions;  ///< of this rank's blocks, see find_block_regions
-  LatticeOptions options;
-  std::span<const BlockChange> changes;  ///< per block
-};
-
-/// Where the point of a slot stands if there is one: perturbed by a hash of its place.
-geometry::Vec3 lattice_point(const LatticeSource& source, const Leaf& leaf, int slot);
+/// Where the point of a slot stands if there is one: perturbed by a hash of its place. `changes` are those of
+/// all blocks, here and below.
+geometry::Vec3 lattice_point(const Lattice& lattice, std::span<const BlockChange> changes, const Leaf& leaf,
+                             int slot);
+/// The same, by running number.
+inline geometry::Vec3 lattice_point(const Lattice& lattice, std::span<const BlockChange> changes,
+                                    std::int64_t number) {
+  return lattice_point(lattice, changes, leaf_of_lattice(lattice.tree, number),
+                       static_cast<int>(number % slots_per_leaf));
+}
 
 /// How far the corners and the centre of a leaf of the core keep off the surface, in leaf edges. Above 0.58
 /// nothing between them can enter the leaf; at 0.87 no point of the surface stands in a ball through the
@@ -97,16 +82,16 @@ constexpr int far_finer_level(int than) {
   return than + 4;
 }
 /// How far from a block far finer ones on the surface are looked for, in the grid.
-std::array<double, 2> looks_of_block(const LatticeSource& source, BlockIndex b);
+std::array<double, 2> looks_of_block(const Lattice& lattice, BlockIndex b);
 
 /// How far triangles matter to blocks `first` to `last`: for the clearance of their points, and for telling
 /// the region of points there. Retries included.
-SearchRadii search_radii_of_blocks(const LatticeSource& source, BlockIndex first, BlockIndex last);
+SearchRadii search_radii_of_blocks(const Lattice& lattice, BlockIndex first, BlockIndex last);
 
 /// The points of blocks `first` to `last`: corners and centres of leaves, inside a region and off the
 /// surface. `surface` has the triangles within these radii. A function of place, sizes and the
 /// surface nearby.
-BlockPoints make_points(const LatticeSource& source, BlockIndex first, BlockIndex last,
-                        const NearSurface& surface, const SearchRadii& radii = {});
+BlockPoints make_points(const Lattice& lattice, std::span<const BlockChange> changes, BlockIndex first,
+                        BlockIndex last, const NearSurface& surface, const SearchRadii& radii = {});
 
 }  // namespace aeroloom::volume

@@ -175,16 +175,15 @@ std::vector<Witness> unite(std::vector<Witness> all) {
 /// Looks for the region of places in blocks that the surface meets.
 class Look {
 public:
-  Look(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-       const NearSurface& surface, const SearchRadii& radii)
-      : _frame(frame), _surface(surface), _radii(radii), _within(frame, tree, table, surface) {}
+  Look(const Lattice& lattice, const NearSurface& surface)
+      : _lattice(lattice), _surface(surface), _within(lattice, surface) {}
 
-  Vec3 place_of(const Contact& contact) const { return _frame.to_space(contact.place); }
+  Vec3 place_of(const Contact& contact) const { return _lattice.frame.to_space(contact.place); }
   /// Where an empty ball tells it.
   std::optional<RegionId> known_region_at(Vec3 p) const { return _balls.region_at(p); }
-  /// From a place in a block, which has this place in the rank's share.
-  std::optional<WithinBlocks::Seen> from(BlockIndex b, std::size_t in_share, Vec3 p) {
-    if (_radii.is_from_within(in_share)) return _within.look(b, p);
+  /// From a place in one of this rank's blocks.
+  std::optional<WithinBlocks::Seen> from(BlockIndex b, Vec3 p) {
+    if (_lattice.radii.is_from_within(b - _lattice.tree.first())) return _within.look(b, p);
     _nearest = _surface.distance().nearest(p, _nearest.triangle);
     const auto region = _surface.region_at(p, _nearest);
     if (!region) return std::nullopt;
@@ -193,9 +192,8 @@ public:
   }
 
 private:
-  const LatticeFrame& _frame;
+  const Lattice& _lattice;
   const NearSurface& _surface;
-  const SearchRadii& _radii;
   WithinBlocks _within;
   BoundaryDistance::Nearest _nearest;
   EmptyBalls _balls;
@@ -216,8 +214,7 @@ std::vector<Witness> witnesses_of(std::span<const Contact> contacts, const Latti
         continue;
       }
     }
-    const BlockIndex met = tree.index(contact.met);
-    const auto seen = look.from(met, met - tree.first(), p);
+    const auto seen = look.from(tree.index(contact.met), p);
     if (!seen) continue;
     const auto [witness, is_new] = known.insert({{contact.set, seen->region}, mine.size()});
     if (is_new)
@@ -285,17 +282,17 @@ private:
 
 }  // namespace
 
-BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                                const SurfaceAround& around) {
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const Lattice& lattice,
+                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface) {
   const LatticeTree& tree = lattice.tree;
   const SurfaceTable& table = lattice.table;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   BlockSets sets(tree, table);
   sets.join_those_of_all_ranks(communicator);
   const std::vector<Contact> contacts = sets.take_contacts(communicator);
-  Look look(lattice.frame, tree, table, around.surface, around.radii);
+  Look look(lattice, surface);
   const std::vector<Witness> witnesses =
-      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, around.triangles, look),
+      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, triangles, look),
                           [&](const Witness& witness) { return tree.owner(witness.set); }));
   BlockRegions found{std::vector<RegionId>(tree.last() - tree.first(), mesh::no_region),
                      lowest_of(communicator, find_contradiction(witnesses))};

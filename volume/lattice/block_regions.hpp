@@ -3,10 +3,8 @@
 
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
-#include "volume/lattice/lattice_tree.hpp"
+#include "volume/lattice/lattice.hpp"
 #include "volume/lattice/near_surface.hpp"
-#include "volume/lattice/neighbourhood.hpp"
-#include "volume/lattice/surface_near_blocks.hpp"
 
 #include <optional>
 #include <span>
@@ -29,13 +27,6 @@ struct Contradiction {
   }
 };
 
-/// The surface near this rank's blocks.
-struct SurfaceAround {
-  std::span<const SurfaceTriangle> triangles;
-  const NearSurface& surface;  ///< of these triangles
-  const SearchRadii& radii;
-};
-
 struct BlockRegions {
   /// Of this rank's blocks: mesh::no_region outside of all, and also where the surface meets it: there each
   /// point is asked for itself.
@@ -45,8 +36,9 @@ struct BlockRegions {
 
 /// Blocks that share a face are of one region; all places where such a set touches a block that the surface
 /// meets are looked at, each by the rank that has that block. What is found does not depend on who has which.
-/// Collective.
-BlockRegions find_block_regions(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                                const SurfaceAround& around);
+/// `surface` has the
+/// triangles near this rank's blocks. Collective.
+BlockRegions find_block_regions(const parallel::Communicator& communicator, const Lattice& lattice,
+                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface);
 
 }  // namespace aeroloom::volume

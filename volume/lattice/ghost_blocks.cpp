@@ -14,7 +14,6 @@ GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const Latti
   }
   std::sort(_ghosts.begin(), _ghosts.end());
   _ghosts.erase(std::unique(_ghosts.begin(), _ghosts.end()), _ghosts.end());
-  for (const BlockIndex b : _ghosts) _numbers.push_back(tree.number(b));
   std::vector<Wanted> asked;
   asked.reserve(_ghosts.size());
   for (const BlockIndex b : _ghosts)
@@ -22,12 +21,6 @@ GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const Latti
   _wanted = mesh::deliver(communicator, std::move(asked),
                           [&](const Wanted& wanted) { return tree.owner(wanted.block); });
   for (Wanted& wanted : _wanted) wanted.block = tree.index(wanted.block) - _first;
-}
-
-void GhostBlocks::follow(const LatticeTree& tree) {
-  _first = tree.first(), _last = tree.last();
-  std::transform(_numbers.begin(), _numbers.end(), _ghosts.begin(),
-                 [&](BlockNumber number) { return tree.index(number); });
 }
 
 }  // namespace aeroloom::volume

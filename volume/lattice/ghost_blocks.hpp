@@ -18,9 +18,6 @@ public:
   /// Collective.
   GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree);
 
-  /// Indices of blocks have changed. Places have not.
-  void follow(const LatticeTree& tree);
-
   std::size_t own_count() const { return static_cast<std::size_t>(_last - _first); }
   std::size_t count() const { return own_count() + _ghosts.size(); }
   bool is_own(BlockIndex b) const { return b >= _first && b < _last; }
@@ -60,8 +57,7 @@ private:
   };
 
   BlockIndex _first, _last;
-  std::vector<BlockIndex> _ghosts;    // ascending
-  std::vector<BlockNumber> _numbers;  // of them
+  std::vector<BlockIndex> _ghosts;  // ascending
   std::vector<Wanted> _wanted;
 };
 

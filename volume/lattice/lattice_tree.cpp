@@ -59,8 +59,8 @@ std::uint64_t key_of(std::uint64_t word) {
 }
 
 /// The blocks of this rank's leaves: eight of one parent are one.
-std::vector<KnownBlock> blocks_of(const forest::Octants& leaves) {
-  std::vector<KnownBlock> blocks;
+std::vector<PackedBlock> blocks_of(const forest::Octants& leaves) {
+  std::vector<PackedBlock> blocks;
   for (std::size_t i = 0; i < leaves.size();) {
     const int level = leaves.levels[i], shift = 3 * (finest_level - level);
     bool whole = level > 0 && (leaves.keys[i] >> shift & 7) == 0 && i + 8 <= leaves.size();
@@ -94,7 +94,7 @@ std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, cons
 LatticeTree::LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
                          const sizing::SizeField& field, const geometry::Box& box,
                          const std::vector<std::uint64_t>& triangle_keys) {
-  std::vector<KnownBlock> mine;
+  std::vector<PackedBlock> mine;
   {
     forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box));
     if (communicator.size() > 1)
@@ -129,9 +129,9 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
 }
 
 /// Gaps between blocks become cubes as large as they can be, so that there are few.
-void LatticeTree::fill(const std::vector<KnownBlock>& blocks, BlockNumber first, BlockIndex own) {
+void LatticeTree::fill(const std::vector<PackedBlock>& blocks, BlockNumber first, BlockIndex own) {
   _blocks = {};
-  _split.clear(), _numbers.clear(), _known.clear();
+  _split.clear(), _numbers.clear(), _local.clear();
   const auto add = [&](std::uint64_t key, int level, bool split, BlockNumber number) {
     _blocks.keys.push_back(key);
     _blocks.levels.push_back(static_cast<std::uint8_t>(level));
@@ -152,33 +152,37 @@ void LatticeTree::fill(const std::vector<KnownBlock>& blocks, BlockNumber first,
       at += 1ULL << 3 * (finest_level - level);
     }
   };
-  for (const KnownBlock& block : blocks) {
+  for (const PackedBlock& block : blocks) {
     const std::uint64_t key = key_of(block.word);
     const int level = level_of(block.word);
     fill_up_to(key);
     if (own > 0 && block.number == first) _first = block_count();
-    _known.push_back(block_count());
+    _local.push_back(block_count());
     add(key, level, block.word & 1, block.number);
     at = key + (1ULL << 3 * (finest_level - level));
   }
   fill_up_to(end);
   _last = _first + own;
-  if (static_cast<BlockNumber>(blocks.size()) == total()) _numbers.clear(), _known.clear();
+  if (static_cast<BlockNumber>(blocks.size()) == total()) _numbers.clear(), _local.clear();
   _table = sizing::LeafTable(_blocks);
 }
 
-KnownBlock LatticeTree::known(BlockIndex b) const {
+GridCube PackedBlock::cube() const {
+  return {sizing::grid_point(key_of(word)), level_of(word)};
+}
+
+PackedBlock LatticeTree::packed(BlockIndex b) const {
   return {number(b), word_of(_blocks.keys[b], _blocks.levels[b], _split[b] != 0)};
 }
 
-void LatticeTree::learn(std::vector<KnownBlock> blocks) {
+void LatticeTree::add(std::vector<PackedBlock> blocks) {
   for (BlockIndex b = 0; b < block_count(); ++b) {
-    if (is_known(b)) blocks.push_back(known(b));
+    if (is_local(b)) blocks.push_back(packed(b));
   }
   std::sort(blocks.begin(), blocks.end(),
-            [](const KnownBlock& a, const KnownBlock& b) { return a.number < b.number; });
+            [](const PackedBlock& a, const PackedBlock& b) { return a.number < b.number; });
   blocks.erase(std::unique(blocks.begin(), blocks.end(),
-                           [](const KnownBlock& a, const KnownBlock& b) { return a.number == b.number; }),
+                           [](const PackedBlock& a, const PackedBlock& b) { return a.number == b.number; }),
                blocks.end());
   fill(blocks, _first < _last ? number(_first) : 0, _last - _first);
 }
@@ -189,13 +193,13 @@ BlockIndex LatticeTree::find(BlockNumber number) const {
     const BlockNumber own = number - _numbers[_first];
     if (own >= 0 && own < _last - _first) return _first + static_cast<BlockIndex>(own);
   }
-  const auto at = std::lower_bound(_known.begin(), _known.end(), number,
+  const auto at = std::lower_bound(_local.begin(), _local.end(), number,
                                    [&](BlockIndex b, BlockNumber wanted) { return _numbers[b] < wanted; });
-  return at != _known.end() && _numbers[*at] == number ? *at : -1;
+  return at != _local.end() && _numbers[*at] == number ? *at : -1;
 }
 
-void LatticeTree::throw_unknown() {
-  throw std::logic_error("a block of the lattice is asked for that this rank does not know");
+void LatticeTree::throw_not_local() {
+  throw std::logic_error("a block of the lattice is asked for that is not local to this rank");
 }
 
 GridCube LatticeTree::leaf(BlockIndex b, int child) const {
@@ -204,7 +208,7 @@ GridCube LatticeTree::leaf(BlockIndex b, int child) const {
 
 bool LatticeTree::is_split(const GridCube& cube) const {
   const BlockIndex b = any_at(cube.low);
-  if (!is_known(b)) return true;
+  if (!is_local(b)) return true;
   return _blocks.levels[b] > cube.level || (_blocks.levels[b] == cube.level && _split[b]);
 }
 

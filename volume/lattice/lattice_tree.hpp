@@ -32,23 +32,25 @@ struct Leaf {
 using LeafNumber = std::int64_t;
 
 /// What travels of a block.
-struct KnownBlock {
+struct PackedBlock {
   BlockNumber number;
   std::uint64_t word;  ///< key, level, and whether it has eight leaves
 
-  static constexpr auto fields() { return std::tuple(&KnownBlock::number, &KnownBlock::word); }
+  GridCube cube() const;
+  static constexpr auto fields() { return std::tuple(&PackedBlock::number, &PackedBlock::word); }
 };
 
 /// An octree whose leaves are as fine as the sizes ask for and whose neighbours, over faces, edges and
 /// corners, differ by one level at most. A *block* is a cube with eight leaves, or a leaf that has a split
-/// sibling. Blocks fill the root; each rank has a range of them, and knows some more. In between there are
-/// cubes of which nothing is known, with a place among the blocks: to ask for one is an error.
+/// sibling. Blocks fill the root; each rank owns a range of them. *Local* are these and ghosts, blocks of
+/// other ranks. In between there are cubes of which nothing is known, with a place among the blocks: to ask
+/// for one is an error.
 class LatticeTree {
 public:
   /// A cube is split where the mean edge of its lattice is above `coarsest_edge` times the size at its
   /// centre. Cubes off `box`, in space, are not split. Ranks get equal shares of expected work: what leaves
-  /// and the triangles cost whose centres lie in finest cubes with the keys given, on any rank. Ranks know no
-  /// other blocks than their own so far. Collective.
+  /// and the triangles cost whose centres lie in finest cubes with the keys given, on any rank. There are no
+  /// ghosts so far. Collective.
   LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
               const sizing::SizeField& field, const geometry::Box& box,
               const std::vector<std::uint64_t>& triangle_keys = {});
@@ -60,14 +62,14 @@ public:
   BlockIndex first() const { return _first; }
   BlockIndex last() const { return _last; }
   bool is_own(BlockIndex b) const { return b >= _first && b < _last; }
-  bool is_known(BlockIndex b) const { return _numbers.empty() || _numbers[b] >= 0; }
+  bool is_local(BlockIndex b) const { return _numbers.empty() || _numbers[b] >= 0; }
 
   /// Of all ranks.
   BlockNumber total() const { return _firsts.back(); }
   BlockNumber number(BlockIndex b) const { return _numbers.empty() ? b : _numbers[b]; }
   LeafNumber number(const Leaf& leaf) const { return 8 * number(leaf.block) + leaf.child; }
-  bool knows(BlockNumber number) const { return find(number) >= 0; }
-  /// Of a block that is known.
+  bool has(BlockNumber number) const { return find(number) >= 0; }
+  /// Of a local block.
   BlockIndex index(BlockNumber number) const { return required(find(number)); }
   Leaf leaf_of(LeafNumber number) const { return {index(number / 8), static_cast<int>(number % 8)}; }
   /// The rank that has a block.
@@ -80,9 +82,9 @@ public:
   void for_each_rank_in(const GridBox& box, const Visit& visit) const {
     ranks_below(box, {{0, 0, 0}, 0}, visit);
   }
-  KnownBlock known(BlockIndex b) const;
-  /// Learns of blocks of other ranks. What was told of block indices before does not hold any more.
-  void learn(std::vector<KnownBlock> blocks);
+  PackedBlock packed(BlockIndex b) const;
+  /// Adds ghosts. Indices of blocks change: this comes before anything is kept by them.
+  void add(std::vector<PackedBlock> blocks);
 
   GridCube cube(BlockIndex b) const { return {sizing::grid_point(_blocks.keys[b]), _blocks.levels[b]}; }
   int level(BlockIndex b) const { return _blocks.levels[b]; }
@@ -102,7 +104,7 @@ public:
     const int shift = sizing::finest_level - 1 - _blocks.levels[b];
     return static_cast<int>((p.x >> shift & 1) | (p.y >> shift & 1) << 1 | (p.z >> shift & 1) << 2);
   }
-  /// Whether a cube that touches a block of this rank has children. Where its low corner is not known it
+  /// Whether a cube that touches a block of this rank has children. Where its low corner is not local it
   /// does.
   bool is_split(const GridCube& cube) const;
 
@@ -174,10 +176,10 @@ private:
   bool any_below(const GridBox& box, const Subtree& tree, const Holds& holds, const Skips& skips) const;
 
   BlockIndex required(BlockIndex b) const {
-    if (b < 0 || !is_known(b)) throw_unknown();
+    if (b < 0 || !is_local(b)) throw_not_local();
     return b;
   }
-  [[noreturn]] static void throw_unknown();
+  [[noreturn]] static void throw_not_local();
   BlockIndex find(BlockNumber number) const;
   template <class Visit>
   void ranks_below(const GridBox& box, const GridCube& cube, const Visit& visit) const;
@@ -185,15 +187,15 @@ private:
     return static_cast<parallel::Rank>(std::upper_bound(_keys.begin(), _keys.end(), key) - _keys.begin() - 1);
   }
   /// Of this rank are `own` blocks, numbered from `first` on.
-  void fill(const std::vector<KnownBlock>& blocks, BlockNumber first, BlockIndex own);
+  void fill(const std::vector<PackedBlock>& blocks, BlockNumber first, BlockIndex own);
 
   std::vector<BlockNumber> _firsts;  // per rank, and the end
   std::vector<std::uint64_t> _keys;  // per rank: where its blocks begin, those of one without any the next's
   BlockIndex _first = 0, _last = 0;
   sizing::SplitCubes::Leaves _blocks;
   std::vector<std::uint8_t> _split;
-  std::vector<BlockNumber> _numbers;  // -1: nothing is known; none where all is
-  std::vector<BlockIndex> _known;     // blocks that are, ascending, where not all are
+  std::vector<BlockNumber> _numbers;  // -1: not local; none where all blocks are
+  std::vector<BlockIndex> _local;     // blocks that are, ascending, where not all are
   sizing::LeafTable _table;
 };
 

@@ -26,7 +26,7 @@ void LeafSurroundings::look_at(const HalfPlace& first, const HalfPlace& last) {
   const bool outside =
       corner.x >= sizing::grid_size || corner.y >= sizing::grid_size || corner.z >= sizing::grid_size;
   BlockIndex b = outside ? 0 : _tree.any_at(corner);
-  const bool is_one = !outside && _tree.is_known(b) && _tree.level(b) <= _tree.level(_block);
+  const bool is_one = !outside && _tree.is_local(b) && _tree.level(b) <= _tree.level(_block);
   const int level = _tree.leaf_level(_block);
   for (int k = first[2]; k <= last[2]; ++k) {
     for (int j = first[1]; j <= last[1]; ++j) {
@@ -38,7 +38,7 @@ void LeafSurroundings::look_at(const HalfPlace& first, const HalfPlace& last) {
         }
         const sizing::GridPoint low = grid_place({i, j, k}, _edge);
         if (!is_one) b = _tree.any_at(low);
-        if (!_tree.is_known(b)) {  // all leaves that touch the block are known: this one does not
+        if (!_tree.is_local(b)) {  // all leaves that touch the block are known: this one does not
           cube = {Size::finer, {b, 0}};
           continue;
         }

@@ -1,6 +1,7 @@
 #include "volume/lattice/neighbourhood.hpp"
 
-#include "volume/lattice/learn_blocks.hpp"
+#include "volume/lattice/block_points.hpp"
+#include "volume/lattice/fetch_blocks.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -26,70 +27,67 @@ std::vector<Question> take_questions(const Communicator& communicator, std::vect
   return mesh::deliver(communicator, std::move(questions), [](const Question& q) { return q.to; });
 }
 
-void learn_what_touches(const Communicator& communicator, const KnownLattice& lattice,
-                        std::span<const SurfaceTriangle> triangles) {
-  const LatticeFrame& frame = lattice.frame;
-  LatticeTree& tree = lattice.tree;
-  SurfaceTable& table = lattice.table;
-  if (communicator.size() == 1) return;
+std::vector<GhostBlock> fetch_ghosts(const Communicator& communicator, const Lattice& lattice) {
+  const LatticeTree& tree = lattice.tree;
+  if (communicator.size() == 1) return {};
   const ScopedCpu task(ScopedCpu::As::task);
   std::vector<Question> questions;
   const auto ask_for = [&](const GridBox& box) {
     ask(tree, box, {box, 0, 0, 0, 0, communicator.rank()}, questions);
   };
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) ask_for(GridBox::of(tree.cube(b)).dilated(0.5));
-  for (const SurfaceTriangle& triangle : triangles) {
+  for (const SurfaceTriangle& triangle : lattice.triangles) {
     for (const geometry::Vec3& p : triangle.points) {
-      const sizing::GridPoint place = frame.cell_at(frame.to_grid(p));
+      const sizing::GridPoint place = lattice.frame.cell_at(lattice.frame.to_grid(p));
       if (tree.is_own(tree.any_at(place))) continue;
       const GridBox cell = GridBox::of({place, sizing::finest_level});
       ask_for({0.5 * (cell.low + cell.high), 0.5 * (cell.low + cell.high)});
     }
   }
-  learn(communicator, tree, table, std::move(questions),
-        [&](std::span<const Question> asked, const auto& add) {
-          const BoxesByLevel boxes(asked);
-          tree.any_block_in(
-              GridBox::of(GridCube{}),
-              [&](BlockIndex b) {
-                if (boxes.any_from(0, GridBox::of(tree.cube(b)))) add(b);
-                return false;
-              },
-              [&](BlockIndex first, BlockIndex last, const GridCube& cube) {
-                return last <= tree.first() || first >= tree.last() || !boxes.any_from(0, GridBox::of(cube));
-              });
-        });
+  return fetch_blocks(
+      communicator, lattice, std::move(questions), [&](std::span<const Question> asked, const auto& add) {
+        const BoxesByLevel boxes(asked);
+        tree.any_block_in(
+            GridBox::of(GridCube{}),
+            [&](BlockIndex b) {
+              if (boxes.any_from(0, GridBox::of(tree.cube(b)))) add(b);
+              return false;
+            },
+            [&](BlockIndex first, BlockIndex last, const GridCube& cube) {
+              return last <= tree.first() || first >= tree.last() || !boxes.any_from(0, GridBox::of(cube));
+            });
+      });
 }
 
-void learn_what_is_far_finer(const Communicator& communicator, const KnownLattice& lattice,
-                             const LatticeSource& source) {
-  LatticeTree& tree = lattice.tree;
-  SurfaceTable& table = lattice.table;
-  if (communicator.size() == 1) return;
+std::vector<GhostBlock> fetch_finer_ghosts(const Communicator& communicator, const Lattice& lattice) {
+  const LatticeTree& tree = lattice.tree;
+  const SurfaceTable& table = lattice.table;
+  if (communicator.size() == 1) return {};
   const ScopedCpu task(ScopedCpu::As::task);
   std::vector<Question> questions;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
-    for (const double radius : looks_of_block(source, b)) {
+    for (const double radius : looks_of_block(lattice, b)) {
       const GridBox box = GridBox::of(tree.cube(b)).dilated(radius);
       ask(tree, box, {box, 0, 0, tree.level(b), 0, communicator.rank()}, questions);
     }
   }
-  learn(communicator, tree, table, std::move(questions),
-        [&](std::span<const Question> asked, const auto& add) {
-          for (const Question& question : asked) {
-            tree.any_block_in(
-                question.box,
-                [&](BlockIndex b) {
-                  if (!table.is_met(b) || tree.level(b) < far_finer_level(question.level)) return false;
-                  add(b);
-                  return true;
-                },
-                [&](BlockIndex first, BlockIndex last, const GridCube&) {
-                  return last <= tree.first() || first >= tree.last() ||
-                         !table.any_met(first, last, far_finer_level(question.level));
-                });
-          }
-        });
+  return fetch_blocks(communicator, lattice, std::move(questions),
+                      [&](std::span<const Question> asked, const auto& add) {
+                        for (const Question& question : asked) {
+                          tree.any_block_in(
+                              question.box,
+                              [&](BlockIndex b) {
+                                if (!table.is_met(b) || tree.level(b) < far_finer_level(question.level))
+                                  return false;
+                                add(b);
+                                return true;
+                              },
+                              [&](BlockIndex first, BlockIndex last, const GridCube&) {
+                                return last <= tree.first() || first >= tree.last() ||
+                                       !table.any_met(first, last, far_finer_level(question.level));
+                              });
+                        }
+                      });
 }
 
 }  // namespace aeroloom::volume

@@ -1,10 +1,10 @@
-/// Blocks of other ranks, as far as they matter to those of this one.
+/// Ghosts: blocks of other ranks, as far as they matter to those of this one.
 #pragma once
 
 #include "geometry/runs.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
-#include "volume/lattice/block_points.hpp"
+#include "volume/lattice/lattice.hpp"
 
 #include <span>
 #include <tuple>
@@ -37,20 +37,18 @@ void for_each_asker(std::span<const Question> questions, const Visit& visit) {
       [&](std::size_t first, std::size_t last) { visit(questions.subspan(first, last - first)); });
 }
 
-/// The part of the lattice that a rank knows, which grows as it learns of blocks.
-struct KnownLattice {
-  const LatticeFrame& frame;
-  LatticeTree& tree;
-  SurfaceTable& table;
+/// A block that another rank owns.
+struct GhostBlock {
+  PackedBlock block;
+  float longest_edge;  ///< see SurfaceTable
+
+  static constexpr auto fields() { return std::tuple(&GhostBlock::block, &GhostBlock::longest_edge); }
 };
 
-// Tree and table grow by these. Indices of blocks change. All are collective.
-
-/// All blocks that touch this rank's, or hold corners of its triangles.
-void learn_what_touches(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                        std::span<const SurfaceTriangle> triangles);
-/// Where there are far finer blocks on the surface (see looks_of_block), one of them.
-void learn_what_is_far_finer(const parallel::Communicator& communicator, const KnownLattice& lattice,
-                             const LatticeSource& source);
+/// All blocks that touch this rank's, or hold corners of its triangles. Collective.
+std::vector<GhostBlock> fetch_ghosts(const parallel::Communicator& communicator, const Lattice& lattice);
+/// Where there are far finer blocks on the surface (see looks_of_block), one of them. Collective.
+std::vector<GhostBlock> fetch_finer_ghosts(const parallel::Communicator& communicator,
+                                           const Lattice& lattice);
 
 }  // namespace aeroloom::volume

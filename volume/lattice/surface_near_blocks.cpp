@@ -135,18 +135,19 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
                               std::span<const SurfaceTriangle> triangles) {
   SurfaceTable table;
   table.longest_edge.assign(tree.block_count(), 0);
-  table.triangles.assign(tree.block_count(), 0);
-  table.nearest.assign(tree.block_count(), std::numeric_limits<float>::infinity());
+  table.triangles.assign(tree.last() - tree.first(), 0);
+  table.nearest.assign(table.triangles.size(), std::numeric_limits<float>::infinity());
   for (const SurfaceTriangle& triangle : triangles) {
     const auto& p = triangle.points;
     const auto edge = static_cast<float>(longest_edge(p));
     const auto add = [&](BlockIndex b) {
       table.longest_edge[b] = std::max(table.longest_edge[b], edge);
-      table.nearest[b] = std::min(table.nearest[b], distance_from_middle(frame, tree.cube(b), p));
+      float& nearest = table.nearest[b - tree.first()];
+      nearest = std::min(nearest, distance_from_middle(frame, tree.cube(b), p));
     };
     const BlockIndex middle = tree.any_at(frame.cell_at(frame.to_grid((1.0 / 3.0) * (p[0] + p[1] + p[2]))));
     if (tree.is_own(middle)) {
-      ++table.triangles[middle];
+      ++table.triangles[middle - tree.first()];
       add(middle);
     }
     tree.for_each_own_block_in(grid_box(frame, p), [&](BlockIndex b) {

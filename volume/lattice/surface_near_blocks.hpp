@@ -36,10 +36,10 @@ struct SurfaceTriangle {
 /// A closed box in the grid around a triangle.
 GridBox grid_box(const LatticeFrame& frame, const std::array<geometry::Vec3, 3>& points);
 
-/// The triangles that meet each block, by block index; none for blocks that are not known.
+/// The triangles that meet each block, by block index; none for blocks that are not local.
 struct SurfaceTable {
   std::vector<float> longest_edge;  ///< of the triangles that meet it; 0: none does
-  // Of this rank's blocks.
+  // Of this rank's blocks, from the first on.
   std::vector<std::int32_t> triangles;  ///< those whose centre lies in it
   std::vector<float> nearest;           ///< how far one of them is from its centre, at most
 

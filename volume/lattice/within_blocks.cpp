@@ -21,12 +21,12 @@ geometry::Box box_in_space(const LatticeFrame& frame, const GridBox& box) {
 void WithinBlocks::find_targets(BlockIndex b) {
   _block = b;
   _targets.clear();
-  const GridBox cube = GridBox::of(_tree.cube(b));
+  const GridBox cube = GridBox::of(_lattice.tree.cube(b));
   // The box of a triangle in the grid may meet the block where its box in space does not.
-  const geometry::Box around = box_in_space(_frame, cube).dilated(_table.longest_edge[b]);
+  const geometry::Box around = box_in_space(_lattice.frame, cube).dilated(_lattice.table.longest_edge[b]);
   _surface.distance().for_each_in(around, [&](const BoundaryDistance::Measured& found) {
     const auto& [a, second, c] = found.corners;
-    if (grid_box(_frame, {a, second, c}).overlaps(cube))
+    if (grid_box(_lattice.frame, {a, second, c}).overlaps(cube))
       _targets.push_back({found.triangle, (1.0 / 3.0) * (a + second + c)});
   });
 }

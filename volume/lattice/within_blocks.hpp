@@ -1,7 +1,7 @@
 /// The region of points in large blocks, told by the triangles that meet these alone.
 #pragma once
 
-#include "volume/lattice/lattice_tree.hpp"
+#include "volume/lattice/lattice.hpp"
 #include "volume/lattice/near_surface.hpp"
 
 #include <cstdint>
@@ -15,9 +15,7 @@ namespace aeroloom::volume {
 /// Refers to all it is made from.
 class WithinBlocks {
 public:
-  WithinBlocks(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-               const NearSurface& surface)
-      : _frame(frame), _tree(tree), _table(table), _surface(surface) {}
+  WithinBlocks(const Lattice& lattice, const NearSurface& surface) : _lattice(lattice), _surface(surface) {}
 
   struct Seen {
     mesh::RegionId region;
@@ -33,9 +31,7 @@ private:
   };
   void find_targets(BlockIndex b);
 
-  const LatticeFrame& _frame;
-  const LatticeTree& _tree;
-  const SurfaceTable& _table;
+  const Lattice& _lattice;
   const NearSurface& _surface;
   BlockIndex _block = -1;  // whose targets these are
   std::vector<Target> _targets;

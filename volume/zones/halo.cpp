@@ -4,12 +4,12 @@
 
 namespace aeroloom::volume {
 
-double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-                           BlockIndex b) {
+double largest_size_around(const Lattice& lattice, BlockIndex b) {
+  const LatticeTree& tree = lattice.tree;
   double size = 0;
   tree.for_each_block_in(GridBox::of(tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
-    size =
-        std::max({size, mean_edge_of_cell * frame.edge(tree.leaf_level(n)), double{table.longest_edge[n]}});
+    size = std::max({size, mean_edge_of_cell * lattice.frame.edge(tree.leaf_level(n)),
+                     double{lattice.table.longest_edge[n]}});
   });
   return size;
 }
@@ -19,11 +19,8 @@ bool NearZone::knows(const GridBox& box) const {
                      [&](const GridBox& place) { return place.gap_to(box) <= radius; });
 }
 
-ZonesAround::ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-                         const Zones& zones, std::span<const double> widths)
-    : _frame(frame),
-      _tree(tree),
-      _table(table),
+ZonesAround::ZonesAround(const Lattice& lattice, const Zones& zones, std::span<const double> widths)
+    : _lattice(lattice),
       _zones(zones),
       _widths(widths),
       _widest(*std::max_element(widths.begin(), widths.end())) {}
@@ -40,8 +37,7 @@ void ZonesAround::find_places(const GridCube& cube, const GridBox& around, int f
     cuts.for_each_zone_in(cube, [&](ZoneIndex zone) { _places.push_back({_zones.name(zone), box}); });
     return;
   }
-  const BlockIndex b = _tree.any_at(cube.low);
-  if (_tree.is_known(b) && _tree.level(b) == cube.level) {
+  if (_zones.is_block(cube)) {
     _places.push_back({_zones.name(cuts.zone_of(cube)), box});
     return;
   }
@@ -49,13 +45,14 @@ void ZonesAround::find_places(const GridCube& cube, const GridBox& around, int f
 }
 
 void ZonesAround::move_to(BlockIndex b) {
-  const GridBox block = GridBox::of(_tree.cube(b));
-  const double size = largest_size_around(_frame, _tree, _table, b);
-  const GridBox around = block.dilated(_frame.grid_distance(_widest * size + _table.longest_edge[b]));
+  const GridBox block = GridBox::of(_lattice.tree.cube(b));
+  const double size = largest_size_around(_lattice, b);
+  const GridBox around =
+      block.dilated(_lattice.frame.grid_distance(_widest * size + _lattice.table.longest_edge[b]));
   _places.clear();
   find_places(LatticeTree::smallest_cube(around), around,
-              std::min(_tree.level(b) + finer_levels, sizing::finest_level));
-  for (const GivenLeaf& leaf : _zones.given()) {
+              std::min(_lattice.tree.level(b) + finer_levels, sizing::finest_level));
+  for (const ReassignedLeaf& leaf : _zones.reassigned()) {
     if (leaf.box.overlaps(around)) _places.push_back({leaf.zone, leaf.box});
   }
   std::stable_sort(_places.begin(), _places.end(),
@@ -66,7 +63,7 @@ void ZonesAround::move_to(BlockIndex b) {
   for (std::size_t first = 0, last; first < _places.size(); first = last) {
     const ZoneIndex zone = _places[first].zone;
     for (last = first + 1; last < _places.size() && _places[last].zone == zone;) ++last;
-    _near.push_back({zone, _frame.grid_distance(_widths[zone] * size),
+    _near.push_back({zone, _lattice.frame.grid_distance(_widths[zone] * size),
                      std::span<const GridBox>(_boxes).subspan(first, last - first)});
   }
 }

@@ -1,8 +1,7 @@
 /// Which zones know what lies in a block.
 #pragma once
 
-#include "volume/lattice/lattice_tree.hpp"
-#include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/lattice/lattice.hpp"
 #include "volume/zones/zones.hpp"
 
 #include <span>
@@ -12,8 +11,7 @@ namespace aeroloom::volume {
 
 /// The largest size in a block and next to it: the mean edge of the lattice, or the longest edge of the
 /// surface.
-double largest_size_around(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-                           BlockIndex b);
+double largest_size_around(const Lattice& lattice, BlockIndex b);
 
 /// A zone that has leaves near a block.
 struct NearZone {
@@ -34,14 +32,13 @@ public:
   static constexpr int finer_levels = 3;
   /// How far from a block leaves of zones matter to what lies in it, in the grid. Triangles count to the
   /// block that their centre lies in, so that they may stick out of it.
-  static double search_radius(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-                              BlockIndex b, double width) {
-    return frame.grid_distance(width * largest_size_around(frame, tree, table, b) + table.longest_edge[b]);
+  static double search_radius(const Lattice& lattice, BlockIndex b, double width) {
+    return lattice.frame.grid_distance(width * largest_size_around(lattice, b) +
+                                       lattice.table.longest_edge[b]);
   }
 
   /// `widths` are those of zones. Refers to what it is made from.
-  ZonesAround(const LatticeFrame& frame, const LatticeTree& tree, const SurfaceTable& table,
-              const Zones& zones, std::span<const double> widths);
+  ZonesAround(const Lattice& lattice, const Zones& zones, std::span<const double> widths);
 
   /// To a block of this rank.
   void move_to(BlockIndex b);
@@ -55,9 +52,7 @@ private:
   };
   void find_places(const GridCube& cube, const GridBox& around, int finest);
 
-  const LatticeFrame& _frame;
-  const LatticeTree& _tree;
-  const SurfaceTable& _table;
+  const Lattice& _lattice;
   const Zones& _zones;
   std::span<const double> _widths;
   double _widest;

@@ -10,28 +10,34 @@ namespace aeroloom::volume {
 
 namespace {
 
-bool in_order(const GivenLeaf& a, const GivenLeaf& b) {
+bool in_order(const ReassignedLeaf& a, const ReassignedLeaf& b) {
   return std::tie(a.block, a.child) < std::tie(b.block, b.child);
+}
+
+bool along_curve(const GridCube& a, const GridCube& b) {
+  return a.key() < b.key();
 }
 
 }  // namespace
 
-Zones::Zones(const LatticeTree& tree, ZoneCuts cuts) : _tree(tree), _cuts(std::move(cuts)), _names(count()) {
+Zones::Zones(const LatticeTree& tree, ZoneCuts cuts, std::vector<GridCube> cut_ghosts)
+    : _tree(tree), _cuts(std::move(cuts)), _cut_ghosts(std::move(cut_ghosts)), _names(count()) {
+  std::sort(_cut_ghosts.begin(), _cut_ghosts.end(), along_curve);
   std::iota(_names.begin(), _names.end(), 0);
   _of_block.reserve(tree.block_count());
   for (BlockIndex b = 0; b < tree.block_count(); ++b) _of_block.push_back(_cuts.zone_of(tree.cube(b)));
 }
 
 ZoneIndex Zones::find(BlockIndex b, int child) const {
-  const GivenLeaf leaf{_tree.number(b), child, {}, 0};
-  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf, in_order);
-  return at != _given.end() && !in_order(leaf, *at) ? at->zone : _of_block[b];
+  const ReassignedLeaf leaf{_tree.number(b), child, {}, 0};
+  const auto at = std::lower_bound(_reassigned.begin(), _reassigned.end(), leaf, in_order);
+  return at != _reassigned.end() && !in_order(leaf, *at) ? at->zone : _of_block[b];
 }
 
 bool Zones::is_whole(BlockIndex b) const {
-  const auto at =
-      std::lower_bound(_given.begin(), _given.end(), GivenLeaf{_tree.number(b), 0, {}, 0}, in_order);
-  return at == _given.end() || at->block != _tree.number(b);
+  const auto at = std::lower_bound(_reassigned.begin(), _reassigned.end(),
+                                   ReassignedLeaf{_tree.number(b), 0, {}, 0}, in_order);
+  return at == _reassigned.end() || at->block != _tree.number(b);
 }
 
 bool Zones::has(ZoneIndex zone, BlockIndex b) const {
@@ -42,19 +48,26 @@ bool Zones::has(ZoneIndex zone, BlockIndex b) const {
   return false;
 }
 
-void Zones::give(const GivenLeaf& leaf) {
-  const auto at = std::lower_bound(_given.begin(), _given.end(), leaf, in_order);
-  if (at != _given.end() && !in_order(leaf, *at))
+bool Zones::is_block(const GridCube& cube) const {
+  const BlockIndex b = _tree.any_at(cube.low);
+  if (_tree.is_local(b)) return _tree.level(b) == cube.level;
+  const auto at = std::lower_bound(_cut_ghosts.begin(), _cut_ghosts.end(), cube, along_curve);
+  return at != _cut_ghosts.end() && *at == cube;
+}
+
+void Zones::reassign(const ReassignedLeaf& leaf) {
+  const auto at = std::lower_bound(_reassigned.begin(), _reassigned.end(), leaf, in_order);
+  if (at != _reassigned.end() && !in_order(leaf, *at))
     *at = leaf;
   else
-    _given.insert(at, leaf);
+    _reassigned.insert(at, leaf);
 }
 
 void Zones::merge(ZoneIndex from, ZoneIndex to) {
   std::replace(_of_block.begin(), _of_block.end(), from, to);
   std::replace(_names.begin(), _names.end(), from, to);
-  for (GivenLeaf& given : _given) {
-    if (given.zone == from) given.zone = to;
+  for (ReassignedLeaf& leaf : _reassigned) {
+    if (leaf.zone == from) leaf.zone = to;
   }
 }
 

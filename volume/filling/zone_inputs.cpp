@@ -1,4 +1,4 @@
-#include "volume/filling/zone_supply.hpp"
+#include "volume/filling/zone_inputs.hpp"
 
 #include "mesh/exchange/delivery.hpp"
 
@@ -62,76 +62,75 @@ struct Cargo {
   std::vector<BorderOfZone> borders;
 };
 
-/// Fetches from the store what a shipment names.
+/// Fetches what is to be sent.
 class Loader {
 public:
-  Loader(const ZoneStore& store, const ZoneShipment& shipment) : _store(store), _shipment(shipment) {
-    for (const ZoneShipment::OfBlock& want : shipment.blocks) {
+  Loader(const Lattice& lattice, const Shell& shell, const SendPlan& plan)
+      : _lattice(lattice), _shell(shell), _plan(plan) {
+    for (const SendPlan::OfBlock& want : plan.blocks) {
       add_points(want);
-      for (const BorderTriangle& t : store.borders.of(want.block)) {
+      for (const BorderTriangle& t : shell.local.borders.of(want.block)) {
         if (want.leaves >> t.child & 1) add_border(want, t);
       }
     }
-    for (const ZoneShipment::Triangle& want : shipment.triangles) add_triangle(want);
+    for (const SendPlan::Triangle& want : plan.triangles) add_triangle(want);
   }
 
   Cargo cargo;
 
 private:
-  void add_points(const ZoneShipment::OfBlock& want) {
-    const BlockPoints& all = _store.points;
+  void add_points(const SendPlan::OfBlock& want) {
+    const BlockPoints& all = _shell.local.points;
     const std::int64_t first = all.starts[want.block - all.first];
     for (std::uint64_t left = want.points; left != 0; left &= left - 1) {
       const std::int64_t i = first + __builtin_ctzll(left);
-      cargo.points.push_back({want.zone, _shipment.ranks[want.zone],
-                              lattice_number(_store.lattice.tree, want.block, all.slots[i]), all.points[i],
-                              all.regions[i],
-                              _store.finder.zone_of({want.block, all.slots[i] / slots_per_leaf})});
+      cargo.points.push_back({want.zone, _plan.ranks[want.zone],
+                              lattice_number(_lattice.tree, want.block, all.slots[i]), all.points[i],
+                              all.regions[i], _shell.zones.of(want.block, all.slots[i] / slots_per_leaf)});
     }
   }
 
   /// One at a zone's own point comes with all of its points, however far they are.
-  void add_border(const ZoneShipment::OfBlock& want, const BorderTriangle& t) {
-    const parallel::Rank rank = _shipment.ranks[want.zone];
-    const mesh::RegionId region = _store.core.region(want.block);
+  void add_border(const SendPlan::OfBlock& want, const BorderTriangle& t) {
+    const parallel::Rank rank = _plan.ranks[want.zone];
+    const mesh::RegionId region = _shell.local.core.region(want.block);
     cargo.borders.push_back(
-        {want.zone, rank, t.points, _store.lattice.tree.number(Leaf{want.block, t.child}), region});
+        {want.zone, rank, t.points, _lattice.tree.number(Leaf{want.block, t.child}), region});
     std::array<ZoneIndex, 3> owners;
-    for (int k = 0; k < 3; ++k)
-      owners[k] = _store.finder.zone_of(leaf_of_lattice(_store.lattice.tree, t.points[k]));
+    for (int k = 0; k < 3; ++k) owners[k] = _shell.zones.of(leaf_of_lattice(_lattice.tree, t.points[k]));
     if (std::find(owners.begin(), owners.end(), want.zone) == owners.end()) return;
     for (int k = 0; k < 3; ++k) {
-      const Vec3 p = lattice_point(_store.lattice, leaf_of_lattice(_store.lattice.tree, t.points[k]),
-                                   static_cast<int>(t.points[k] % slots_per_leaf));
+      const Vec3 p = lattice_point(_lattice, _shell.local.changes, t.points[k]);
       cargo.at_borders.push_back({want.zone, rank, t.points[k], p, region, owners[k]});
     }
   }
 
-  void add_triangle(const ZoneShipment::Triangle& want) {
-    TriangleOfZone sent{want.zone, _shipment.ranks[want.zone], _store.triangles[want.triangle], {}, {}};
+  void add_triangle(const SendPlan::Triangle& want) {
+    TriangleOfZone sent{want.zone, _plan.ranks[want.zone], _lattice.triangles[want.triangle], {}, {}};
     for (int k = 0; k < 3; ++k) {
-      const Leaf leaf = _store.finder.leaf_of_place(sent.triangle.points[k]);
-      sent.leaves[k] = _store.lattice.tree.number(leaf);
-      sent.owners[k] = _store.finder.zone_of(leaf);
+      const Leaf leaf = _lattice.leaf_at(sent.triangle.points[k]);
+      sent.leaves[k] = _lattice.tree.number(leaf);
+      sent.owners[k] = _shell.zones.of(leaf);
     }
     cargo.triangles.push_back(sent);
   }
 
-  const ZoneStore& _store;
-  const ZoneShipment& _shipment;
+  const Lattice& _lattice;
+  const Shell& _shell;
+  const SendPlan& _plan;
 };
 
 /// A zone's points and triangles become its problem.
-class ContentBuilder {
+class InputBuilder {
 public:
-  ContentBuilder(ZoneIndex zone, const ZoneFinder& finder) : _finder(finder) {
-    _content.zone = zone;
-    _content.surface_vertices = finder.surface_vertices();
+  InputBuilder(ZoneIndex zone, const Lattice& lattice) : _lattice(lattice) {
+    _input.zone = zone;
+    _input.surface_vertices = lattice.surface_vertices;
   }
 
   /// All by number.
-  ZoneContent build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles,
-                    std::span<const BorderOfZone> borders) {
+  ZoneInput build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles,
+                  std::span<const BorderOfZone> borders) {
     std::vector<Corner> corners;
     for (const TriangleOfZone& of_zone : triangles) {
       const SurfaceTriangle& t = of_zone.triangle;
@@ -146,16 +145,16 @@ public:
                   corners.end());
     for (const Corner& corner : corners) {
       add_point(mesh::running_key(corner.number), corner.point, corner.leaf, corner.owner);
-      _content.dimension.push_back(corner.dimension);
-      _content.entity.push_back(corner.entity);
+      _input.dimension.push_back(corner.dimension);
+      _input.entity.push_back(corner.entity);
     }
     for (const TriangleOfZone& t : triangles) add_triangle(t.triangle, corners);
     for (const PointOfZone& p : points) {
-      add_point(_finder.vertex_key_of(p.number), p.point, leaf_number_of_lattice(p.number), p.owner);
-      _content.problem.regions.push_back(p.region);
+      add_point(_lattice.vertex_key(p.number), p.point, leaf_number_of_lattice(p.number), p.owner);
+      _input.problem.regions.push_back(p.region);
     }
     for (const BorderOfZone& t : borders) add_border(t);
-    return std::move(_content);
+    return std::move(_input);
   }
 
 private:
@@ -169,33 +168,33 @@ private:
   };
 
   void add_point(mesh::SharedVertexKey vertex_key, Vec3 p, LeafNumber leaf, ZoneIndex owner) {
-    _content.vertex_keys.push_back(vertex_key);
-    _content.leaves.push_back(leaf);
-    _content.problem.points.push_back(p);
-    _content.problem.owners.push_back(owner == _content.zone  ? Owner::mine
-                                      : owner < _content.zone ? Owner::lower
-                                                              : Owner::higher);
+    _input.vertex_keys.push_back(vertex_key);
+    _input.leaves.push_back(leaf);
+    _input.problem.points.push_back(p);
+    _input.problem.owners.push_back(owner == _input.zone  ? Owner::mine
+                                    : owner < _input.zone ? Owner::lower
+                                                          : Owner::higher);
   }
 
   /// Where all of its points are known.
   void add_border(const BorderOfZone& t) {
-    const std::vector<mesh::SharedVertexKey>& vertex_keys = _content.vertex_keys;
+    const std::vector<mesh::SharedVertexKey>& vertex_keys = _input.vertex_keys;
     LocalTriangle local;
     bool is_own = false;
     int known = 0;
     for (int k = 0; k < 3; ++k) {
-      const mesh::SharedVertexKey vertex_key = _finder.vertex_key_of(t.points[k]);
+      const mesh::SharedVertexKey vertex_key = _lattice.vertex_key(t.points[k]);
       const auto at = std::lower_bound(vertex_keys.begin(), vertex_keys.end(), vertex_key);
       if (at == vertex_keys.end() || *at != vertex_key) continue;
       ++known;
       local[k] = static_cast<mesh::LocalIndex>(at - vertex_keys.begin());
-      is_own = is_own || _content.problem.owners[local[k]] == Owner::mine;
+      is_own = is_own || _input.problem.owners[local[k]] == Owner::mine;
     }
     if (known < 3 && is_own) throw std::logic_error("a zone does not know a point of the core's border");
     if (known < 3) return;
-    _content.problem.borders.push_back(local);
-    _content.problem.border_regions.push_back(t.region);
-    _content.border_leaves.push_back(t.leaf);
+    _input.problem.borders.push_back(local);
+    _input.problem.border_regions.push_back(t.region);
+    _input.border_leaves.push_back(t.leaf);
   }
 
   void add_triangle(const SurfaceTriangle& t, const std::vector<Corner>& corners) {
@@ -206,20 +205,20 @@ private:
           [](const Corner& corner, mesh::GlobalIndex number) { return corner.number < number; });
       local[k] = static_cast<mesh::LocalIndex>(at - corners.begin());
     }
-    _content.problem.triangles.push_back(local);
-    _content.problem.front.push_back(t.front);
-    _content.problem.back.push_back(t.back);
-    _content.face.push_back(t.face);
-    _content.patch.push_back(t.patch);
+    _input.problem.triangles.push_back(local);
+    _input.problem.front.push_back(t.front);
+    _input.problem.back.push_back(t.back);
+    _input.face.push_back(t.face);
+    _input.patch.push_back(t.patch);
   }
 
-  const ZoneFinder& _finder;
-  ZoneContent _content;
+  const Lattice& _lattice;
+  ZoneInput _input;
 };
 
 /// Brings what zones know to their ranks, by zone. Collective.
 template <class Item>
-void ship(const parallel::Communicator& communicator, std::vector<Item>& items) {
+void send(const parallel::Communicator& communicator, std::vector<Item>& items) {
   items = mesh::deliver(communicator, std::move(items), [](const Item& item) { return item.rank; });
   // Ranks have ascending blocks: what comes block by block is by number within each zone.
   const auto before = [](const Item& a, const Item& b) { return a.zone < b.zone; };
@@ -239,20 +238,20 @@ std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
 
 }  // namespace
 
-std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator, const ZoneStore& store,
-                                      const ZoneShipment& shipment) {
+std::vector<ZoneInput> gather_zone_inputs(const parallel::Communicator& communicator, const Lattice& lattice,
+                                          const Shell& shell, const SendPlan& plan) {
   Cargo cargo;
   {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    cargo = std::move(Loader(store, shipment).cargo);
+    cargo = std::move(Loader(lattice, shell, plan).cargo);
   }
-  ship(communicator, cargo.points);
-  ship(communicator, cargo.at_borders);
-  ship(communicator, cargo.triangles);
-  ship(communicator, cargo.borders);
+  send(communicator, cargo.points);
+  send(communicator, cargo.at_borders);
+  send(communicator, cargo.triangles);
+  send(communicator, cargo.borders);
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-  std::vector<ZoneContent> contents;
-  for (ZoneIndex zone = 0; zone < static_cast<ZoneIndex>(shipment.ranks.size()); ++zone) {
+  std::vector<ZoneInput> inputs;
+  for (ZoneIndex zone = 0; zone < static_cast<ZoneIndex>(plan.ranks.size()); ++zone) {
     const std::span<PointOfZone> near = of_zone(cargo.points, zone);
     const std::span<PointOfZone> at_borders = of_zone(cargo.at_borders, zone);
     const std::span<TriangleOfZone> triangles = of_zone(cargo.triangles, zone);
@@ -268,10 +267,9 @@ std::vector<ZoneContent> supply_zones(const parallel::Communicator& communicator
     points.reserve(near.size());
     std::set_union(near.begin(), near.end(), at_borders.begin(), last, std::back_inserter(points),
                    PointOfZone::by_number);
-    contents.push_back(
-        ContentBuilder(zone, store.finder).build(points, triangles, of_zone(cargo.borders, zone)));
+    inputs.push_back(InputBuilder(zone, lattice).build(points, triangles, of_zone(cargo.borders, zone)));
   }
-  return contents;
+  return inputs;
 }
 
 }  // namespace aeroloom::volume

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "volume/filling/agreement.hpp"
-#include "volume/filling/decomposition_data.hpp"
-#include "volume/filling/evidence.hpp"
+#include "volume/filling/failure_diagnostics.hpp"
+#include "volume/volume_options.hpp"
+#include "volume/zones/shell.hpp"
 
 #include <cstdint>
 #include <span>
@@ -11,19 +12,23 @@
 
 namespace aeroloom::volume {
 
-/// How far zones have climbed. The same on every rank. Refers to all it is made from.
-class ZoneLadder {
+/// Which retries zones have had. The same on every rank; it alone changes the shell. Refers to all it is made
+/// from.
+class RetryPolicy {
 public:
-  ZoneLadder(const VolumeInput& input, Decomposition::Data& data, VolumeReport& report)
-      : _communicator(input.surface.communicator),
-        _input(input),
-        _data(data),
+  RetryPolicy(const parallel::Communicator& communicator, const VolumeOptions& options,
+              const Lattice& lattice, Shell& shell, VolumeReport& report)
+      : _communicator(communicator),
+        _options(options),
+        _lattice(lattice),
+        _tree(lattice.tree),
+        _shell(shell),
         _report(report),
-        _changes_of(data.zones->count(), 0),
-        _merged(data.zones->count(), 0),
-        _is_gone(data.zones->count(), 0) {}
+        _changes_of(shell.zones.count(), 0),
+        _merged(shell.zones.count(), 0),
+        _is_gone(shell.zones.count(), 0) {}
 
-  /// Rungs that a zone has climbed since it was merged last.
+  /// Retries that a zone has had since it was merged last.
   int changes_of(ZoneIndex zone) const { return _changes_of[zone]; }
   bool is_merged(ZoneIndex zone) const { return _merged[zone] != 0; }
   /// Whether another zone has all that was the zone's.
@@ -31,10 +36,12 @@ public:
   /// Of the halos of all zones.
   std::vector<double> widths() const;
 
-  /// Changes what zones that failed are made of, and gives leaves of the core to the shell; returns the zones
-  /// to be filled again. `failures` and `leaving` are those of this rank. Collective. Throws VolumeFailure.
+  /// Changes what zones that failed are made of, and demotes leaves of the core to the shell; returns the
+  /// zones to be filled again. `failures` and `demoted` are those of this rank. Collective. Throws
+  /// VolumeFailure.
   std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& failures,
-                                       const std::vector<LeavingLeaf>& leaving, const Evidence& evidence);
+                                       const std::vector<DemotedLeaf>& demoted,
+                                       const FailureDiagnostics& diagnostics);
   /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again. `faces` are those
   /// of this rank's zones. Collective. Throws CollectiveError.
   std::vector<ZoneIndex> resolve_disputes(std::span<const ZoneFace> faces);
@@ -48,8 +55,11 @@ private:
     std::vector<ZoneIndex> zones;
   };
   Changed nothing() const;
-  bool give_to_shell(const std::vector<LeavingLeaf>& leaving, Changed& changed);
-  bool climb(const ZoneFailure& failure, const Evidence& evidence, Changed& changed);
+  using BlockChanges = std::vector<BlockChange>;
+  void demote(const std::vector<DemotedLeaf>& demoted, BlockChanges& changes, Changed& changed);
+  bool escalate(const ZoneFailure& failure, const FailureDiagnostics& diagnostics, BlockChanges& changes,
+                Changed& changed);
+  void make_points(BlockChanges changes, Changed& changed);
   ZoneIndex widest_neighbour(ZoneIndex zone) const;
   void merge(ZoneIndex a, ZoneIndex b);
   void touch_all(ZoneIndex zone, Changed& changed) const;
@@ -57,16 +67,18 @@ private:
   std::vector<LeafOfPlace> leaves_around(std::span<const DisputedPlace> places, int rings) const;
   LeafNumber lowest_leaf(ZoneIndex zone) const;
   void note_places(std::span<const DisputedPlace> places);
-  void give(std::span<const DisputedPlace> places, Changed& changed);
+  void reassign(std::span<const DisputedPlace> places, Changed& changed);
   void merge_those_around(std::span<const DisputedPlace> places, Changed& changed);
 
   const parallel::Communicator& _communicator;
-  const VolumeInput& _input;
-  Decomposition::Data& _data;
+  const VolumeOptions& _options;
+  const Lattice& _lattice;
+  const LatticeTree& _tree;
+  Shell& _shell;
   VolumeReport& _report;
   std::vector<int> _changes_of;
   std::vector<std::uint8_t> _merged, _is_gone;
-  int _rounds_of_giving = 0;
+  int _rounds_of_reassignment = 0;
 };
 
 }  // namespace aeroloom::volume

@@ -1,9 +1,9 @@
-/// Evidence about zones that could not be filled, and the message the user gets.
+/// Diagnostics of zones that could not be filled, and the message the user gets.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
 #include "volume/filling/surface_check.hpp"
-#include "volume/filling/zone_supply.hpp"
+#include "volume/filling/zone_inputs.hpp"
 #include "volume/lattice/block_regions.hpp"
 #include "volume/volume_failure.hpp"
 #include "volume/volume_report.hpp"
@@ -27,18 +27,18 @@ std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communica
                                          const std::vector<ZoneFailure>& mine);
 
 /// Keeps what this rank's failing zones looked like.
-class Evidence {
+class FailureDiagnostics {
 public:
   /// Whether triangles are looked at for defects: takes a while, and a first failure may have lighter causes.
   enum class Look { later, for_defects };
   /// A zone failed: its triangles are kept.
-  void note(const ZoneContent& content, const mesh::DistributedMesh& surface, const std::string& reason,
+  void note(const ZoneInput& input, const mesh::DistributedMesh& surface, const std::string& reason,
             Look look);
 
   /// The remedy belongs to the cause: a surface that meets itself cannot be helped by trying again. Throws
   /// VolumeFailure on every rank where a zone's triangles have a defect. Collective.
   void stop_at_defects(const parallel::Communicator& communicator) const;
-  /// Throws VolumeFailure on every rank: no rung of the ladder was left for this zone. Collective.
+  /// Throws VolumeFailure on every rank: no retry was left for this zone. Collective.
   [[noreturn]] void give_up(const parallel::Communicator& communicator, ZoneIndex zone,
                             const std::vector<Retry>& tried) const;
 

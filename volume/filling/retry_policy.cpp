@@ -1,4 +1,4 @@
-#include "volume/filling/zone_ladder.hpp"
+#include "volume/filling/retry_policy.hpp"
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
@@ -18,9 +18,9 @@ using geometry::Vec3;
 
 namespace {
 
-/// Rounds in which leaves are given away where zones disagree; after that such zones are merged. Chosen, not
+/// Rounds in which leaves are reassigned where zones disagree; after that such zones are merged. Chosen, not
 /// measured.
-constexpr int most_rounds_of_giving = 3;
+constexpr int most_rounds_of_reassignment = 3;
 
 template <class T>
 void keep_each_once(std::vector<T>& items) {
@@ -30,7 +30,7 @@ void keep_each_once(std::vector<T>& items) {
 
 }  // namespace
 
-struct ZoneLadder::LeafOfPlace {
+struct RetryPolicy::LeafOfPlace {
   std::int32_t place;
   ZoneIndex zone;  ///< that has it
   LeafNumber leaf;
@@ -41,75 +41,75 @@ struct ZoneLadder::LeafOfPlace {
   }
 };
 
-std::vector<double> ZoneLadder::widths() const {
+std::vector<double> RetryPolicy::widths() const {
   std::vector<double> widths;
-  for (const int changes : _changes_of) widths.push_back(_input.options.halo * std::pow(wider, changes));
+  for (const int changes : _changes_of) widths.push_back(_options.halo * std::pow(wider, changes));
   return widths;
 }
 
-ZoneLadder::Changed ZoneLadder::nothing() const {
-  return {std::vector<std::uint8_t>(_data.tree->last() - _data.tree->first(), 0), {}};
+RetryPolicy::Changed RetryPolicy::nothing() const {
+  return {std::vector<std::uint8_t>(_tree.last() - _tree.first(), 0), {}};
 }
 
 // --- zones that failed
 
-std::vector<ZoneIndex> ZoneLadder::change_failed(const std::vector<ZoneFailure>& failures,
-                                                 const std::vector<LeavingLeaf>& leaving,
-                                                 const Evidence& evidence) {
+std::vector<ZoneIndex> RetryPolicy::change_failed(const std::vector<ZoneFailure>& failures,
+                                                  const std::vector<DemotedLeaf>& demoted,
+                                                  const FailureDiagnostics& diagnostics) {
   const std::vector<ZoneFailure> failed = gather_failures(_communicator, failures);
-  const std::vector<LeavingLeaf> left = _communicator.all_gather_items<LeavingLeaf>(leaving);
-  if (failed.empty() && left.empty()) return {};
-  if (!failed.empty()) evidence.stop_at_defects(_communicator);
+  const std::vector<DemotedLeaf> leaves = _communicator.all_gather_items<DemotedLeaf>(demoted);
+  if (failed.empty() && leaves.empty()) return {};
+  if (!failed.empty()) diagnostics.stop_at_defects(_communicator);
   Changed changed = nothing();
-  bool points_change = give_to_shell(left, changed);
+  BlockChanges changes = _shell.local.changes;
+  demote(leaves, changes, changed);
+  bool points_change = !leaves.empty();
   for (const ZoneFailure& failure : failed) {
-    if (!is_gone(failure.zone)) points_change = climb(failure, evidence, changed) || points_change;
+    if (!is_gone(failure.zone))
+      points_change = escalate(failure, diagnostics, changes, changed) || points_change;
   }
-  if (points_change) {
-    for (const BlockIndex b : make_all_points(_input, _data)) changed.blocks[b - _data.tree->first()] = 1;
-  }
+  if (points_change) make_points(std::move(changes), changed);
   return those_that_see(std::move(changed));
 }
 
-/// Whether there are any.
-bool ZoneLadder::give_to_shell(const std::vector<LeavingLeaf>& leaving, Changed& changed) {
+void RetryPolicy::demote(const std::vector<DemotedLeaf>& demoted, BlockChanges& changes, Changed& changed) {
   std::vector<LeafNumber> leaves;
-  for (const auto& [number, zone] : leaving) {
+  for (const auto& [number, zone] : demoted) {
     leaves.push_back(number);
     changed.zones.push_back(zone);
   }
   keep_each_once(leaves);
   _report.left_core += static_cast<std::int64_t>(leaves.size());
   for (const LeafNumber number : leaves) {
-    if (!_data.tree->knows(number / 8)) continue;
-    const Leaf leaf = _data.tree->leaf_of(number);
-    if (_data.tree->is_own(leaf.block)) changed.blocks[leaf.block - _data.tree->first()] = 1;
-    _data.changes[leaf.block].shell |= static_cast<std::uint8_t>(1U << leaf.child);
+    if (!_tree.has(number / 8)) continue;
+    const Leaf leaf = _tree.leaf_of(number);
+    if (_tree.is_own(leaf.block)) changed.blocks[leaf.block - _tree.first()] = 1;
+    changes[leaf.block].shell |= static_cast<std::uint8_t>(1U << leaf.child);
   }
-  return !leaves.empty();
 }
 
 /// Whether points change.
-bool ZoneLadder::climb(const ZoneFailure& failure, const Evidence& evidence, Changed& changed) {
+bool RetryPolicy::escalate(const ZoneFailure& failure, const FailureDiagnostics& diagnostics,
+                           BlockChanges& changes, Changed& changed) {
   const ZoneIndex zone = failure.zone;
   changed.zones.push_back(zone);
   bool points_change = false;
   std::string change;
-  if (_changes_of[zone] < std::min<int>(_input.options.retries, std::size(ladder))) {
-    const Rung& rung = ladder[_changes_of[zone]++];
-    change = rung.name;
-    points_change = rung.other_points;
+  if (_changes_of[zone] < std::min<int>(_options.retries, std::size(retry_steps))) {
+    const RetryStep& step = retry_steps[_changes_of[zone]++];
+    change = step.name;
+    points_change = step.other_points;
     if (points_change) {
       touch_all(zone, changed);
-      for (BlockIndex b = 0; b < _data.tree->block_count(); ++b) {
-        if (!_data.zones->has(zone, b)) continue;
-        ++_data.changes[b].variant;
-        _data.changes[b].farther = rung.farther;
+      for (BlockIndex b = 0; b < _tree.block_count(); ++b) {
+        if (!_shell.zones.has(zone, b)) continue;
+        ++changes[b].variant;
+        changes[b].farther = step.farther;
       }
     }
   } else {
     const ZoneIndex with = widest_neighbour(zone);
-    if (with == no_zone) evidence.give_up(_communicator, zone, _report.retries);
+    if (with == no_zone) diagnostics.give_up(_communicator, zone, _report.retries);
     change = fmt::format("merged with zone {}", with);
     touch_all(zone, changed);
     merge(zone, with);
@@ -121,14 +121,22 @@ bool ZoneLadder::climb(const ZoneFailure& failure, const Evidence& evidence, Cha
   return points_change;
 }
 
+/// Makes the points anew, and notes blocks whose core is another than before. Collective.
+void RetryPolicy::make_points(BlockChanges changes, Changed& changed) {
+  LocalShell made = make_local_shell(_communicator, _lattice, gather_near_surface(_communicator, _lattice),
+                                     std::move(changes));
+  for (const BlockIndex b : made.core.blocks_unlike(_shell.local.core)) changed.blocks[b - _tree.first()] = 1;
+  _shell.local = std::move(made);
+}
+
 /// The zone with most blocks beside those of this one; none in a volume of one zone. Collective.
-ZoneIndex ZoneLadder::widest_neighbour(ZoneIndex zone) const {
-  std::vector<std::int64_t> counts(_data.zones->count(), 0);
-  for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
-    const ZoneIndex z = _data.zones->of(b, 0);
-    if (z == zone || (_data.shell.points.count(b) == 0 && !_data.table.is_met(b))) continue;
-    _data.tree->for_each_block_in(GridBox::of(_data.tree->cube(b)).dilated(0.5), [&](BlockIndex n) {
-      if (_data.zones->has(zone, n)) ++counts[z];
+ZoneIndex RetryPolicy::widest_neighbour(ZoneIndex zone) const {
+  std::vector<std::int64_t> counts(_shell.zones.count(), 0);
+  for (BlockIndex b = _tree.first(); b < _tree.last(); ++b) {
+    const ZoneIndex z = _shell.zones.of(b, 0);
+    if (z == zone || (_shell.local.points.count(b) == 0 && !_lattice.table.is_met(b))) continue;
+    _tree.for_each_block_in(GridBox::of(_tree.cube(b)).dilated(0.5), [&](BlockIndex n) {
+      if (_shell.zones.has(zone, n)) ++counts[z];
     });
   }
   counts = sum_by_zone(_communicator, std::move(counts));
@@ -136,28 +144,28 @@ ZoneIndex ZoneLadder::widest_neighbour(ZoneIndex zone) const {
   return *most == 0 ? no_zone : static_cast<ZoneIndex>(most - counts.begin());
 }
 
-void ZoneLadder::merge(ZoneIndex a, ZoneIndex b) {
+void RetryPolicy::merge(ZoneIndex a, ZoneIndex b) {
   const ZoneIndex low = std::min(a, b), high = std::max(a, b);
-  _data.zones->merge(high, low);
+  _shell.zones.merge(high, low);
   _is_gone[high] = 1;
   _merged[low] = _merged[high] = 1;
   _changes_of[low] = 0;
-  _data.expected[low] += _data.expected[high];
+  _shell.expected[low] += _shell.expected[high];
 }
 
-void ZoneLadder::touch_all(ZoneIndex zone, Changed& changed) const {
-  for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
-    if (_data.zones->has(zone, b)) changed.blocks[b - _data.tree->first()] = 1;
+void RetryPolicy::touch_all(ZoneIndex zone, Changed& changed) const {
+  for (BlockIndex b = _tree.first(); b < _tree.last(); ++b) {
+    if (_shell.zones.has(zone, b)) changed.blocks[b - _tree.first()] = 1;
   }
 }
 
 /// The zones that changed and those that know leaves of the touched blocks, ascending. Collective.
-std::vector<ZoneIndex> ZoneLadder::those_that_see(Changed changed) {
+std::vector<ZoneIndex> RetryPolicy::those_that_see(Changed changed) {
   std::vector<double> widest = widths();
   widest.assign(widest.size(), *std::max_element(widest.begin(), widest.end()));
-  ZonesAround around(*_data.frame, *_data.tree, _data.table, *_data.zones, widest);
-  for (BlockIndex b = _data.tree->first(); b < _data.tree->last(); ++b) {
-    if (!changed.blocks[b - _data.tree->first()]) continue;
+  ZonesAround around(_lattice, _shell.zones, widest);
+  for (BlockIndex b = _tree.first(); b < _tree.last(); ++b) {
+    if (!changed.blocks[b - _tree.first()]) continue;
     around.move_to(b);
     for (const NearZone& near : around.zones()) changed.zones.push_back(near.zone);
   }
@@ -170,10 +178,10 @@ std::vector<ZoneIndex> ZoneLadder::those_that_see(Changed changed) {
 
 // --- zones that disagree
 
-std::vector<ZoneIndex> ZoneLadder::resolve_disputes(std::span<const ZoneFace> faces) {
+std::vector<ZoneIndex> RetryPolicy::resolve_disputes(std::span<const ZoneFace> faces) {
   const std::vector<ZoneFace> unmatched = find_unmatched(_communicator, faces);
   if (unmatched.empty()) return {};
-  ++_rounds_of_giving;
+  ++_rounds_of_reassignment;
   Changed changed = nothing();
   std::vector<DisputedPlace> places = find_places(unmatched);
   for (DisputedPlace& place : places) {
@@ -181,19 +189,19 @@ std::vector<ZoneIndex> ZoneLadder::resolve_disputes(std::span<const ZoneFace> fa
     if (place.leaves.empty()) place.leaves.push_back(lowest_leaf(place.zones.front()));
   }
   note_places(places);
-  if (_rounds_of_giving <= most_rounds_of_giving)
-    give(places, changed);
+  if (_rounds_of_reassignment <= most_rounds_of_reassignment)
+    reassign(places, changed);
   else
     merge_those_around(places, changed);
   return those_that_see(std::move(changed));
 }
 
 /// Any leaf of a zone will do where TetGen added all the vertices. Collective.
-LeafNumber ZoneLadder::lowest_leaf(ZoneIndex zone) const {
+LeafNumber RetryPolicy::lowest_leaf(ZoneIndex zone) const {
   std::int64_t lowest = INT64_MAX;
-  for (BlockIndex b = _data.tree->last(); b-- > _data.tree->first();) {
-    for (int child = _data.tree->leaf_count(b); child-- > 0;) {
-      if (_data.zones->of(b, child) == zone) lowest = _data.tree->number(Leaf{b, child});
+  for (BlockIndex b = _tree.last(); b-- > _tree.first();) {
+    for (int child = _tree.leaf_count(b); child-- > 0;) {
+      if (_shell.zones.of(b, child) == zone) lowest = _tree.number(Leaf{b, child});
     }
   }
   lowest = _communicator.minimum(lowest);
@@ -201,16 +209,15 @@ LeafNumber ZoneLadder::lowest_leaf(ZoneIndex zone) const {
 }
 
 /// The leaves of places and those less than `rings` leaves away from one, by place. Collective.
-std::vector<ZoneLadder::LeafOfPlace> ZoneLadder::leaves_around(std::span<const DisputedPlace> places,
-                                                               int rings) const {
-  const LatticeTree& tree = *_data.tree;
+std::vector<RetryPolicy::LeafOfPlace> RetryPolicy::leaves_around(std::span<const DisputedPlace> places,
+                                                                 int rings) const {
   std::vector<LeafOfPlace> found;
   for (std::size_t i = 0; i < places.size(); ++i) {
     for (const LeafNumber number : places[i].leaves) {
-      if (tree.owner(number / 8) != _communicator.rank()) continue;
-      const Leaf leaf = tree.leaf_of(number);
-      found.push_back({static_cast<std::int32_t>(i), _data.zones->of(leaf.block, leaf.child), number,
-                       GridBox::of(tree.leaf(leaf))});
+      if (_tree.owner(number / 8) != _communicator.rank()) continue;
+      const Leaf leaf = _tree.leaf_of(number);
+      found.push_back({static_cast<std::int32_t>(i), _shell.zones.of(leaf.block, leaf.child), number,
+                       GridBox::of(_tree.leaf(leaf))});
     }
   }
   const auto in_order = [](const LeafOfPlace& a, const LeafOfPlace& b) {
@@ -222,11 +229,11 @@ std::vector<ZoneLadder::LeafOfPlace> ZoneLadder::leaves_around(std::span<const D
   std::vector<LeafOfPlace> around;
   for (const LeafOfPlace& center : found) {
     const GridBox box = center.box.dilated((rings - 0.5) * (center.box.high.x - center.box.low.x));
-    tree.for_each_own_block_in(box, [&](BlockIndex n) {
-      for (int child = 0; child < tree.leaf_count(n); ++child) {
-        const GridBox leaf = GridBox::of(tree.leaf(n, child));
+    _tree.for_each_own_block_in(box, [&](BlockIndex n) {
+      for (int child = 0; child < _tree.leaf_count(n); ++child) {
+        const GridBox leaf = GridBox::of(_tree.leaf(n, child));
         if (leaf.overlaps(box))
-          around.push_back({center.place, _data.zones->of(n, child), tree.number(Leaf{n, child}), leaf});
+          around.push_back({center.place, _shell.zones.of(n, child), _tree.number(Leaf{n, child}), leaf});
       }
     });
   }
@@ -241,31 +248,30 @@ std::vector<ZoneLadder::LeafOfPlace> ZoneLadder::leaves_around(std::span<const D
 }
 
 /// Tells where each is: in the middle of its first leaf. Collective.
-void ZoneLadder::note_places(std::span<const DisputedPlace> places) {
+void RetryPolicy::note_places(std::span<const DisputedPlace> places) {
   std::int32_t next = 0;
   for (const LeafOfPlace& leaf : leaves_around(places, 0)) {
     if (leaf.place != next) continue;
     const DisputedPlace& place = places[next++];
-    const Vec3 where = _data.frame->to_space(0.5 * (leaf.box.low + leaf.box.high));
-    _report.disagreements.push_back({where, place.zones.front(), place.faces, _rounds_of_giving});
+    const Vec3 where = _lattice.frame.to_space(0.5 * (leaf.box.low + leaf.box.high));
+    _report.disagreements.push_back({where, place.zones.front(), place.faces, _rounds_of_reassignment});
     parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
                                       place.faces, place.zones.size(), where.x, where.y, where.z));
   }
 }
 
 /// The leaves of places, from the second round on with more and more of those around them. Collective.
-void ZoneLadder::give(std::span<const DisputedPlace> places, Changed& changed) {
-  for (const LeafOfPlace& given : leaves_around(places, _rounds_of_giving - 1)) {
+void RetryPolicy::reassign(std::span<const DisputedPlace> places, Changed& changed) {
+  for (const LeafOfPlace& given : leaves_around(places, _rounds_of_reassignment - 1)) {
     const BlockNumber block = given.leaf / 8;
-    if (_data.tree->owner(block) == _communicator.rank())
-      changed.blocks[_data.tree->index(block) - _data.tree->first()] = 1;
-    _data.zones->give(
+    if (_tree.owner(block) == _communicator.rank()) changed.blocks[_tree.index(block) - _tree.first()] = 1;
+    _shell.zones.reassign(
         {block, static_cast<int>(given.leaf % 8), given.box, places[given.place].zones.front()});
   }
 }
 
 /// Makes one zone of all that claim faces at a place or have leaves around it. Collective.
-void ZoneLadder::merge_those_around(std::span<const DisputedPlace> places, Changed& changed) {
+void RetryPolicy::merge_those_around(std::span<const DisputedPlace> places, Changed& changed) {
   std::vector<std::vector<ZoneIndex>> zones;
   for (const DisputedPlace& place : places) zones.push_back(place.zones);
   for (const LeafOfPlace& leaf : leaves_around(places, 2)) zones[leaf.place].push_back(leaf.zone);

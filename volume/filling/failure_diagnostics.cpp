@@ -1,4 +1,4 @@
-#include "volume/filling/evidence.hpp"
+#include "volume/filling/failure_diagnostics.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -62,12 +62,12 @@ std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
 
 }  // namespace
 
-void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& surface,
-                    const std::string& reason, Look look) {
-  const ZoneProblem& problem = content.problem;
+void FailureDiagnostics::note(const ZoneInput& input, const mesh::DistributedMesh& surface,
+                              const std::string& reason, Look look) {
+  const ZoneProblem& problem = input.problem;
   const TriangleSoup part{problem.points, problem.triangles};
   Item item;
-  item.zone = content.zone;
+  item.zone = input.zone;
   SurfaceDefect defect;
   if (look == Look::for_defects) {
     defect = find_defect(part);
@@ -80,9 +80,9 @@ void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& sur
   for (std::size_t v = 0; v < problem.points.size(); ++v) {
     if (problem.owners[v] == Owner::mine) box.add(problem.points[v]);
   }
-  item.message =
-      fmt::format("zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ",
-                  content.zone, box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+  item.message = fmt::format(
+      "zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ", input.zone,
+      box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
   item.message += item.has_defect
                       ? defect.what + describe_triangles(part, triangles) + "\nThe mesher said: " + reason +
                             "\nUse smaller elements there, so that surfaces close to each other are "
@@ -90,7 +90,7 @@ void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& sur
                       : reason;
   std::vector<std::int32_t> faces;
   faces.reserve(triangles.size());
-  for (const std::int32_t t : triangles) faces.push_back(content.face[t]);
+  for (const std::int32_t t : triangles) faces.push_back(input.face[t]);
   item.message += name_faces(std::move(faces), surface);
   if (triangles.empty()) {
     triangles.resize(problem.triangles.size());
@@ -107,7 +107,8 @@ void Evidence::note(const ZoneContent& content, const mesh::DistributedMesh& sur
   _items.push_back(std::move(item));
 }
 
-Evidence::Item Evidence::lowest(const parallel::Communicator& communicator, const Item* mine) {
+FailureDiagnostics::Item FailureDiagnostics::lowest(const parallel::Communicator& communicator,
+                                                    const Item* mine) {
   const std::int64_t none = INT32_MAX;
   const std::int64_t zone = communicator.minimum(mine ? std::int64_t{mine->zone} : none);
   if (zone == none) return {};
@@ -119,11 +120,11 @@ Evidence::Item Evidence::lowest(const parallel::Communicator& communicator, cons
   return item;
 }
 
-void Evidence::raise(const Item& item, const std::string& tried) {
+void FailureDiagnostics::raise(const Item& item, const std::string& tried) {
   throw VolumeFailure(item.message + tried, item.points, item.triangles);
 }
 
-void Evidence::stop_at_defects(const parallel::Communicator& communicator) const {
+void FailureDiagnostics::stop_at_defects(const parallel::Communicator& communicator) const {
   const Item* worst = nullptr;
   for (const Item& item : _items) {
     if (item.has_defect && (!worst || item.zone < worst->zone)) worst = &item;
@@ -132,8 +133,8 @@ void Evidence::stop_at_defects(const parallel::Communicator& communicator) const
   if (item.zone != no_zone) raise(item, "");
 }
 
-void Evidence::give_up(const parallel::Communicator& communicator, ZoneIndex zone,
-                       const std::vector<Retry>& tried) const {
+void FailureDiagnostics::give_up(const parallel::Communicator& communicator, ZoneIndex zone,
+                                 const std::vector<Retry>& tried) const {
   const Item* mine = nullptr;
   for (const Item& item : _items) {
     if (item.zone == zone) mine = &item;

@@ -1,0 +1,77 @@
+#include "volume/lattice/lattice.hpp"
+
+#include "parallel/communication/collective_error.hpp"
+#include "volume/lattice/neighbourhood.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <utility>
+
+namespace aeroloom::volume {
+
+namespace {
+
+/// The finest cubes that hold the centres of this rank's triangles.
+std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::DistributedMesh& surface) {
+  std::vector<std::uint64_t> keys;
+  for (const mesh::Piece& piece : surface.pieces) {
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const mesh::LocalIndex* v = piece.cell(t);
+      const geometry::Vec3 centre = (1.0 / 3.0) * (piece.point(v[0]) + piece.point(v[1]) + piece.point(v[2]));
+      keys.push_back(sizing::morton_key(frame.cell_at(frame.to_grid(centre))));
+    }
+  }
+  return keys;
+}
+
+/// Tree and table grow by ghosts.
+void add_ghosts(std::vector<GhostBlock> ghosts, LatticeTree& tree, SurfaceTable& table) {
+  std::vector<PackedBlock> blocks;
+  blocks.reserve(ghosts.size());
+  for (const GhostBlock& ghost : ghosts) blocks.push_back(ghost.block);
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b)
+    ghosts.push_back({tree.packed(b), table.longest_edge[b]});
+  tree.add(std::move(blocks));
+  table.longest_edge.assign(tree.block_count(), 0);
+  for (const GhostBlock& ghost : ghosts)
+    table.longest_edge[tree.index(ghost.block.number)] = ghost.longest_edge;
+  table.note_levels_met(tree);
+}
+
+}  // namespace
+
+Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
+  const parallel::Communicator& communicator = input.surface.communicator;
+  const LatticeFrame frame(input.field, box);
+  LatticeTree tree(communicator, frame, input.field, box, keys_of(frame, input.surface));
+  std::vector<SurfaceTriangle> triangles = deliver_surface(frame, tree, input.surface, input.numbering);
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
+  SurfaceTable table = tabulate_surface(frame, tree, triangles);
+  Lattice lattice{input.field,
+                  {input.options.lattice_clearance, input.options.perturbation},
+                  frame,
+                  std::move(tree),
+                  std::move(table),
+                  std::move(triangles),
+                  input.numbering.vertex_count,
+                  {},
+                  {}};
+  std::vector<GhostBlock> ghosts = fetch_ghosts(communicator, lattice);
+  const std::vector<GhostBlock> finer = fetch_finer_ghosts(communicator, lattice);
+  ghosts.insert(ghosts.end(), finer.begin(), finer.end());
+  if (communicator.size() > 1) add_ghosts(std::move(ghosts), lattice.tree, lattice.table);
+  return lattice;
+}
+
+std::unique_ptr<const NearSurface> gather_near_surface(const parallel::Communicator& communicator,
+                                                       const Lattice& lattice) {
+  const std::vector<SurfaceTriangle> near =
+      add_those_near(communicator, lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
+  std::unique_ptr<const NearSurface> surface;
+  parallel::agree(communicator, [&] {
+    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
+    surface = std::make_unique<NearSurface>(near);
+  });
+  return surface;
+}
+
+}  // namespace aeroloom::volume
