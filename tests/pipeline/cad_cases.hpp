@@ -54,13 +54,14 @@ private:
   std::filesystem::path _path;
 };
 
-/// A coarse case on a file.
+/// A coarse case on a file, without pictures, which have tests of their own.
 inline cases::Case coarse_case(const std::string& file, const Folder& folder, double target) {
   cases::Case input;
   input.domain.file = file;
   input.sizing.target_tetrahedra = target;
   input.output.directory = folder.path() + "/out";
   input.output.log = parallel::LogLevel::quiet;
+  input.output.pictures = false;
   return input;
 }
 

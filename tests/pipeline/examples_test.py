@@ -4,7 +4,7 @@ import re
 import shutil
 import sys
 
-from program import COARSE_WING
+from program import COARSE_DUCT
 from shell import Shell
 
 
@@ -16,7 +16,7 @@ def commands_of(shell):
 
 def check_examples(shell):
     """Every example in every help runs as it stands."""
-    (shell.folder / "case.yaml").write_text(COARSE_WING)
+    (shell.folder / "case.yaml").write_text(COARSE_DUCT)
     (shell.folder / "account.txt").write_text("#SBATCH --account=wing\n")
     commands = commands_of(shell)
     assert {"run", "check", "info", "improve", "quality", "convert", "export-cad", "completion", "init", "schema"} <= set(commands)

@@ -44,7 +44,7 @@ def main():
         file = pathlib.Path(name) / "drum.stl"
         write_stl(file)
         runs = {}
-        for ranks in (1, 2, 3):
+        for ranks in (1, 3):
             folder = pathlib.Path(name) / str(ranks)
             folder.mkdir()
             runs[ranks] = Run(sys.argv[1], CASE.format(file=file), ranks, folder=folder)

@@ -46,13 +46,13 @@ def main():
         assert abs(levels[name]["tetrahedra"] / (forecast["tetrahedra"] * finer ** 3) - 1) < 0.02, levels
         assert abs(levels[name]["triangles"] / (forecast["triangles"] * finer ** 2) - 1) < 0.02, levels
 
-    coarse = check(program, "sizing.level=A")[1]["tetrahedra"]
-    assert coarse < forecast["tetrahedra"], (coarse, forecast["tetrahedra"])
-    done, within = check(program, f"sizing.budget={1.05 * coarse:.0f}")
+    # A budget between the level below and this one; and one that holds none.
+    budget = 0.75 * forecast["tetrahedra"]
+    done, within = check(program, f"sizing.budget={budget:.0f}")
     assert done.returncode == 0 and "sizing: level A:" in done.stdout + done.stderr, done.stdout + done.stderr
-    assert within["tetrahedra"] <= 1.05 * coarse, within
-    done, none = check(program, f"sizing.budget={0.5 * coarse:.0f}")
-    assert done.returncode != 0 and "do not hold level A" in done.stderr, done.stderr
+    assert within["tetrahedra"] <= budget and within["triangles"] < forecast["triangles"], within
+    done, none = check(program, f"sizing.budget={0.5 * within['tetrahedra']:.0f}")
+    assert done.returncode != 0 and none is None and "do not hold level A" in done.stderr, done.stderr
     print("levels: forecasts by the cube, the level that a budget holds")
 
 

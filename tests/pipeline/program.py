@@ -24,6 +24,12 @@ farfield: {{shape: box, extent: 3}}
 sizing: {{minimum: 0.5, feature_minimum: 0.5, maximum: 10, surface_maximum: 2, curvature_angle: 40, growth: 1.9, proximity: 0}}
 """
 
+# The fluid in a duct: less than a second, most of it the start. For what is about command lines.
+COARSE_DUCT = f"""
+geometry: {{file: "{SOURCE}/configs/geometry/duct.step", domain: fluid}}
+sizing: {{target_tetrahedra: 2000}}
+"""
+
 # What several tests look at once it is finished: in pieces, with a patch whose name is markup.
 HOSTILE = "<script>alert('&amp;')</script><img src=x onerror=alert(1)>"
 SHARED_CASE = COARSE_TRANSPORT + f"""

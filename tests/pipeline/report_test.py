@@ -10,7 +10,7 @@ import sys
 
 import jsonschema
 from page import Page
-from program import COARSE_TRANSPORT, HOSTILE, SHARED_RANKS, SOURCE, Run, shared_run
+from program import COARSE_WING, HOSTILE, SHARED_RANKS, SOURCE, Run, shared_run
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 from report_pictures import Chromium  # noqa: E402
@@ -102,7 +102,7 @@ def main():
             assert messages["bytes_max"] <= messages["bytes"] <= SHARED_RANKS * messages["bytes_max"], messages
 
     # A limit that is missed: the mesh is there, and the page says first what it misses.
-    missed = Run(program, COARSE_TRANSPORT, 1, ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179",
+    missed = Run(program, COARSE_WING, 1, ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179",
                                                 "improve.gate.largest_edge_ratio=1.5"))
     assert missed.code == 6 and not faults_of(missed.report), faults_of(missed.report)
     assert [row["met"] for row in missed.report["quality"]["gate"]] == [True, False, False]

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Checkpoints: killed runs resumed on another number of ranks, damaged ones and those of other cases, full disks.
+"""Checkpoints: killed runs resumed on another number of ranks, full disks; tests/pipeline/checkpoints_test.cpp has the rest.
 usage: resume_test.py PROGRAM"""
 import json
 import pathlib
-import random
 import shutil
 import struct
 import subprocess
@@ -11,11 +10,9 @@ import sys
 import tempfile
 
 from killed_run import command, run_and_kill
-from program import COARSE_TRANSPORT
+from program import COARSE_WING
 
-CASE = COARSE_TRANSPORT + "volume: {piece_tets: 10000}\nsurface: {piece_triangles: 500}\noutput: {pictures: false}\n"
-STAGES = ["geometry", "sizing", "surface", "volume", "improve"]
-KEPT = [stage for stage in STAGES if stage != "volume"]  # that goes when the improved one is there
+CASE = COARSE_WING + "volume: {piece_tets: 1500}\nsurface: {piece_triangles: 100}\noutput: {pictures: false}\n"
 
 
 class Runs:
@@ -68,60 +65,12 @@ def check_killed(runs, wanted):
     assert caught > 0, "no run was caught in time"
 
 
-def check_damaged(runs, wanted):
-    """Any bit of any file: that stage is done anew, the mesh is the same."""
-    chance = random.Random(5)
-    folder = runs.output / "checkpoint"
-    for stage in KEPT:
-        path = folder / f"{stage}.checkpoint"
-        content = bytearray(path.read_bytes())
-        bit = chance.randrange(8 * len(content))
-        content[bit // 8] ^= 1 << bit % 8
-        path.write_bytes(content)
-        code, text, report = runs.run(2, "output.checkpoints=resume")
-        assert code == 0 and report["mesh"]["hash"] == wanted, f"{stage}, bit {bit}: {text}"
-        assert text.count("is damaged") == 1 and f"stage {stage} is done anew" in text, text
-        assert stage not in report["resumed"], report["resumed"]
-    path = folder / "improve.checkpoint"
-    path.write_bytes(path.read_bytes()[:-1])
-    code, text, _ = runs.run(1, "output.checkpoints=resume")
-    assert code == 0 and "is damaged" in text, text
-
-
-def check_other_cases(runs):
-    code, text, report = runs.run(2, "output.checkpoints=resume", "improve.target_angle=20")
-    assert code == 0 and report["resumed"] == STAGES[:3], text
-    assert "improve.target_angle: 28, in the case 20" in text, text
-    for name in ("improve.0.0.tasks", "volume.checkpoint"):  # as if killed before they were removed
-        (runs.output / "checkpoint" / name).write_text("left over")
-    code, text, report = runs.run(1, "output.checkpoints=resume", "improve.target_angle=20")
-    assert code == 0 and report["resumed"] == STAGES, text
-    left = sorted(p.name for p in (runs.output / "checkpoint").iterdir())
-    assert left == sorted(f"{stage}.checkpoint" for stage in KEPT), left
-    code, text, _ = runs.run(2, "output.checkpoints=resume", "geometry.dimensions.wing.half_span=16")
-    assert code == 2 and "of another geometry" in text and "Remedy" in text, text
-    code, text, report = runs.run(2, "output.checkpoints=write", "geometry.dimensions.wing.half_span=16")
-    assert code == 0 and report["resumed"] == [], text
-    left = sorted(p.name for p in (runs.output / "checkpoint").iterdir())
-    assert left == sorted(f"{stage}.checkpoint" for stage in KEPT), left
-
-
-def check_unwritable(runs, wanted):
-    """The run goes on without checkpoints, and says so."""
-    shutil.rmtree(runs.output)
-    runs.output.mkdir()
-    (runs.output / "checkpoint").write_text("in the way")
-    code, text, report = runs.run(2, "output.checkpoints=write")
-    assert code == 0 and report["mesh"]["hash"] == wanted, text
-    assert "nothing is kept for another run" in text, text
-
-
 def check_full_disk(runs, wanted):
     """A message, nothing that looks finished, exit code 7 where the mesh itself does not fit; afterwards the run goes on
     from what did fit. Left out where file systems cannot be mounted."""
     shutil.rmtree(runs.output)
     runs.output.mkdir()
-    mount = ["mount", "-t", "tmpfs", "-o", "size=1500k", "tmpfs", str(runs.output)]
+    mount = ["mount", "-t", "tmpfs", "-o", "size=700k", "tmpfs", str(runs.output)]
     if subprocess.run(mount, capture_output=True).returncode != 0:
         print("not tested: a full disk (mount is not permitted)")
         return
@@ -142,16 +91,8 @@ def main():
     runs = Runs(sys.argv[1], folder)
     code, text, report = runs.run(2)
     assert code == 0, text
-    assert not (runs.output / "checkpoint").exists() and report["resumed"] == [], report["resumed"]
     wanted = report["mesh"]["hash"]
-    code, text, report = runs.run(1, "output.checkpoints=resume")  # nothing there yet
-    assert code == 0 and report["mesh"]["hash"] == wanted and report["resumed"] == [], text
-    code, text, report = runs.run(3, "output.checkpoints=resume")
-    assert code == 0 and report["mesh"]["hash"] == wanted and report["resumed"] == STAGES, text
-    check_damaged(runs, wanted)
-    check_other_cases(runs)
     check_killed(runs, wanted)
-    check_unwritable(runs, wanted)
     check_full_disk(runs, wanted)
     shutil.rmtree(folder)
 

@@ -1,0 +1,191 @@
+// The command check: what it says of a case, how it ends, and that a run does what it foretells.
+#include "tests/cad/real_files.hpp"
+#include "tests/pipeline/command_line.hpp"
+#include "tests/references.hpp"
+#include "tests/source_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Checks a case; the record, with all that was said as `text`.
+class CheckCommand : public CommandLine {
+protected:
+  Json check(int code, const std::string& text, const std::vector<std::string>& words = {}) {
+    write("case.yaml", text);
+    said = expect(code, "check case.yaml", words).text();
+    return read_json("out/check.json");
+  }
+  std::string said;
+};
+using CheckCommandLocal = CheckCommand;
+
+std::set<std::string> names_of(const Json& rows) {
+  std::set<std::string> names;
+  for (const Json& row : rows) names.insert(row["name"]);
+  return names;
+}
+
+TEST_F(CheckCommand, ForetellsTheSameOnAnyNumberOfRanks) {
+  const Json record = check(0,
+                            "geometry: {builtin: transport}\nfarfield: {shape: cylinder, extent: 3}\n"
+                            "sizing: {target_tetrahedra: 200000}\n",
+                            {"a volume can be meshed"});
+  EXPECT_TRUE(record["meshable"].get<bool>());
+  EXPECT_EQ(record["read"]["solids"], 1);
+  EXPECT_EQ(record["read"]["open_edges"], 0);
+  const std::set<std::string> patches = names_of(record["domain"]["patches"]);
+  EXPECT_TRUE(patches.contains("fuselage") && patches.contains("farfield"));
+  const Json forecast = record["forecast"];
+  const double share = forecast["features"]["share"], tetrahedra = forecast["tetrahedra"];
+  EXPECT_GT(tetrahedra / share / 200000, 0.5);
+  EXPECT_LT(tetrahedra / share / 200000, 2);
+  const std::string here = fmt::format("{} {}", tetrahedra, forecast["piece_tets"].get<std::int64_t>());
+  if (!world.is_root()) return;
+  const std::string alone = references::of_one_rank(world, here, [&] {
+    run_here("check case.yaml --set output.directory=alone");
+    const Json other = read_json("alone/check.json")["forecast"];
+    return fmt::format("{} {}", other["tetrahedra"].get<double>(), other["piece_tets"].get<std::int64_t>());
+  });
+  const std::size_t blank = alone.find(' ');
+  EXPECT_EQ(alone.substr(0, blank), here.substr(0, here.find(' ')));
+  EXPECT_GE(std::stoll(alone.substr(blank)), forecast["piece_tets"].get<std::int64_t>());
+}
+
+// What becomes of thin trailing edges is the same in `check` and in a run.
+TEST_F(CheckCommandLocal, ForetellsWhatARunDoesToTrailingEdges) {
+  const Json record =
+      check(0,
+            "geometry:\n  builtin: transport\n"
+            "  dimensions: {wing: {trailing_edge: 0.0003}, horizontal_tail: {trailing_edge: 0.003}}\n"
+            "farfield: {shape: cylinder, extent: 2}\nsizing: {target_tetrahedra: 20000}\n"
+            "output: {pictures: false}\n");
+  const Json edges = record["forecast"]["trailing_edges"];
+  std::map<std::string, std::string> fates;
+  for (const Json& edge : edges) {
+    fates[edge["face"]] = edge["fate"];
+    if (edge["fate"] != "kept") {
+      EXPECT_NE(said.find(edge["what"].get<std::string>()), std::string::npos) << edge;
+    }
+  }
+  EXPECT_EQ(fates["wing_left_trailing_edge"], "closed");
+  EXPECT_EQ(fates["wing_right_trailing_edge"], "closed");
+  EXPECT_EQ(fates["horizontal_tail_left_trailing_edge"], "graded");
+  expect(0, "run case.yaml -q");
+  const Json report = read_json("out/report.json");
+  EXPECT_EQ(report["sizing"]["trailing_edges"], edges);
+  EXPECT_EQ(report["sizing"]["features"]["aspect"], record["forecast"]["features"]["aspect"]);
+  EXPECT_FALSE(names_of(report["patches"]).contains("wing_left_trailing_edge"));
+}
+
+TEST_F(CheckCommandLocal, TellsOfEdgesThatAreClosedOnRequest) {
+  const std::string
+      begin = "geometry: {builtin: transport, trailing_edges: sharpen, sharpen_faces: [",
+      end = "]}\nsizing: {minimum: 0.5, maximum: 20, surface_maximum: 4, growth: 1.8, proximity: 0}\n";
+  const Json record = check(0, begin + "'wing*'" + end);
+  int closed = 0;
+  for (const Json& change : record["domain"]["changes"]) {
+    const std::string what = change["what"];
+    if (what.find("was closed to a curve") == std::string::npos) continue;
+    ++closed;
+    EXPECT_GT(change["how_much"].get<double>(), 0.03);
+    EXPECT_LT(change["how_much"].get<double>(), 0.06);
+    EXPECT_NE(said.find(what), std::string::npos) << what;
+  }
+  EXPECT_EQ(closed, 2);
+  const std::set<std::string> patches = names_of(record["domain"]["patches"]);
+  EXPECT_FALSE(patches.contains("wing_left_trailing_edge"));
+  EXPECT_TRUE(patches.contains("vertical_tail_trailing_edge"));
+}
+
+// What layers would be: y+ in both meanings, as many as sizes ask, and how much of them a duct has no room
+// for.
+TEST_F(CheckCommandLocal, TellsOfLayersAndOfRoomForThem) {
+  const Json record =
+      check(0,
+            fmt::format("geometry: {{file: '{}/configs/geometry/duct.step', domain: fluid}}\n"
+                        "patches: {{inlet: {{faces: ['#ff0000'], type: inlet}}, outlet: {{type: outlet}}}}\n"
+                        "sizing: {{target_tetrahedra: 4000, solver: cell}}\n"
+                        "layers: {{y_plus: 1.5, reynolds: 1e5, length: 1, growth: 1.2}}\n",
+                        source_tree().string()),
+            {"y+ 3 at its node, 1.5 at its centre", "no room for that on", "layers add: about"});
+  const Json layers = record["forecast"]["layers"];
+  double cells = 0;
+  int narrow = 0;
+  for (const Json& row : layers["patches"]) {
+    cells += row["cells"].get<double>();
+    EXPECT_NEAR(row["y_plus_node"].get<double>(), 3, 1e-9);
+    EXPECT_NEAR(row["y_plus_centre"].get<double>(), 1.5, 1e-9);
+    EXPECT_EQ(row["growth"], 1.2);
+    EXPECT_LT(1, row["layers_min"].get<double>());
+    EXPECT_LE(row["layers_min"].get<double>(), row["layers_max"].get<double>());
+    EXPECT_LT(row["first"].get<double>(), row["total_min"].get<double>());
+    EXPECT_LE(row["total_min"].get<double>(), row["total_max"].get<double>());
+    if (row["squeezed"].get<double>() + row["lacking"].get<double>() <= 0) continue;
+    ++narrow;
+    EXPECT_LT(row["narrowest_gap"].get<double>(),
+              2.6 * row["total_max"].get<double>() + record["forecast"]["maximum"].get<double>());
+  }
+  EXPECT_GT(narrow, 0);
+  EXPECT_NEAR(layers["cells"].get<double>(), cells, 1e-9 * cells);
+  EXPECT_GT(cells, 1000);
+}
+
+TEST_F(CheckCommand, PointsToWhatIsOpen) {
+  const Json record =
+      check(3, fmt::format("geometry: {{file: '{}/tests/data/open_shell.step'}}\n", source_tree().string()),
+            {"no volume can be meshed", "an open edge of length"});
+  EXPECT_FALSE(record["meshable"].get<bool>());
+  EXPECT_GT(record["read"]["open_edges"], 0);
+  ASSERT_FALSE(record["findings"].empty());
+  for (const Json& finding : record["findings"]) EXPECT_EQ(finding["where"].size(), 3u);
+  EXPECT_FALSE(record.contains("forecast"));
+  EXPECT_NE(record["failure"].get<std::string>().find("open_shell.step"), std::string::npos);
+}
+
+TEST_F(CheckCommand, CountsTheEdgesOfARealOpenShell) {
+  const std::string name = "parts/gmsh_capot.brep";
+  if (!cad::real::has(name)) GTEST_SKIP() << "no real geometry here";
+  const Json record =
+      check(3, "geometry: {file: " + std::filesystem::canonical(cad::real::file(name)).string() + "}\n",
+            {"no volume can be meshed", "an open edge of length"});
+  EXPECT_FALSE(record["meshable"].get<bool>());
+  EXPECT_EQ(record["read"]["open_edges"], 22);
+  EXPECT_EQ(record["read"]["faces"], 18);
+  for (const Json& finding : record["findings"]) EXPECT_EQ(finding["where"].size(), 3u);
+  EXPECT_FALSE(record.contains("forecast"));
+  EXPECT_NE(record["failure"].get<std::string>().find("gmsh_capot.brep"), std::string::npos);
+}
+
+// Ids, groups, layers and colours of faces.
+TEST_F(CheckCommandLocal, TellsWhoIsInWhichGroup) {
+  write("case.yaml", groups_case() + "  pictures: false\n");
+  expect(0, "check case.yaml --set output.directory=look");
+  const std::map<std::string, std::set<int>> groups = {
+      {"inlet", {0}}, {"outlet", {5, 9}}, {"branch", {7, 8}}, {"top", {2}}, {"walls", {1, 3, 4, 6}}};
+  const Json rows = read_json("look/check.json")["domain"]["faces"];
+  ASSERT_EQ(rows.size(), 10u);
+  std::set<int> ids;
+  for (const Json& row : rows) {
+    ids.insert(row["id"].get<int>());
+    EXPECT_TRUE(groups.at(row["group"]).contains(row["id"].get<int>())) << row;
+  }
+  EXPECT_EQ(ids.size(), 10u);
+  EXPECT_EQ(rows[0]["colour"], "#ff0000");
+  EXPECT_EQ(rows[5]["layer"], "outlet");
+}
+
+}  // namespace
+}  // namespace aeroloom::pipeline
