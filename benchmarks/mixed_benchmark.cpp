@@ -1,8 +1,8 @@
 /// A mesh of tetrahedra, pyramids and prisms through all that a mesh goes through: mpirun -n N
-/// mixed_benchmark [SQUARES [FOLDER]] assembles the hand-made mesh of tests/mesh/mixed_mesh.hpp with so many
-/// squares along each side (353: a million cells), and prints one RESULT line with the seconds of each step
-/// and the hash, the same on any number of ranks. Every check must then find out a mesh that is broken on
-/// purpose; exit code 1 otherwise.
+/// mixed_benchmark [SQUARES [FOLDER]] assembles the hand-made mesh of tests/meshes/mixed_mesh.hpp with so
+/// many squares along each side (353: a million cells), and prints one RESULT line with the seconds of each
+/// step and the hash, the same on any number of ranks. Every check must then find out a mesh that is broken
+/// on purpose; exit code 1 otherwise.
 #include "io/checkpoint_file.hpp"
 #include "io/raw_mesh.hpp"
 #include "mesh/checks/validity.hpp"
@@ -12,7 +12,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/environment.hpp"
 #include "parallel/observation/timers.hpp"
-#include "tests/mesh/mixed_mesh.hpp"
+#include "tests/meshes/mixed_mesh.hpp"
 
 #include <algorithm>
 #include <cstdio>

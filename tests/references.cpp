@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,19 @@ std::string of_one_rank(const parallel::Communicator& ranks, const std::string& 
   if (!is_kept) return make();
   std::ifstream stream(place);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+void expect_as_on_one_rank(const std::function<std::string(const parallel::Communicator&)>& outcome) {
+  const auto world = parallel::Communicator::world();
+  const std::string here = outcome(world);
+  const auto bytes = std::as_bytes(std::span(here));
+  for (const parallel::Bytes& other : world.all_gather({bytes.begin(), bytes.end()})) {
+    EXPECT_TRUE(std::equal(other.begin(), other.end(), bytes.begin(), bytes.end()))
+        << "another rank has another one";
+  }
+  if (!world.is_root()) return;
+  const std::string alone = of_one_rank(world, here, [&] { return outcome(parallel::Communicator::self()); });
+  EXPECT_TRUE(here == alone) << "on one rank it is another";
 }
 
 }  // namespace aeroloom::references

@@ -15,4 +15,8 @@ namespace aeroloom::references {
 std::string of_one_rank(const parallel::Communicator& ranks, const std::string& here,
                         const std::function<std::string()>& make);
 
+/// Expects that `outcome`, a text such as a hash, is the same on all ranks of the world, and what it is on
+/// one. `outcome` is collective on the ranks that it is given.
+void expect_as_on_one_rank(const std::function<std::string(const parallel::Communicator&)>& outcome);
+
 }  // namespace aeroloom::references

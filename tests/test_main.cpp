@@ -1,24 +1,21 @@
 /// Entry of every test program: GoogleTest under the parallel environment, on any number of ranks. Rank 0
-/// prints; the others print only what fails on them. Beside the options of GoogleTest:
+/// prints; the others print only what fails on them. Suites `...Local` know nothing of other ranks: they run
+/// on one rank alone. Beside the options of GoogleTest:
 ///   --files=a_test,b_test   only what these sources define
-///   --without=Suite.*:...   not these: what runs on one rank alone, where there are more
-///   --only=Suite.*:...      these alone: what is worth five ranks
-///   --no-comparison         not what by its name compares numbers of ranks: it has nothing to compare
-/// A name or pattern that chooses nothing is an error: lists in CMakeLists.txt stay true.
+/// A name that chooses nothing is an error, and so is a number of ranks on which nothing runs: lists in
+/// CMakeLists.txt stay true.
 #include "parallel/communication/communicator.hpp"
 #include "parallel/communication/environment.hpp"
 
-#include <algorithm>
-#include <array>
+#include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <fnmatch.h>
 #include <gtest/gtest.h>
 
 namespace {
@@ -38,8 +35,9 @@ private:
   int _rank;
 };
 
-/// A test: its full name and the stem of the source that defines it.
+/// A test and the stem of the source that defines it.
 struct Test {
+  std::string suite;
   std::string name;
   std::string file;
 };
@@ -51,68 +49,48 @@ std::vector<Test> all_tests() {
     const auto& suite = *unit.GetTestSuite(s);
     for (int t = 0; t < suite.total_test_count(); ++t) {
       const auto& info = *suite.GetTestInfo(t);
-      tests.push_back(
-          {std::string(suite.name()) + "." + info.name(), std::filesystem::path(info.file()).stem()});
+      tests.push_back({suite.name(), info.name(), std::filesystem::path(info.file()).stem()});
     }
   }
   return tests;
 }
 
-bool has_name(const Test& test, const std::string& pattern) {
-  return fnmatch(pattern.c_str(), test.name.c_str(), 0) == 0;
+/// Whether the test knows nothing of other ranks: its suite is named `...Local`.
+bool is_local(const Test& test) {
+  return test.suite.ends_with("Local");
 }
 
-/// What follows `option` on the command line, cut at `separator`.
-std::vector<std::string> values_of(std::string_view option, char separator, int argc, char** argv) {
-  std::vector<std::string> values;
+/// The sources that the command line names.
+std::set<std::string> files_asked_for(int argc, char** argv) {
+  constexpr std::string_view option = "--files=";
+  std::set<std::string> files;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument(argv[i]);
     if (!argument.starts_with(option)) continue;
     std::istringstream list{std::string(argument.substr(option.size()))};
-    for (std::string value; std::getline(list, value, separator);) values.push_back(value);
+    for (std::string file; std::getline(list, file, ',');) files.insert(file);
   }
-  return values;
+  return files;
 }
 
-/// Names of the tests that `values` choose. Throws std::runtime_error for a value that chooses none.
-std::set<std::string> chosen(const std::vector<Test>& tests, const std::vector<std::string>& values,
-                             const std::function<bool(const Test&, const std::string&)>& fits) {
-  std::set<std::string> names;
-  for (const std::string& value : values) {
-    bool any = false;
-    for (const Test& test : tests) {
-      if (!fits(test, value)) continue;
-      names.insert(test.name);
-      any = true;
-    }
-    if (!any) throw std::runtime_error("no test fits " + value);
-  }
-  return names;
-}
-
-/// Whether the test compares what several numbers of ranks give.
-bool is_comparison(const Test& test) {
-  constexpr std::array<const char*, 6> names = {"*AnyNumberOfRanks*", "*any_number_of_ranks*",
-                                                "*AnyRankCount*",     "*.*DependOnRanks*",
-                                                "*OnOneRank*",        "*OfOneRank"};
-  return std::any_of(names.begin(), names.end(), [&](const char* name) { return has_name(test, name); });
-}
-
-/// Adds what the options leave out to GoogleTest's filter.
-void leave_out(int argc, char** argv) {
-  const auto by_file = [](const Test& test, const std::string& file) { return test.file == file; };
-  const std::vector<Test> tests = all_tests();
-  const auto files = chosen(tests, values_of("--files=", ',', argc, argv), by_file);
-  const auto without = chosen(tests, values_of("--without=", ':', argc, argv), has_name);
-  const auto only = chosen(tests, values_of("--only=", ':', argc, argv), has_name);
-  const bool no_comparison = std::find(argv, argv + argc, std::string_view("--no-comparison")) != argv + argc;
+/// Adds to GoogleTest's filter what is of other sources than `files`, unless they are empty, and what does
+/// not run on so many ranks. Throws std::runtime_error for a file without tests, and where nothing is left.
+void leave_out(const std::set<std::string>& files, int ranks) {
+  std::set<std::string> seen;
   std::string left_out;
-  for (const Test& test : tests) {
-    if ((!files.empty() && !files.contains(test.name)) || (!only.empty() && !only.contains(test.name)) ||
-        without.contains(test.name) || (no_comparison && is_comparison(test))) {
-      left_out += (left_out.empty() ? "" : ":") + test.name;
-    }
+  bool any = false;
+  for (const Test& test : all_tests()) {
+    seen.insert(test.file);
+    const bool chosen = files.empty() || files.contains(test.file);
+    if (chosen && (ranks == 1 || !is_local(test)))
+      any = true;
+    else
+      left_out += (left_out.empty() ? "" : ":") + test.suite + "." + test.name;
   }
+  for (const std::string& file : files) {
+    if (!seen.contains(file)) throw std::runtime_error("no test is of " + file);
+  }
+  if (!any) throw std::runtime_error("nothing runs on " + std::to_string(ranks) + " ranks");
   if (left_out.empty()) return;
   std::string filter = GTEST_FLAG_GET(filter);
   filter += (filter.find('-') == std::string::npos ? "-" : ":") + left_out;
@@ -126,7 +104,7 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const auto world = aeroloom::parallel::Communicator::world();
   try {
-    leave_out(argc, argv);
+    leave_out(files_asked_for(argc, argv), world.size());
   } catch (const std::runtime_error& error) {
     if (world.is_root()) std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -3,6 +3,7 @@
 #include "improve/borders/cavity_improver.hpp"
 #include "improve/borders/scatter.hpp"
 #include "tests/improve/shaken.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,7 @@ TEST(BorderSmoothing, MovesVerticesThatPiecesShareAndNoOthers) {
 }
 
 TEST(BorderSmoothing, DoesNotDependOnRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   for (std::uint32_t seed = 20; seed < 25; ++seed) {
     DistributedMesh together = shaken(world, seed), alone = shaken(self, seed);
@@ -100,13 +102,13 @@ TEST(BorderSmoothing, DoesNotDependOnRanks) {
   }
 }
 
-TEST(BorderSmoothing, LeavesASinglePieceAlone) {
+TEST(BorderSmoothingLocal, LeavesASinglePieceAlone) {
   const auto self = Communicator::self();
   DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 0, 3), 1);
   EXPECT_EQ(relax(self, mesh, 2), 0);
 }
 
-TEST(Scatter, MovesVerticesInsideALittleAndInvertsNothing) {
+TEST(ScatterLocal, MovesVerticesInsideALittleAndInvertsNothing) {
   const auto self = Communicator::self();
   DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 25, 4), 1);
   Piece& piece = mesh.pieces.front();
@@ -145,7 +147,7 @@ cavities::Cavity cavity_of(const Piece& piece) {
   return cavity;
 }
 
-TEST(CavityImprover, TakesTheBestOfSeveralTrials) {
+TEST(CavityImproverLocal, TakesTheBestOfSeveralTrials) {
   const auto self = Communicator::self();
   ImproveOptions options;
   options.sweeps = 3;

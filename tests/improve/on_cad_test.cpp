@@ -103,7 +103,7 @@ void expect_on_cad(const cad::Model& model, const std::vector<mesh::Piece>& piec
   }
 }
 
-TEST(ImproveOnCad, SlidesAndKeepsTheBox) {
+TEST(ImproveOnCadLocal, SlidesAndKeepsTheBox) {
   const auto self = parallel::Communicator::self();
   const cad::Model model = cad::make_primitive_domain(cad::PrimitiveKind::box);
   cad::PointLocator locator(model);

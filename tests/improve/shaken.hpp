@@ -6,7 +6,7 @@
 #include "mesh/checks/validity.hpp"
 #include "mesh/quality/quality.hpp"
 #include "mesh/quality/tet_quality.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <limits>
 #include <map>

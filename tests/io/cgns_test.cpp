@@ -4,6 +4,7 @@
 #include "tests/io/damage.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <array>
 #include <filesystem>
@@ -92,6 +93,7 @@ TEST_F(Cgns, CellsHaveThePositiveVolumeThatTheBoundaryEncloses) {
 }
 
 TEST_F(Cgns, WritesTheSameBytesOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   write_cgns(examples::mixed_mesh(world, 3, 7), folder / "here");
   if (!world.is_root()) return;
   write_cgns(examples::mixed_mesh(Communicator::self(), 3, 7), folder / "alone");

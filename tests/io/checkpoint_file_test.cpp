@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <random>
 #include <utility>
@@ -58,6 +59,7 @@ TEST_F(CheckpointFile, GivesBackWhatWasWritten) {
 }
 
 TEST_F(CheckpointFile, TheSameBytesOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   write_checkpoint(world, path("all"), label, draft(20));
   if (world.is_root()) {
     CheckpointDraft whole = draft(0);

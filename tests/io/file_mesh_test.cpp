@@ -3,7 +3,7 @@
 #include "mesh/quality/face_links.hpp"
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <algorithm>
 #include <array>

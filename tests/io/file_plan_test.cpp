@@ -24,7 +24,7 @@ std::vector<int> files_by_writer(const FilePlan& plan, int ranks) {
   return counts;
 }
 
-TEST(FilePlan, LeavesFilesWithTheirHolders) {
+TEST(FilePlanLocal, LeavesFilesWithTheirHolders) {
   const FilePlan plan = plan_files(parts_on({0, 0, 1, 1, 1, 1, 0, 0}), 20, 2);
   ASSERT_EQ(plan.files.size(), 4u);
   EXPECT_EQ(plan.file_of, (std::vector<std::size_t>{0, 0, 1, 1, 2, 2, 3, 3}));
@@ -36,7 +36,7 @@ TEST(FilePlan, LeavesFilesWithTheirHolders) {
   }
 }
 
-TEST(FilePlan, GroupsPartsWhereverTheyLive) {
+TEST(FilePlanLocal, GroupsPartsWhereverTheyLive) {
   const FilePlan one = plan_files(parts_on(std::vector<int>(23, 0)), 25, 1);
   std::vector<int> ranks(23);
   std::iota(ranks.begin(), ranks.end(), 0);
@@ -44,7 +44,7 @@ TEST(FilePlan, GroupsPartsWhereverTheyLive) {
   EXPECT_EQ(one.files.size(), 8u);
 }
 
-TEST(FilePlan, TakesWorkFromRanksThatHaveMore) {
+TEST(FilePlanLocal, TakesWorkFromRanksThatHaveMore) {
   std::vector<int> ranks(40, 0);
   std::fill(ranks.begin() + 30, ranks.end(), 1);
   for (const int count : {2, 3, 5}) {
@@ -54,7 +54,7 @@ TEST(FilePlan, TakesWorkFromRanksThatHaveMore) {
   }
 }
 
-TEST(FilePlan, BringsAFewFilesAtOnce) {
+TEST(FilePlanLocal, BringsAFewFilesAtOnce) {
   // Every file has a part elsewhere.
   std::vector<int> ranks;
   for (int i = 0; i < 60; ++i) ranks.insert(ranks.end(), {0, 0, 1, 1, 1, 0});
@@ -73,7 +73,7 @@ TEST(FilePlan, BringsAFewFilesAtOnce) {
   EXPECT_LT(plan.rounds, plan.files.size() / 4);
 }
 
-TEST(FilePlan, GivesFilesOfNothingToAHolder) {
+TEST(FilePlanLocal, GivesFilesOfNothingToAHolder) {
   std::vector<PartPlace> places = parts_on({1, 1, 0, 0});
   places[2].items = places[2].work = places[3].items = places[3].work = 0;
   const FilePlan plan = plan_files(places, 15, 3);

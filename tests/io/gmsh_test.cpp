@@ -8,6 +8,7 @@
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <array>
 #include <string>
@@ -67,6 +68,7 @@ TEST_F(Msh, PartsComeBackAsOneMesh) {
 }
 
 TEST_F(Msh, BytesDoNotDependOnRanks) {
+  NEEDS_SEVERAL_RANKS();
   const FileMesh mesh = examples::mixed_mesh(world, 3, 5);
   write_msh(mesh, path("all/mesh.msh"));
   write_msh_parts(mesh, path("all/mesh.msh"));
@@ -101,7 +103,7 @@ TEST_F(Msh, AwkwardNamesComeBack) {
   EXPECT_NE(bytes.find('"' + std::string(125, 'x') + "_2\"\n"), std::string::npos);
 }
 
-TEST(MshLayout, IsExactFarBeyond32Bits) {
+TEST(MshLayoutLocal, IsExactFarBeyond32Bits) {
   constexpr std::int64_t many = 3'000'000'000;
   const MshBlocks blocks = lay_out_elements({{5, many}, {0, 7}}, {{many, 0, 11}});
   EXPECT_EQ(blocks.written, 5);

@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A file of this test alone, written by one process.
-class Hdf5Layout : public testing::Test {
+class Hdf5LayoutLocal : public testing::Test {
 protected:
   void SetUp() override {
     path = fs::temp_directory_path() / ("aeroloom_layout_" + std::to_string(getpid()) + ".h5");
@@ -52,7 +52,7 @@ protected:
   std::string path;
 };
 
-TEST_F(Hdf5Layout, ImagesKeepWhatIsWrittenAndNothingElse) {
+TEST_F(Hdf5LayoutLocal, ImagesKeepWhatIsWrittenAndNothingElse) {
   std::mt19937 random(1);
   hdf5::MemoryImage image;
   constexpr std::size_t size = 20000;
@@ -82,7 +82,7 @@ TEST_F(Hdf5Layout, ImagesKeepWhatIsWrittenAndNothingElse) {
   EXPECT_LE(image.end(), size);
 }
 
-TEST_F(Hdf5Layout, SaysWhatTheLibraryRefuses) {
+TEST_F(Hdf5LayoutLocal, SaysWhatTheLibraryRefuses) {
   hdf5::FileLayout layout;
   try {
     layout.add_group("/missing/group");
@@ -98,7 +98,7 @@ std::vector<vtkhdf::GridCounts> large_partitions() {
   return std::vector<vtkhdf::GridCounts>(3, {170'000'000, 1'000'000'000, 4'000'000'000});
 }
 
-TEST_F(Hdf5Layout, GridsOfThousandsOfMillionsOfCellsHaveTheirPlaces) {
+TEST_F(Hdf5LayoutLocal, GridsOfThousandsOfMillionsOfCellsHaveTheirPlaces) {
   hdf5::FileLayout layout;
   const vtkhdf::GridPlaces places = vtkhdf::lay_out_grid(layout, large_partitions(), "region");
   const vtkhdf::BoundaryPlaces boundary = vtkhdf::lay_out_boundary(layout, 2'500'000'000, 7'500'000'000, {});
@@ -137,7 +137,7 @@ cgns::Totals totals_of(mesh::GlobalIndex vertices, mesh::GlobalIndex tetrahedra,
   return {vertices, {{"wall", mesh::PatchType::wall}}, {"fluid"}, {{tetrahedra, 0, 0}}, {{triangles, 0}}};
 }
 
-TEST_F(Hdf5Layout, CgnsTakes64BitsWhere32DoNotDo) {
+TEST_F(Hdf5LayoutLocal, CgnsTakes64BitsWhere32DoNotDo) {
   using hdf5::ItemType;
   constexpr mesh::GlobalIndex largest = (mesh::GlobalIndex{1} << 31) - 1;
   EXPECT_EQ(cgns::plan_file(totals_of(1000, 100, 100)).index_type, ItemType::int32);
@@ -151,7 +151,7 @@ TEST_F(Hdf5Layout, CgnsTakes64BitsWhere32DoNotDo) {
   EXPECT_EQ(cgns::plan_file(split).index_type, ItemType::int64);
 }
 
-TEST_F(Hdf5Layout, CgnsOfThousandsOfMillionsOfCells) {
+TEST_F(Hdf5LayoutLocal, CgnsOfThousandsOfMillionsOfCells) {
   cgns::Plan plan = cgns::plan_file(totals_of(510'000'000, 3'000'000'000, 2'500'000'000));
   write(cgns::lay_out(plan));
   ASSERT_EQ(plan.sections.size(), 2U);
@@ -173,7 +173,7 @@ TEST_F(Hdf5Layout, CgnsOfThousandsOfMillionsOfCells) {
   EXPECT_EQ(survey.attributes[0], "I8");
 }
 
-TEST_F(Hdf5Layout, CgnsNamesAreFitAndDifferent) {
+TEST_F(Hdf5LayoutLocal, CgnsNamesAreFitAndDifferent) {
   cgns::NodeNames names;
   names.reserve("ZoneBC");
   EXPECT_EQ(names.take("wing", "Patch"), "wing");
@@ -198,7 +198,7 @@ TEST_F(Hdf5Layout, CgnsNamesAreFitAndDifferent) {
   }
 }
 
-TEST_F(Hdf5Layout, CgnsSectionsFollowEachOther) {
+TEST_F(Hdf5LayoutLocal, CgnsSectionsFollowEachOther) {
   cgns::Totals totals{100,
                       {{"inner", mesh::PatchType::interior},
                        {"a/b", mesh::PatchType::inlet},

@@ -1,7 +1,7 @@
 #include "io/checkpoint_file.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
-#include "tests/mesh/mixed_mesh.hpp"
+#include "tests/meshes/mixed_mesh.hpp"
 
 #include <cstdint>
 #include <filesystem>

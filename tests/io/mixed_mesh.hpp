@@ -1,8 +1,8 @@
-/// The hand-made mesh of tests/mesh/mixed_mesh.hpp as writers take it.
+/// The hand-made mesh of tests/meshes/mixed_mesh.hpp as writers take it.
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "tests/mesh/mixed_mesh.hpp"
+#include "tests/meshes/mixed_mesh.hpp"
 
 #include <utility>
 

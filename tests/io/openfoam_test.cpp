@@ -4,6 +4,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <map>
 #include <set>
@@ -37,7 +38,7 @@ std::vector<OrderedPart> order_all(const FileMesh& mesh, FoamPlan& plan) {
   return parts;
 }
 
-TEST(FoamFaces, InnerFacesAreUpperTriangularAndPatchesFollow) {
+TEST(FoamFacesLocal, InnerFacesAreUpperTriangularAndPatchesFollow) {
   const Communicator world = Communicator::world();
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
   FoamPlan plan;
@@ -61,7 +62,7 @@ TEST(FoamFaces, InnerFacesAreUpperTriangularAndPatchesFollow) {
   EXPECT_EQ(plan.faces, (sides - boundary) / 2 + boundary);
 }
 
-TEST(FoamFaces, PartsAgreeOnWhatLiesBetweenThem) {
+TEST(FoamFacesLocal, PartsAgreeOnWhatLiesBetweenThem) {
   const Communicator self = Communicator::self();
   const FileMesh mesh = examples::mixed_mesh(self, 4, 3);
   FoamPlan plan;
@@ -100,7 +101,7 @@ TEST(FoamFaces, PartsAgreeOnWhatLiesBetweenThem) {
   EXPECT_EQ(zoned[0] + zoned[1], 32);
 }
 
-TEST(FoamFaces, ZonesBetweenPartsAreKnownToBoth) {
+TEST(FoamFacesLocal, ZonesBetweenPartsAreKnownToBoth) {
   const Communicator world = Communicator::world();
   const FileMesh mesh = repartition(examples::mixed_mesh(world, 4, 3), 4, mesh::PieceRegions::one);
   FoamPlan plan;
@@ -115,6 +116,7 @@ TEST(FoamFaces, ZonesBetweenPartsAreKnownToBoth) {
 }
 
 TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
+  NEEDS_SEVERAL_RANKS();
   const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
   for (const bool binary : {true, false}) {
     write_openfoam(mesh, path("all"), {binary, 0});
@@ -222,7 +224,7 @@ TEST_F(OpenFoam, OpenMeshesAreRefused) {
   }
 }
 
-TEST(FoamNames, AreWordsAndDistinct) {
+TEST(FoamNamesLocal, AreWordsAndDistinct) {
   EXPECT_EQ(foam_words({"wing/left", "wing left", "wing_left", "1st", "", "procBoundary0to1", "Flügel"}),
             (std::vector<std::string>{"wing_left_2", "wing_left_3", "wing_left", "_1st", "unnamed",
                                       "_procBoundary0to1", "Flügel"}));
@@ -242,7 +244,7 @@ TEST(FoamPatches, HaveNoNameOfAnotherGroup) {
   EXPECT_EQ(made.groups, (std::vector<std::string>{"inlet", "inlet", "slip", "wall"}));
 }
 
-TEST(FoamLabels, GrowWithTheMesh) {
+TEST(FoamLabelsLocal, GrowWithTheMesh) {
   EXPECT_EQ(foam_label_bits(1000, 2000, 300, 10000), 32);
   EXPECT_EQ(foam_label_bits(3'000'000'000, 6'000'000'000, 500'000'000, 10000), 64);
   EXPECT_EQ(foam_label_bits(1000, (std::int64_t{1} << 31) - 1, 300, 10000), 64);

@@ -95,7 +95,7 @@ TEST_F(Streams, PlainFilesAloneAreRead) {
   EXPECT_THROW(RangeReader("/dev/zero"), std::filesystem::filesystem_error);
 }
 
-TEST(Share, OfAnyCountIsWhole) {
+TEST(ShareLocal, OfAnyCountIsWhole) {
   for (const std::int64_t count :
        {std::int64_t{0}, std::int64_t{2}, std::int64_t{10}, std::int64_t{1} << 62}) {
     for (const int size : {1, 3, 7}) {
@@ -111,7 +111,7 @@ TEST(Share, OfAnyCountIsWhole) {
   }
 }
 
-TEST(Numbers, AreWholeWords) {
+TEST(NumbersLocal, AreWholeWords) {
   std::int64_t integer = 0;
   double real = 0;
   EXPECT_TRUE(parse_number("-12", integer) && integer == -12);

@@ -146,7 +146,7 @@ TEST_F(Su2, ConditionsOfThousandsOfMarkersComeBack) {
   EXPECT_EQ(read, mesh.patches);
 }
 
-TEST(PlainNames, AreAllowedAndDifferentAfterCutting) {
+TEST(PlainNamesLocal, AreAllowedAndDifferentAfterCutting) {
   const std::string umlauts =
       "\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc\u00e4\u00f6"
       "\u00fc";
@@ -167,7 +167,7 @@ TEST(PlainNames, AreAllowedAndDifferentAfterCutting) {
   EXPECT_EQ(plain[10], "50____tip_");
 }
 
-TEST(Su2bLayout, OfBillionsHas64Bits) {
+TEST(Su2bLayoutLocal, OfBillionsHas64Bits) {
   Su2bCounts counts;
   counts.points = 500'000'000;
   counts.cells = {3'000'000'000, 2, 5};

@@ -7,6 +7,7 @@
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <array>
 #include <cmath>
@@ -52,6 +53,7 @@ TEST_F(VtkMixed, ComesBackTheSame) {
 }
 
 TEST_F(VtkMixed, IsTheSameBytesOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const FileMesh mesh = examples::mixed_mesh(world, 5, 7);
   write_volume(mesh, folder / "all", "mesh");
   write_surface(mesh, folder / "all", "surface");
@@ -148,7 +150,7 @@ TEST_F(VtkMixed, ShowsFacesBetweenRegionsByThemselves) {
     EXPECT_EQ(surface.GetCellData()->GetArray("patch")->GetTuple1(f), examples::MixedMesh::interface);
 }
 
-TEST(CellQuality, IsOneForRegularCells) {
+TEST(CellQualityLocal, IsOneForRegularCells) {
   const double h = std::sqrt(3) / 2;
   const std::vector<Vec3> prism = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, h, 1}};
   const std::vector<Vec3> pyramid = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, std::sqrt(0.5)}};
@@ -162,7 +164,7 @@ TEST(CellQuality, IsOneForRegularCells) {
   EXPECT_NEAR(smallest_dihedral(CellShape::tetrahedron, tet), std::acos(1.0 / 3) * 180 / M_PI, 1e-12);
 }
 
-TEST(CellQuality, FallsWithTheWorstCornerAndIsNegativeWhereInverted) {
+TEST(CellQualityLocal, FallsWithTheWorstCornerAndIsNegativeWhereInverted) {
   std::vector<Vec3> prism = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
   const double right = mean_ratio(CellShape::prism, prism);
   EXPECT_GT(right, 0.5);

@@ -3,7 +3,8 @@
 #include "mesh/quality/quality.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "tests/io/scratch_folder.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <array>
 #include <csignal>
@@ -159,6 +160,7 @@ TEST_F(VtkWriter, WritesTrianglesWithTheirNames) {
 }
 
 TEST_F(VtkWriter, WritesTheSameBytesOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   write_cube(world, 4, 9, folder / "here");
   if (world.is_root()) {
     write_cube(Communicator::self(), 4, 9, folder / "alone");

@@ -6,6 +6,7 @@
 #include "tests/io/mesh_volumes.hpp"
 #include "tests/io/mixed_mesh.hpp"
 #include "tests/io/scratch_folder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <csignal>
 #include <filesystem>
@@ -79,6 +80,7 @@ TEST_F(Vtkhdf, ReadsBackWhatItWrote) {
 }
 
 TEST_F(Vtkhdf, WritesTheSameBytesOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   write_vtkhdf(examples::mixed_mesh(world, 3, 7), folder / "here");
   write_vtkhdf_surface(examples::mixed_mesh(world, 3, 7), folder / "here_too");
   if (!world.is_root()) return;
@@ -90,6 +92,7 @@ TEST_F(Vtkhdf, WritesTheSameBytesOnAnyNumberOfRanks) {
 }
 
 TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   write_vtkhdf(examples::mixed_mesh(world, 3, 4), folder / "mesh.vtkhdf");
   const std::string path = folder / "mesh.vtkhdf";
   write_vtkhdf(assemble(world, read_vtkhdf(world, path), path, 2).mesh, folder / "again");

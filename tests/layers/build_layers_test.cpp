@@ -1,5 +1,6 @@
 #include "mesh/exchange/delivery.hpp"
 #include "tests/layers/checked_layers.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -213,6 +214,7 @@ TEST(BuildLayers, RefuseOptionsThatDoNotFit) {
 }
 
 TEST(BuildLayers, GiveTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   expect_same(cube_in_a_sphere(), 5, options_for({0, 1e-4}));
   expect_same(slit(0.1), 7, options_for({0, 1e-3, 1e-3}));
   expect_same(inside_of_a_wedge(), 4, options_for({1e-4}));

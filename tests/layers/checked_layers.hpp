@@ -5,7 +5,7 @@
 #include "layers/columns.hpp"
 #include "mesh/checks/intersection.hpp"
 #include "mesh/quality/cell_measures.hpp"
-#include "tests/layers/wall_meshes.hpp"
+#include "tests/meshes/wall_meshes.hpp"
 
 #include <algorithm>
 #include <array>

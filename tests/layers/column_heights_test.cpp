@@ -13,7 +13,7 @@ WallLayers wall_layers(double first, double growth, std::int32_t constant) {
   return wanted;
 }
 
-TEST(ColumnHeights, AreConstantThenGrow) {
+TEST(ColumnHeightsLocal, AreConstantThenGrow) {
   const Heights heights{0.5, 2, 3};
   std::vector<double> nodes;
   heights.for_each_node(5, [&](std::int32_t, double h) { nodes.push_back(h); });
@@ -22,7 +22,7 @@ TEST(ColumnHeights, AreConstantThenGrow) {
   EXPECT_EQ(heights.total(0), 0);
 }
 
-TEST(ColumnHeights, EndWhereLayersAreIsotropic) {
+TEST(ColumnHeightsLocal, EndWhereLayersAreIsotropic) {
   const WallLayers wanted = wall_layers(1e-5, 1.2, 2);
   const std::int32_t count = wanted_count(wanted, 0.1);
   const double last = 1e-5 * std::pow(1.2, count - 2);
@@ -32,7 +32,7 @@ TEST(ColumnHeights, EndWhereLayersAreIsotropic) {
   EXPECT_EQ(wanted_count(wall_layers(0.05, 1.2, 1), 0.1), 3);
 }
 
-TEST(ColumnHeights, EndAtACountOrATotal) {
+TEST(ColumnHeightsLocal, EndAtACountOrATotal) {
   WallLayers wanted = wall_layers(1, 2, 1);
   wanted.count = 4;
   EXPECT_EQ(wanted_count(wanted, 1000), 4);
@@ -45,7 +45,7 @@ TEST(ColumnHeights, EndAtACountOrATotal) {
   EXPECT_EQ(wanted_count(wanted, 1), 12) << "without growth the count alone ends them";
 }
 
-TEST(ColumnHeights, SqueezeKeepsTheCountThenDropsLayers) {
+TEST(ColumnHeightsLocal, SqueezeKeepsTheCountThenDropsLayers) {
   const Heights heights{1, 1.5, 2};
   const double total = heights.total(10);
   const Squeezed free = squeeze(heights, 10, total);

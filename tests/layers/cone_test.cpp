@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vec3;
 
-TEST(SmallestCone, HasItsAxisBetweenTwoNormals) {
+TEST(SmallestConeLocal, HasItsAxisBetweenTwoNormals) {
   const std::vector<Vec3> normals{{0, 0, 1}, {1, 0, 0}, {0, 0, 1}};
   const NormalCone cone = smallest_cone(normals);
   EXPECT_NEAR(cone.axis.x, std::sqrt(0.5), 1e-15);
@@ -19,18 +19,18 @@ TEST(SmallestCone, HasItsAxisBetweenTwoNormals) {
   EXPECT_NEAR(cone.visibility, std::sqrt(0.5), 1e-15);
 }
 
-TEST(SmallestCone, OfABoxCornerSeesAllThreeSides) {
+TEST(SmallestConeLocal, OfABoxCornerSeesAllThreeSides) {
   const std::vector<Vec3> normals{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}};
   EXPECT_NEAR(smallest_cone(normals).visibility, 1 / std::sqrt(3.0), 1e-15);
 }
 
-TEST(SmallestCone, SeesNothingWhereNormalsAreOpposite) {
+TEST(SmallestConeLocal, SeesNothingWhereNormalsAreOpposite) {
   const std::vector<Vec3> normals{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}};
   EXPECT_LE(smallest_cone(normals).visibility, 1e-15);
   EXPECT_LT(smallest_cone({}).visibility, 0);
 }
 
-TEST(SmallestCone, NoOtherDirectionSeesMore) {
+TEST(SmallestConeLocal, NoOtherDirectionSeesMore) {
   std::mt19937 random(3);
   const auto uniform = [&] { return 2 * (random() / 4294967296.0) - 1; };
   for (int round = 0; round < 50; ++round) {

@@ -2,7 +2,8 @@
 
 #include "layers/cone.hpp"
 #include "mesh/exchange/delivery.hpp"
-#include "tests/layers/wall_meshes.hpp"
+#include "tests/layers/directed_wall.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <cmath>
 
@@ -14,35 +15,14 @@ namespace {
 using geometry::Vec3;
 using parallel::Communicator;
 
-LayerOptions layers_on(std::size_t patches) {
-  LayerOptions options;
-  options.patches.resize(patches);
-  for (WallLayers& wanted : options.patches) wanted.first = 1e-3;
-  return options;
-}
-
-/// A wall with its fans and directions.
-struct Directed {
-  Directed(const mesh::DistributedMesh& mesh, const LayerOptions& options)
-      : wall(mesh.communicator, mesh, options),
-        fans(gather_fans(wall)),
-        directions(find_directions(wall, fans)) {}
-
-  WallShare wall;
-  Fans fans;
-  Directions directions;
-};
-
-examples::Shapes cube_in_a_box() {
-  return examples::Shapes()
-      .add_box({-4, -4, -4}, {5, 5, 5}, {3, 3, 3}, examples::Fluid::inside)
-      .add_box({0, 0, 0}, {1, 1, 1}, {4, 4, 4}, examples::Fluid::outside);
-}
+using Directed = examples::DirectedWall;
+using examples::cube_in_a_box;
+using examples::layers_on;
 
 TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7);
-  const Directed directed(mesh, layers_on(2));
+  const Directed directed(world, mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const Vec3 p = directed.wall.points[v], d = directed.directions.most_normal[v];
     ASSERT_EQ(directed.fans.kinds[v], FanKind::plain);
@@ -60,7 +40,7 @@ TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
 TEST(Directions, AreSmoothedWithoutLosingSight) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7);
-  const Directed directed(mesh, layers_on(2));
+  const Directed directed(world, mesh, layers_on(2));
   std::int64_t moved = 0;
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const auto normals = directed.fans.normals_at(v);
@@ -74,10 +54,11 @@ TEST(Directions, AreSmoothedWithoutLosingSight) {
 }
 
 TEST(Directions, AreTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7),
                               whole = cube_in_a_box().distribute(self, 7);
-  const Directed spread(mesh, layers_on(2)), alone(self, whole, layers_on(2));
+  const Directed spread(world, mesh, layers_on(2)), alone(self, whole, layers_on(2));
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const std::int32_t from = alone.wall.first_vertex[mesh::position_of(whole, mesh.pieces[p].id)];
     for (std::int32_t v = spread.wall.first_vertex[p]; v < spread.wall.first_vertex[p + 1]; ++v) {

@@ -2,7 +2,7 @@
 
 #include "mesh/checks/intersection.hpp"
 #include "mesh/exchange/delivery.hpp"
-#include "tests/layers/wall_meshes.hpp"
+#include "tests/meshes/wall_meshes.hpp"
 
 #include <bit>
 #include <cmath>
@@ -102,7 +102,7 @@ TEST(EndPlanes, MayLieAskew) {
   EXPECT_NEAR(distance(planes[y_face], {0.6, -0.8, 0}), 0, 1e-14);
 }
 
-TEST(AlongPlanes, LeavesAllBitsOfACoordinate) {
+TEST(AlongPlanesLocal, LeavesAllBitsOfACoordinate) {
   const std::vector<Vec3> planes{{0, -1, 0}, {0.6, 0, 0.8}};
   const Vec3 one = along_planes({0.3, 0.2, 0.5}, std::span(planes).first(1));
   EXPECT_EQ(one, (Vec3{0.3, 0, 0.5}));

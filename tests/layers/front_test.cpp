@@ -2,7 +2,8 @@
 
 #include "layers/good_columns.hpp"
 #include "mesh/checks/intersection.hpp"
-#include "tests/layers/wall_meshes.hpp"
+#include "tests/meshes/wall_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +73,7 @@ TEST(Front, ShrinksUntilNoTrianglesMeet) {
 }
 
 TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   const auto cleared = [](const Communicator& communicator) {
     const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);

@@ -1,6 +1,7 @@
 #include "layers/gaps.hpp"
 
-#include "tests/layers/wall_meshes.hpp"
+#include "tests/meshes/wall_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,19 +10,19 @@ namespace {
 
 using geometry::Vec3;
 
-TEST(TouchingBalls, AreAsLargeAsTheDistanceOfParallelWalls) {
+TEST(TouchingBallsLocal, AreAsLargeAsTheDistanceOfParallelWalls) {
   const Vec3 opposite[3] = {{-5, -5, 2}, {5, -5, 2}, {0, 5, 2}};
   EXPECT_NEAR(diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, opposite), 2, 1e-5);
   EXPECT_EQ(diameter_beside({{0, 0, 0}, {0, 0, 1}, 1.5}, opposite), 1.5) << "out of reach";
   EXPECT_EQ(diameter_beside({{0, 0, 0}, {0, 0, -1}, 10}, opposite), 10) << "behind the wall";
 }
 
-TEST(TouchingBalls, AreTwiceTheDistanceFromTheOtherSideOfACorner) {
+TEST(TouchingBallsLocal, AreTwiceTheDistanceFromTheOtherSideOfACorner) {
   const Vec3 side[3] = {{1, -9, 0}, {1, 9, 0}, {1, 0, 30}};
   EXPECT_NEAR(diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, side), 2, 1e-5);
 }
 
-TEST(TouchingBalls, DoNotMindAFlatOrConvexWall) {
+TEST(TouchingBallsLocal, DoNotMindAFlatOrConvexWall) {
   EXPECT_EQ(diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}}), 10);
   EXPECT_EQ(diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, {{1, 0, -0.1}, {2, 0, -0.5}, {1, 1, -0.2}}), 10);
 }
@@ -63,6 +64,7 @@ TEST(Gaps, SeeTheOtherPlateOnAnyRank) {
 }
 
 TEST(Gaps, AreTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = parallel::Communicator::world(), self = parallel::Communicator::self();
   const mesh::DistributedMesh mesh = slit().distribute(world, 6), whole = slit().distribute(self, 6);
   const std::vector<double> gaps = gaps_in_slit(mesh), expected = gaps_in_slit(self, whole);

@@ -18,13 +18,13 @@ TriangleColumns upright(double height, std::int32_t count) {
   return columns;
 }
 
-TEST(GoodLayers, AreAllOfAnUprightColumn) {
+TEST(GoodLayersLocal, AreAllOfAnUprightColumn) {
   EXPECT_EQ(good_layers(upright(0.1, 7)), 7);
   EXPECT_EQ(good_layers(upright(1e-9, 7)), 7);
   EXPECT_EQ(good_layers(upright(0.1, 0)), 0);
 }
 
-TEST(GoodLayers, EndWhereColumnsCross) {
+TEST(GoodLayersLocal, EndWhereColumnsCross) {
   TriangleColumns columns = upright(0.1, 20);
   // Leans by 45 degrees towards the middle of the opposite side, so the prism is flat at a height of 0.87.
   columns[2].direction = normalized(Vec3{0, -1, 1});
@@ -33,7 +33,7 @@ TEST(GoodLayers, EndWhereColumnsCross) {
   EXPECT_LT(good, 10) << "0.87 / (0.1 sqrt(0.5)) = 12, and the Jacobian falls to half before";
 }
 
-TEST(GoodLayers, AreBadOnTheWrongSideOfTheWall) {
+TEST(GoodLayersLocal, AreBadOnTheWrongSideOfTheWall) {
   TriangleColumns columns = upright(0.1, 3);
   for (CornerColumn& column : columns) column.direction = {0, 0, -1};
   EXPECT_EQ(good_layers(columns), 0);
@@ -43,7 +43,7 @@ TEST(GoodLayers, AreBadOnTheWrongSideOfTheWall) {
   EXPECT_EQ(good_layers(columns), 0) << "pyramids";
 }
 
-TEST(GoodLayers, CountTheCellsOfClippedColumns) {
+TEST(GoodLayersLocal, CountTheCellsOfClippedColumns) {
   for (int alone = 0; alone < 3; ++alone) {
     TriangleColumns columns = upright(0.1, 5);
     columns[alone].count = 2;
@@ -53,7 +53,7 @@ TEST(GoodLayers, CountTheCellsOfClippedColumns) {
   }
 }
 
-TEST(FittingHeight, KeepsTheAngleOfTheFront) {
+TEST(FittingHeightLocal, KeepsTheAngleOfTheFront) {
   TriangleColumns columns = upright(0.1, 30);
   columns[0].count = columns[1].count = 3;
   // Sides of the front: 1, and the root of 1 + h^2 twice; its least angle falls below 36 degrees at h = 1.28.
@@ -67,7 +67,7 @@ TEST(FittingHeight, KeepsTheAngleOfTheFront) {
   EXPECT_EQ(fitting_height(columns), std::numeric_limits<double>::infinity());
 }
 
-TEST(FittingHeight, EndsBelowTheFirstBadLayer) {
+TEST(FittingHeightLocal, EndsBelowTheFirstBadLayer) {
   TriangleColumns columns = upright(0.1, 20);
   columns[2].direction = normalized(Vec3{0, -1, 1});
   double height = fitting_height(columns);
@@ -83,7 +83,7 @@ TEST(FittingHeight, EndsBelowTheFirstBadLayer) {
   EXPECT_TRUE(has_good_front(columns));
 }
 
-TEST(FittingHeight, IsZeroWhereNoLayerIsGood) {
+TEST(FittingHeightLocal, IsZeroWhereNoLayerIsGood) {
   TriangleColumns columns = upright(0.1, 3);
   for (CornerColumn& column : columns) column.direction = normalized(Vec3{1, 1, -0.5});
   EXPECT_LT(fitting_height(columns), 0.1);

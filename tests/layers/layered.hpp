@@ -5,8 +5,8 @@
 #include "layers/layer_cells.hpp"
 #include "mesh/checks/validity.hpp"
 #include "parallel/observation/log.hpp"
+#include "tests/meshes/surfaces.hpp"
 #include "tests/volume/fields.hpp"
-#include "tests/volume/surfaces.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "mesh/data/boundary_mesh.hpp"
 
 #include "mesh/checks/validity.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <map>
 #include <tuple>

@@ -1,7 +1,7 @@
 #include "mesh/data/cell_stars.hpp"
 
 #include "mesh/data/pair_table.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <set>
 
@@ -12,7 +12,7 @@ namespace {
 
 using parallel::Communicator;
 
-TEST(AscendingCell, KnowsFacesAsTheirVerticesSay) {
+TEST(AscendingCellLocal, KnowsFacesAsTheirVerticesSay) {
   std::array<LocalIndex, 4> cell{3, 8, 11, 40};
   do {
     const AscendingCell ascending(cell.data());
@@ -27,7 +27,7 @@ TEST(AscendingCell, KnowsFacesAsTheirVerticesSay) {
   } while (std::next_permutation(cell.begin(), cell.end()));
 }
 
-TEST(CellStars, HaveEachFaceAtItsLowestVertex) {
+TEST(CellStarsLocal, HaveEachFaceAtItsLowestVertex) {
   const Piece piece = examples::cube(Communicator::self(), 3, 1).pieces[0];
   const CellStars stars(piece, 2);
   std::multiset<std::array<LocalIndex, 3>> found, expected;
@@ -48,7 +48,7 @@ TEST(CellStars, HaveEachFaceAtItsLowestVertex) {
   EXPECT_EQ(found, expected);
 }
 
-TEST(CellStars, GiveEachEdgeOnceAndAscending) {
+TEST(CellStarsLocal, GiveEachEdgeOnceAndAscending) {
   const Piece piece = examples::cube(Communicator::self(), 3, 1).pieces[0];
   std::vector<std::array<LocalIndex, 2>> found;
   for_each_edge(piece, [&](LocalIndex a, LocalIndex b) { found.push_back({a, b}); });
@@ -62,7 +62,7 @@ TEST(CellStars, GiveEachEdgeOnceAndAscending) {
   EXPECT_EQ(found, std::vector(expected.begin(), expected.end()));
 }
 
-TEST(PairTable, TellsWhatMeetsAndWhatIsAlone) {
+TEST(PairTableLocal, TellsWhatMeetsAndWhatIsAlone) {
   PairTable table;
   for (const std::size_t keys : {10, 1000, 30}) {
     table.begin(2 * keys + 1);

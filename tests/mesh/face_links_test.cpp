@@ -1,6 +1,6 @@
 #include "mesh/quality/face_links.hpp"
 
-#include "tests/mesh/mixed_mesh.hpp"
+#include "tests/meshes/mixed_mesh.hpp"
 
 #include <set>
 #include <utility>

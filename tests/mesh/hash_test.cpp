@@ -1,5 +1,6 @@
 #include "mesh/data/distributed_mesh.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <cstring>
 #include <functional>
@@ -16,13 +17,14 @@ std::string hash_of(const DistributedMesh& mesh) {
   return hash_mesh(mesh, number_mesh(mesh));
 }
 
-TEST(Hash, HasThirtyTwoHexadecimalDigits) {
+TEST(HashLocal, HasThirtyTwoHexadecimalDigits) {
   const std::string hash = hash_of(examples::two_tets(Communicator::self()));
   EXPECT_EQ(hash.size(), 32U);
   EXPECT_EQ(hash.find_first_not_of("0123456789abcdef"), std::string::npos);
 }
 
 TEST(Hash, IsTheSameForAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   for (const int pieces : {1, 2, 7, 30}) {
     EXPECT_EQ(hash_of(examples::cube(world, 4, pieces)), hash_of(self, examples::cube(self, 4, pieces)));
@@ -47,7 +49,7 @@ void with_each_flip(std::vector<T>& values, std::size_t stride, const std::funct
   }
 }
 
-TEST(Hash, ChangesWithAnyBitThatIsFlipped) {
+TEST(HashLocal, ChangesWithAnyBitThatIsFlipped) {
   const auto self = Communicator::self();
   auto mesh = examples::cube(self, 2, 3);
   const Numbering numbering = number_mesh(self, mesh);
@@ -63,7 +65,7 @@ TEST(Hash, ChangesWithAnyBitThatIsFlipped) {
   EXPECT_GT(seen.size(), 1000U);
 }
 
-TEST(Hash, ChangesWithAnyOtherVertexOfACellOrTriangle) {
+TEST(HashLocal, ChangesWithAnyOtherVertexOfACellOrTriangle) {
   const auto self = Communicator::self();
   auto mesh = examples::cube(self, 2, 3);
   const Numbering numbering = number_mesh(self, mesh);
@@ -82,7 +84,7 @@ TEST(Hash, ChangesWithAnyOtherVertexOfACellOrTriangle) {
   }
 }
 
-TEST(Hash, ChangesWithOrderNamesAndMissingItems) {
+TEST(HashLocal, ChangesWithOrderNamesAndMissingItems) {
   const auto self = Communicator::self();
   const auto original = examples::cube(self, 2, 3);
   std::set<std::string> seen{hash_of(self, original)};

@@ -2,6 +2,7 @@
 
 #include "geometry/predicates.hpp"
 #include "mesh/checks/triangle_contact.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <array>
 #include <cmath>
@@ -145,7 +146,7 @@ Soup make_sphere(int n) {
   return sphere;
 }
 
-TEST(MeetWrongly, FollowsWhatTheTrianglesShare) {
+TEST(MeetWronglyLocal, FollowsWhatTheTrianglesShare) {
   const auto triangle = [](std::array<Vec3, 3> p, std::array<std::uint64_t, 3> names) {
     return NamedTriangle{{p[0], p[1], p[2]}, {{0, names[0]}, {0, names[1]}, {0, names[2]}}};
   };
@@ -235,6 +236,7 @@ TEST(FindIntersections, AgreesWithBruteForceOnRandomSoups) {
 }
 
 TEST(FindIntersections, GivesTheSameHitsOnAnyRankCount) {
+  NEEDS_SEVERAL_RANKS();
   Soup soup = make_sphere(16);
   add_sheet(soup, 16, [](double u, double v) { return Vec3{1.4 * u - 0.7, 1.4 * v - 0.7, 0.8 + 0.1 * u}; });
   const auto world = parallel::Communicator::world();

@@ -1,7 +1,7 @@
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/communication/collective_error.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <tuple>
 
@@ -12,7 +12,7 @@ namespace {
 
 using parallel::Communicator;
 
-TEST(Piece, SurvivesPackingBitForBit) {
+TEST(PieceLocal, SurvivesPackingBitForBit) {
   const auto mesh = examples::cube(Communicator::self(), 2, 3);
   for (const Piece& piece : mesh.pieces) {
     const parallel::Bytes bytes = parallel::to_wire(piece);
@@ -23,7 +23,7 @@ TEST(Piece, SurvivesPackingBitForBit) {
   }
 }
 
-TEST(Piece, RefusesBytesThatAreTooFewOrTooMany) {
+TEST(PieceLocal, RefusesBytesThatAreTooFewOrTooMany) {
   const auto mesh = examples::two_tets(Communicator::self());
   parallel::Bytes bytes = parallel::to_wire(mesh.pieces[0]);
   bytes.push_back(std::byte{0});

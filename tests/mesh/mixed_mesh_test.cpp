@@ -1,5 +1,5 @@
 // All that the distributed mesh does, on a mesh of tetrahedra, pyramids and prisms.
-#include "tests/mesh/mixed_mesh.hpp"
+#include "tests/meshes/mixed_mesh.hpp"
 
 #include "mesh/checks/validity.hpp"
 #include "mesh/data/piece_faces.hpp"
@@ -50,7 +50,7 @@ TEST(MixedMesh, IsNumberedByPieceThenShape) {
   EXPECT_EQ(counts.boundary_quads, quads);
 }
 
-TEST(MixedMesh, CellsOfAllShapesAreFound) {
+TEST(MixedMeshLocal, CellsOfAllShapesAreFound) {
   const DistributedMesh mesh = examples::mixed_mesh(Communicator::self(), 3, 2);
   for (const Piece& piece : mesh.pieces) {
     std::size_t side = 0;
@@ -88,7 +88,7 @@ TEST(MixedMesh, HashIsTheSameOnAnyRanksAndAnyPieceOrder) {
   EXPECT_EQ(hash_of(examples::mixed_mesh(world, 4, 5)), hash_of(self, examples::mixed_mesh(self, 4, 5)));
 }
 
-TEST(MixedMesh, EveryPartOfThePiecesCountsInTheHash) {
+TEST(MixedMeshLocal, EveryPartOfThePiecesCountsInTheHash) {
   const Communicator self = Communicator::self();
   const std::string hash = hash_of(self, examples::mixed_mesh(self, 3, 2));
   const auto expect_other = [&](const char* what, const std::function<void(Piece&)>& change) {
@@ -130,7 +130,7 @@ TEST(MixedMesh, MigratesAndPacksBitForBit) {
   }
 }
 
-TEST(MixedMesh, ArraysThatDoNotFitAreRefused) {
+TEST(MixedMeshLocal, ArraysThatDoNotFitAreRefused) {
   const auto expect_refused = [](const char* what, const std::function<void(Piece&)>& spoil) {
     Piece piece = examples::mixed_mesh(Communicator::self(), 3, 2).pieces[1];
     ASSERT_NO_THROW(require_consistent_arrays(piece));
@@ -232,7 +232,7 @@ TEST(MixedMesh, EveryBrokenMeshIsFoundOut) {
   });
 }
 
-TEST(MixedMesh, AFoldedPrismOfPositiveVolumeIsFoundOut) {
+TEST(MixedMeshLocal, AFoldedPrismOfPositiveVolumeIsFoundOut) {
   // One column of a prism goes through its base; its volume stays positive.
   const Communicator self = Communicator::self();
   const std::array<geometry::Vec3, 6> prism = {

@@ -1,6 +1,7 @@
 #include "mesh/quality/mixed_quality.hpp"
 
-#include "tests/mesh/mixed_mesh.hpp"
+#include "tests/meshes/mixed_mesh.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ double value(const CellValues& values, Measure measure) {
   return values[static_cast<std::size_t>(measure)];
 }
 
-TEST(CellMeasures, EqualEdges) {
+TEST(CellMeasuresLocal, EqualEdges) {
   const double h = std::sqrt(2.0 / 3), third = std::sqrt(3.0) / 6;
   const std::array<Vec3, 4> tet = {{{0, 0, 0}, {1, 0, 0}, {0.5, 3 * third, 0}, {0.5, third, h}}};
   const CellValues of_tet = measure_cell(CellShape::tetrahedron, tet.data());
@@ -50,7 +51,7 @@ TEST(CellMeasures, EqualEdges) {
   EXPECT_EQ(value(of_prism, Measure::mean_ratio), 0);
 }
 
-TEST(CellMeasures, ThinAndFoldedCells) {
+TEST(CellMeasuresLocal, ThinAndFoldedCells) {
   std::array<Vec3, 6> prism = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-3}, {1, 0, 1e-3}, {0, 1, 1e-3}}};
   CellValues values = measure_cell(CellShape::prism, prism.data());
   EXPECT_NEAR(value(values, Measure::edge_ratio), 1000 * std::numbers::sqrt2, 1e-6);
@@ -72,7 +73,7 @@ TEST(CellMeasures, ThinAndFoldedCells) {
     EXPECT_TRUE(std::isfinite(value(measure_cell(CellShape::prism, prism.data()), measure)));
 }
 
-TEST(CellMeasures, WarpedQuadrilateralsAddUp) {
+TEST(CellMeasuresLocal, WarpedQuadrilateralsAddUp) {
   // Two prisms on both sides of a warped quadrilateral fill what one hexahedron of six warped faces does.
   const std::array<Vec3, 8> p = {
       {{0, 0, 0}, {1, 0.1, 0}, {1.2, 1, 0.1}, {0, 1, 0}, {0, 0.1, 1}, {1, 0, 1.3}, {1, 1, 1}, {0.2, 1, 1}}};
@@ -183,6 +184,7 @@ void expect_same(const MixedQuality& a, const MixedQuality& b) {
 }
 
 TEST(MixedQuality, TheSameForAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world(), self = Communicator::self();
   expect_same(quality_of(examples::mixed_mesh(world, 4, 5)),
               quality_of(self, examples::mixed_mesh(self, 4, 5)));

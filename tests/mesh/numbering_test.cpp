@@ -1,6 +1,7 @@
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/collective_error.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <map>
 #include <set>
@@ -60,6 +61,7 @@ TEST_P(NumberingOfCube, RunsByOwningPieceThenLocalOrder) {
 }
 
 TEST_P(NumberingOfCube, IsTheSameOnOneRank) {
+  NEEDS_SEVERAL_RANKS();
   const auto here = rows_of(examples::cube(Communicator::world(), 3, GetParam()));
   const auto alone = rows_of(examples::cube(Communicator::self(), 3, GetParam()));
   ASSERT_EQ(here.size(), alone.size());

@@ -5,7 +5,7 @@
 namespace aeroloom::mesh {
 namespace {
 
-TEST(Patch, NamesTellTypes) {
+TEST(PatchLocal, NamesTellTypes) {
   EXPECT_EQ(patch_type_by_name("Symmetry plane"), PatchType::symmetry);
   EXPECT_EQ(patch_type_by_name("far_field"), PatchType::farfield);
   EXPECT_EQ(patch_type_by_name("Inlet 2"), PatchType::inlet);

@@ -1,7 +1,8 @@
 #include "mesh/quality/quality.hpp"
 
 #include "mesh/quality/tet_measures.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <cmath>
 #include <limits>
@@ -17,7 +18,7 @@ using parallel::Communicator;
 const Vec3 regular[4] = {{1, 1, 1}, {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}};
 const Vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-TEST(Quality, OfTheRegularTetrahedron) {
+TEST(QualityLocal, OfTheRegularTetrahedron) {
   const auto& [a, b, c, d] = regular;
   ASSERT_GT(geometry::volume6(a, b, c, d), 0);
   const double angle = std::acos(1.0 / 3) * 180 / M_PI;
@@ -27,7 +28,7 @@ TEST(Quality, OfTheRegularTetrahedron) {
   EXPECT_NEAR(radius_ratio(a, b, c, d), 1, 1e-14);
 }
 
-TEST(Quality, OfTheCornerOfACube) {
+TEST(QualityLocal, OfTheCornerOfACube) {
   const auto& [a, b, c, d] = corner;
   EXPECT_NEAR(dihedral_range(a, b, c, d).smallest, std::acos(1 / std::sqrt(3.0)) * 180 / M_PI, 1e-12);
   EXPECT_NEAR(dihedral_range(a, b, c, d).largest, 90, 1e-12);
@@ -36,7 +37,7 @@ TEST(Quality, OfTheCornerOfACube) {
   EXPECT_NEAR(radius_ratio(a, b, c, d), 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2), 1e-14);
 }
 
-TEST(Quality, OfInvertedAndFlatTetrahedra) {
+TEST(QualityLocal, OfInvertedAndFlatTetrahedra) {
   const auto& [a, b, c, d] = corner;
   EXPECT_NEAR(mean_ratio(a, c, b, d), -mean_ratio(a, b, c, d), 1e-15);
   EXPECT_LT(radius_ratio(a, c, b, d), 0);
@@ -50,21 +51,21 @@ TEST(Quality, OfInvertedAndFlatTetrahedra) {
   EXPECT_EQ(radius_ratio(a, a, a, a), 0);
 }
 
-TEST(Quality, KeepsTinyAnglesAccurate) {
+TEST(QualityLocal, KeepsTinyAnglesAccurate) {
   const double h =
       1e-9;  // a needle of a dihedral angle: the lid is h above the base over an edge of length 1
   const auto range = dihedral_range({0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, 1, h});
   EXPECT_NEAR(range.smallest / (std::atan(h) * 180 / M_PI), 1, 1e-12);
 }
 
-TEST(Quality, IsSimilarityInvariant) {
+TEST(QualityLocal, IsSimilarityInvariant) {
   const auto& [a, b, c, d] = corner;
   const auto move = [](Vec3 p) { return 1e-6 * Vec3{-p.y, p.x, p.z} + Vec3{3e-6, 2e-6, 0}; };
   EXPECT_NEAR(mean_ratio(move(a), move(b), move(c), move(d)), mean_ratio(a, b, c, d), 1e-12);
   EXPECT_NEAR(radius_ratio(move(a), move(b), move(c), move(d)), radius_ratio(a, b, c, d), 1e-12);
 }
 
-TEST(Quality, OfTriangles) {
+TEST(QualityLocal, OfTriangles) {
   const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{0.5, std::sqrt(0.75), 0}, right{0, 1, 0};
   EXPECT_NEAR(triangle_mean_ratio(a, b, c), 1, 1e-15);
   EXPECT_NEAR(smallest_angle(a, b, c), 60, 1e-12);
@@ -76,7 +77,7 @@ TEST(Quality, OfTriangles) {
   EXPECT_EQ(triangle_mean_ratio(a, a, a), 0);
 }
 
-TEST(Quality, OfManyTetrahedraIsThatOfEach) {
+TEST(QualityLocal, OfManyTetrahedraIsThatOfEach) {
   Piece piece = examples::cube(Communicator::self(), 4, 1).pieces[0];
   for (std::size_t i = 0; i < piece.coordinates.size(); ++i)  // some are turned inside out
     piece.coordinates[i] += 0.2 * std::sin(static_cast<double>(i * i));
@@ -116,6 +117,7 @@ QualitySummary summary_of(const DistributedMesh& mesh) {
 }
 
 TEST(QualitySummary, IsTheSameBitsForAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   const auto a = summary_of(examples::cube(world, 5, 7)), b = summary_of(self, examples::cube(self, 5, 7));
   expect_same(a.min_dihedral, b.min_dihedral);

@@ -8,7 +8,7 @@
 namespace aeroloom::mesh {
 namespace {
 
-TEST(SharedVertexKeys, OfSurfacesAscendByVertexCurveAndCut) {
+TEST(SharedVertexKeysLocal, OfSurfacesAscendByVertexCurveAndCut) {
   const std::int32_t most = std::numeric_limits<std::int32_t>::max();
   EXPECT_LT(cad_vertex_key(3), cad_vertex_key(4));
   EXPECT_LT(cad_vertex_key(most), curve_vertex_key(0, 0));
@@ -22,7 +22,7 @@ TEST(SharedVertexKeys, OfSurfacesAscendByVertexCurveAndCut) {
   EXPECT_LT(split_vertex_key(3, most), split_vertex_key(4, 0));
 }
 
-TEST(SharedVertexKeys, TellWhatTheyWereMadeOf) {
+TEST(SharedVertexKeysLocal, TellWhatTheyWereMadeOf) {
   EXPECT_EQ(edge_of_vertex_key(cad_vertex_key(12)), -1);
   EXPECT_EQ(index_of_vertex_key(cad_vertex_key(12)), 12);
   EXPECT_EQ(edge_of_vertex_key(curve_vertex_key(7, 5)), 7);
@@ -33,14 +33,14 @@ TEST(SharedVertexKeys, TellWhatTheyWereMadeOf) {
   EXPECT_TRUE(is_cut_vertex_key(split_vertex_key(7, 5)));
 }
 
-TEST(SharedVertexKeys, CutsBeyondWhatCanBeNamedAreRefused) {
+TEST(SharedVertexKeysLocal, CutsBeyondWhatCanBeNamedAreRefused) {
   EXPECT_NO_THROW(cut_vertex_key((1 << 22) - 1, (1 << 16) - 1, (1 << 24) - 1));
   EXPECT_THROW(cut_vertex_key(1 << 22, 0, 0), std::runtime_error);
   EXPECT_THROW(cut_vertex_key(0, 1 << 16, 0), std::runtime_error);
   EXPECT_THROW(cut_vertex_key(0, 0, 1 << 24), std::runtime_error);
 }
 
-TEST(SharedVertexKeys, OfVolumesNeverMeet) {
+TEST(SharedVertexKeysLocal, OfVolumesNeverMeet) {
   const std::int64_t many = std::int64_t{1} << 40;
   EXPECT_LT(running_key(many), layer_key(0, 0));
   EXPECT_LT(layer_key(3, (1 << 20) - 1), layer_key(4, 0));

@@ -2,7 +2,7 @@
 
 #include "mesh/data/mixing.hpp"
 #include "parallel/communication/collective_error.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <functional>
 #include <map>

@@ -2,7 +2,8 @@
 
 #include "mesh/checks/validity.hpp"
 #include "mesh/exchange/delivery.hpp"
-#include "tests/layers/wall_meshes.hpp"
+#include "tests/meshes/wall_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <algorithm>
 #include <map>
@@ -51,6 +52,7 @@ TEST(SplitPieces, LeaveWholeFacesAlone) {
 }
 
 TEST(SplitPieces, AreTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto hash_of = [](const Communicator& communicator) {
     const NumberedMesh split = split_pieces(ball_in_box(communicator, 3), 40, {});
     return hash_mesh(split.mesh, split.numbering);

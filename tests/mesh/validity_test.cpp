@@ -2,7 +2,8 @@
 
 #include "mesh/data/boundary_mesh.hpp"
 #include "parallel/communication/collective_error.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <functional>
 #include <limits>
@@ -107,6 +108,7 @@ TEST(VolumeValidity, AcceptsSoundMeshesHoweverTheyAreCut) {
 }
 
 TEST(VolumeValidity, HasTheSameBitsOfVolumeOnOneRank) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   const auto here = examples::cube(world, 4, 7), alone = examples::cube(self, 4, 7);
   const auto a = check_volume_mesh(here, number_mesh(here), nullptr);

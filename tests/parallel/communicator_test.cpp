@@ -1,4 +1,4 @@
-#include "parallel/communication/communicator.hpp"
+#include "tests/parallel/letter.hpp"
 
 #include <cstdlib>
 #include <numeric>
@@ -9,16 +9,6 @@
 
 namespace aeroloom::parallel {
 namespace {
-
-/// Content that tells who sent it to whom, of any length.
-Bytes letter(Rank from, Rank to, std::size_t length) {
-  Bytes content(length);
-  for (std::size_t i = 0; i < length; ++i) {
-    content[i] = static_cast<std::byte>(i * 31 + i / 251 + static_cast<std::size_t>(from) * 7 +
-                                        static_cast<std::size_t>(to) * 13);
-  }
-  return content;
-}
 
 TEST(Session, LooksForNoNetworkOnOneMachine) {
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) GTEST_SKIP() << "not started by Open MPI";
@@ -34,7 +24,9 @@ protected:
   const int size = world.size();
 };
 
-TEST_F(CommunicatorTest, SelfIsAlone) {
+using CommunicatorLocal = CommunicatorTest;
+
+TEST_F(CommunicatorLocal, SelfIsAlone) {
   const Communicator self = Communicator::self();
   EXPECT_EQ(self.rank(), 0);
   EXPECT_EQ(self.size(), 1);
@@ -169,38 +161,13 @@ TEST_F(CommunicatorTest, ExchangesBackToBackDoNotMix) {
   }
 }
 
-TEST_F(CommunicatorTest, RefusesImpossibleParcels) {
+TEST_F(CommunicatorLocal, RefusesImpossibleParcels) {
   EXPECT_THROW(world.exchange({{size, {}}}), std::logic_error);
   EXPECT_THROW(world.exchange({{-1, {}}}), std::logic_error);
   EXPECT_THROW(world.exchange({{0, {}}, {0, {}}}), std::logic_error);
 }
 
-TEST_F(CommunicatorTest, MovesMessagesOfSeveralParts) {
-  const std::size_t length = 70'000'001;  // no whole number of parts
-  const Rank next = (rank + 1) % size, previous = (rank + size - 1) % size;
-  std::vector<Parcel> outgoing;
-  outgoing.push_back({next, letter(rank, next, length)});
-  const auto incoming = world.exchange(std::move(outgoing));
-  ASSERT_EQ(incoming.size(), 1u);
-  EXPECT_TRUE(incoming[0].content == letter(previous, rank, length));
-  Bytes bytes = rank == size - 1 ? letter(rank, 0, length) : Bytes{};
-  world.broadcast(bytes, size - 1);
-  EXPECT_TRUE(bytes == letter(size - 1, 0, length));
-}
-
-TEST_F(CommunicatorTest, GathersMessagesOfSeveralParts) {
-  const auto length = [](Rank r) {
-    return r == 0 ? std::size_t{70'000'003} : static_cast<std::size_t>(r) * 5'000'001;
-  };
-  const auto all = world.all_gather(letter(rank, 0, length(rank)));
-  for (Rank r = 0; r < size; ++r) EXPECT_TRUE(all[static_cast<std::size_t>(r)] == letter(r, 0, length(r)));
-  const auto parts = world.gather(letter(rank, 1, length(rank)), size - 1);
-  for (std::size_t r = 0; r < parts.size(); ++r) {
-    EXPECT_TRUE(parts[r] == letter(static_cast<Rank>(r), 1, length(static_cast<Rank>(r))));
-  }
-}
-
-TEST(PackerTest, ReadsBackWhatWasWritten) {
+TEST(PackerLocal, ReadsBackWhatWasWritten) {
   Packer packer;
   packer.value(42);
   packer.text("wing");
@@ -221,7 +188,7 @@ TEST(PackerTest, ReadsBackWhatWasWritten) {
   EXPECT_THROW(unpacker.value<char>(), std::logic_error);
 }
 
-TEST(PackerTest, RefusesCountsPastTheEnd) {
+TEST(PackerLocal, RefusesCountsPastTheEnd) {
   Packer packer;
   packer.value(std::uint64_t{1} << 62);
   const Bytes bytes = packer.take();
@@ -229,7 +196,7 @@ TEST(PackerTest, RefusesCountsPastTheEnd) {
   EXPECT_THROW(Unpacker(bytes).text(), std::logic_error);
 }
 
-TEST(PackerTest, RefusesBrokenItems) {
+TEST(PackerLocal, RefusesBrokenItems) {
   EXPECT_THROW(from_bytes<double>(Bytes(9)), std::logic_error);
   EXPECT_EQ(from_bytes<double>(Bytes(16)).size(), 2u);
 }

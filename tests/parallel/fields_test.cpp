@@ -90,7 +90,7 @@ Composite some_composite() {
   return all;
 }
 
-TEST(FieldsTest, PaddingDoesNotTravel) {
+TEST(FieldsLocal, PaddingDoesNotTravel) {
   const std::vector<Holed> some = poisoned(0x55), same = poisoned(0xAA);
   EXPECT_NE(std::memcmp(some.data(), same.data(), some.size() * sizeof(Holed)), 0);
   const Bytes bytes = to_bytes(std::span<const Holed>(some));
@@ -103,7 +103,7 @@ TEST(FieldsTest, PaddingDoesNotTravel) {
   EXPECT_THROW(from_bytes<Holed>(std::span(bytes).first(14)), std::logic_error);
 }
 
-TEST(FieldsTest, ExactItemsAreTheirBytes) {
+TEST(FieldsLocal, ExactItemsAreTheirBytes) {
   const std::vector<Exact> items{{{0.25, 0.5}, 1, 2}, {{-1, 3}, 4, 5}};
   const Bytes bytes = to_bytes(std::span<const Exact>(items));
   ASSERT_EQ(bytes.size(), sizeof(Exact) * items.size());
@@ -111,14 +111,14 @@ TEST(FieldsTest, ExactItemsAreTheirBytes) {
   EXPECT_EQ(from_bytes<Exact>(bytes), items);
 }
 
-TEST(FieldsTest, CompositesComeBack) {
+TEST(FieldsLocal, CompositesComeBack) {
   const Composite all = some_composite();
   EXPECT_EQ(from_wire<Composite>(to_wire(all)), all);
   EXPECT_EQ(from_wire<Composite>(to_wire(Composite())), Composite());
   EXPECT_EQ(from_wire<std::optional<std::string>>(to_wire(std::optional<std::string>())), std::nullopt);
 }
 
-TEST(FieldsTest, HandingOverEmptiesTheArrays) {
+TEST(FieldsLocal, HandingOverEmptiesTheArrays) {
   Composite all = some_composite();
   EXPECT_EQ(hand_over_to_wire(all), to_wire(all));
   Packer packer;
@@ -128,7 +128,7 @@ TEST(FieldsTest, HandingOverEmptiesTheArrays) {
   EXPECT_TRUE(all.names.empty() && all.map.empty());
 }
 
-TEST(FieldsTest, ReferencesAndSpansArePackedAsWhatTheyReferTo) {
+TEST(FieldsLocal, ReferencesAndSpansArePackedAsWhatTheyReferTo) {
   const std::string name = "tail";
   const std::vector<Holed> items = poisoned(3);
   const Bytes bytes = to_wire(std::tuple<const std::string&, std::span<const Holed>>(name, items));
@@ -138,7 +138,7 @@ TEST(FieldsTest, ReferencesAndSpansArePackedAsWhatTheyReferTo) {
   EXPECT_EQ(to_wire(std::tie(name, items)), bytes);
 }
 
-TEST(FieldsTest, RefusesOtherLengths) {
+TEST(FieldsLocal, RefusesOtherLengths) {
   Bytes bytes = to_wire(some_composite());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_THROW(from_wire<Composite>(std::span(bytes).first(size)), std::logic_error) << size;
@@ -146,7 +146,7 @@ TEST(FieldsTest, RefusesOtherLengths) {
   EXPECT_THROW(from_wire<Composite>(bytes), std::logic_error);
 }
 
-TEST(FieldsTest, RefusesHugeCountsBeforeTakingMemory) {
+TEST(FieldsLocal, RefusesHugeCountsBeforeTakingMemory) {
   for (const std::uint64_t count : {std::uint64_t{2}, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
     const Bytes bytes = to_wire(std::pair(count, std::int64_t{0}));
     EXPECT_THROW(from_wire<std::vector<double>>(bytes), std::logic_error);

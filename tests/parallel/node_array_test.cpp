@@ -1,6 +1,7 @@
 #include "parallel/communication/node_array.hpp"
 
 #include "parallel/communication/imposed_nodes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <cstdint>
 #include <fstream>
@@ -98,8 +99,8 @@ TEST(NodeArrayTest, IsComposedOfWhatNodesWriteThemselves) {
 }
 
 TEST(NodeArrayTest, AllLearnThatOneCouldNotWrite) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator ranks = impose_nodes(Communicator::world(), 1);
-  if (ranks.size() == 1) return;
   const auto fail = [&](Rank, std::size_t, std::span<std::int64_t>) {
     if (ranks.rank() == 0) throw std::runtime_error("no");
   };
@@ -129,7 +130,7 @@ TEST(NodeArrayTest, IsLetGoByRanksOneByOne) {
   }
 }
 
-TEST(NodeArrayTest, OfOneRankNeedsNoOthers) {
+TEST(NodeArrayLocal, OfOneRankNeedsNoOthers) {
   if (Communicator::world().rank() > 0) return;
   const NodeArray<std::int64_t> alone(Communicator::self(), squares(10));
   EXPECT_EQ(alone[9], 81);

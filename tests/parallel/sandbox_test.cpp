@@ -3,6 +3,7 @@
 #include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "tests/scoped_fault.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <csignal>
 #include <cstdio>
@@ -160,7 +161,7 @@ TEST(SandboxTest, ReturnsTheOutput) {
   EXPECT_TRUE(empty.message.empty());
 }
 
-TEST(SandboxTest, BringsBackTheException) {
+TEST(SandboxLocal, BringsBackTheException) {
   const Bytes input(5);
   const auto result = run_sandboxed("throw_error", input, {});
   EXPECT_EQ(result.status, SandboxStatus::threw);
@@ -171,14 +172,14 @@ TEST(SandboxTest, BringsBackTheException) {
   expect_still_working();
 }
 
-TEST(SandboxTest, SurvivesAbort) {
+TEST(SandboxLocal, SurvivesAbort) {
   const auto result = run("abort_at_once");
   EXPECT_EQ(result.status, SandboxStatus::aborted);
   EXPECT_EQ(result.message, "SIGABRT\nIt printed last:\nassertion failed: it is flat");
   expect_still_working();
 }
 
-TEST(SandboxTest, SurvivesSegmentationFaults) {
+TEST(SandboxLocal, SurvivesSegmentationFaults) {
   for (const char* task : {"write_to_null", "overflow_the_stack"}) {
     const auto result = run(task);
     EXPECT_EQ(result.status, SandboxStatus::aborted) << task;
@@ -189,14 +190,14 @@ TEST(SandboxTest, SurvivesSegmentationFaults) {
   expect_still_working();
 }
 
-TEST(SandboxTest, AnExitIsNoSuccess) {
+TEST(SandboxLocal, AnExitIsNoSuccess) {
   const auto result = run("exit_early");
   EXPECT_EQ(result.status, SandboxStatus::aborted);
   EXPECT_EQ(result.message, "exited with code 0");
   expect_still_working();
 }
 
-TEST(SandboxTest, EndsWhatUsesUpItsCpuTime) {
+TEST(SandboxLocal, EndsWhatUsesUpItsCpuTime) {
   SandboxLimits limits;
   limits.cpu_seconds = 1;
   const auto result = run("spin", limits);
@@ -206,7 +207,7 @@ TEST(SandboxTest, EndsWhatUsesUpItsCpuTime) {
   expect_still_working();
 }
 
-TEST(SandboxTest, EndsWhatSleeps) {
+TEST(SandboxLocal, EndsWhatSleeps) {
   SandboxLimits limits;
   limits.cpu_seconds = 0.05;
   limits.idle_seconds = 0.5;
@@ -218,7 +219,7 @@ TEST(SandboxTest, EndsWhatSleeps) {
 }
 
 // What comes from outside says nothing of the task: it is done again, as it was.
-TEST(SandboxTest, StartsAgainWhatIsEndedFromOutside) {
+TEST(SandboxLocal, StartsAgainWhatIsEndedFromOutside) {
   for (const int signal : {SIGKILL, SIGTERM, SIGHUP, SIGBUS}) {
     std::string input(1, static_cast<char>(signal));
     const std::string file = testing::TempDir() + "contained_" + std::to_string(getpid());
@@ -240,7 +241,7 @@ TEST(SandboxTest, StartsAgainWhatIsEndedFromOutside) {
   expect_still_working();
 }
 
-TEST(SandboxTest, EndsWhatExhaustsMemory) {
+TEST(SandboxLocal, EndsWhatExhaustsMemory) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the address sanitizer ends the child itself";
 #endif
@@ -255,7 +256,7 @@ TEST(SandboxTest, EndsWhatExhaustsMemory) {
   expect_still_working();
 }
 
-TEST(SandboxTest, CarriesLargeInputAndOutput) {
+TEST(SandboxLocal, CarriesLargeInputAndOutput) {
   const std::vector<std::int64_t> count{8'000'000};  // 64 MB
   const auto result = run_sandboxed("count_up", std::as_bytes(std::span(count)), {});
   ASSERT_EQ(result.status, SandboxStatus::ok) << result.message;
@@ -269,7 +270,7 @@ TEST(SandboxTest, CarriesLargeInputAndOutput) {
   EXPECT_TRUE(std::equal(back.output.begin(), back.output.end(), result.output.rbegin()));
 }
 
-TEST(SandboxTest, KeepsTheTailOfMuchPrinting) {
+TEST(SandboxLocal, KeepsTheTailOfMuchPrinting) {
   const auto result = run("print_much");
   EXPECT_EQ(result.status, SandboxStatus::threw);
   EXPECT_EQ(result.message.rfind("after much printing\n", 0), 0u);
@@ -277,13 +278,13 @@ TEST(SandboxTest, KeepsTheTailOfMuchPrinting) {
   EXPECT_LT(result.message.size(), 8192u);
 }
 
-TEST(SandboxTest, CopesWithClosedStreams) {
+TEST(SandboxLocal, CopesWithClosedStreams) {
   const auto result = run("close_streams");
   EXPECT_EQ(result.status, SandboxStatus::ok) << result.message;
   EXPECT_EQ(result.output.size(), 3u);
 }
 
-TEST(SandboxTest, RunsManyTimesInARow) {
+TEST(SandboxLocal, RunsManyTimesInARow) {
   const auto descriptors = [] {
     const int probe = dup(STDERR_FILENO);
     close(probe);
@@ -299,7 +300,7 @@ TEST(SandboxTest, RunsManyTimesInARow) {
   EXPECT_EQ(descriptors(), before) << "file descriptors leak";
 }
 
-TEST(SandboxTest, AlternatesFailuresAndSuccesses) {
+TEST(SandboxLocal, AlternatesFailuresAndSuccesses) {
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(run(i % 2 ? "abort_at_once" : "throw_error").status,
               i % 2 ? SandboxStatus::aborted : SandboxStatus::threw);
@@ -309,7 +310,7 @@ TEST(SandboxTest, AlternatesFailuresAndSuccesses) {
 
 TEST(SandboxTest, MessagesMoveWhileAChildWorks) {
   const auto world = Communicator::world();
-  if (world.size() == 1) GTEST_SKIP() << "needs two ranks";
+  NEEDS_SEVERAL_RANKS();
   if (world.is_root()) {
     SandboxLimits limits;
     limits.cpu_seconds = 1;
@@ -318,7 +319,7 @@ TEST(SandboxTest, MessagesMoveWhileAChildWorks) {
   EXPECT_EQ(world.sum(std::int64_t{1}), world.size());
 }
 
-TEST(SandboxTest, RefusesUnknownTasksAndLateRegistration) {
+TEST(SandboxLocal, RefusesUnknownTasksAndLateRegistration) {
   EXPECT_THROW(run("no such task"), std::logic_error);
   EXPECT_THROW(register_sandbox_task("late", reverse), std::logic_error);
   EXPECT_THROW(register_sandbox_task("reverse", spin), std::logic_error);

@@ -16,27 +16,27 @@ std::vector<double> burdens(const std::vector<Rank>& assignment, const std::vect
   return burden;
 }
 
-TEST(ScheduleTest, GivesTheLargestFirst) {
+TEST(ScheduleLocal, GivesTheLargestFirst) {
   EXPECT_EQ(assign_largest_first(std::vector<double>{1, 5, 3, 3}, 2), (std::vector<Rank>{0, 0, 1, 1}));
 }
 
-TEST(ScheduleTest, BreaksTiesByTaskAndRank) {
+TEST(ScheduleLocal, BreaksTiesByTaskAndRank) {
   EXPECT_EQ(assign_largest_first(std::vector<double>{2, 2, 2, 2, 2}, 3), (std::vector<Rank>{0, 1, 2, 0, 1}));
   EXPECT_EQ(assign_largest_first(std::vector<double>{0, 0}, 3), (std::vector<Rank>{0, 0}));
 }
 
-TEST(ScheduleTest, CopesWithFewTasksAndNone) {
+TEST(ScheduleLocal, CopesWithFewTasksAndNone) {
   EXPECT_TRUE(assign_largest_first({}, 4).empty());
   EXPECT_EQ(assign_largest_first(std::vector<double>{1}, 4), (std::vector<Rank>{0}));
   EXPECT_TRUE(tasks_of_rank({}, {}, 0).empty());
 }
 
-TEST(ScheduleTest, TakesIntoAccountWhatRanksHaveDone) {
+TEST(ScheduleLocal, TakesIntoAccountWhatRanksHaveDone) {
   const std::vector<double> loads{3, 2, 2}, done{4, 0};
   EXPECT_EQ(assign_largest_first(loads, done), (std::vector<Rank>{1, 1, 0}));
 }
 
-TEST(ScheduleTest, StaysWithinGrahamsBound) {
+TEST(ScheduleLocal, StaysWithinGrahamsBound) {
   std::mt19937 random(3);
   for (const int ranks : {1, 2, 3, 7, 64}) {
     std::vector<double> loads(200);
@@ -49,7 +49,7 @@ TEST(ScheduleTest, StaysWithinGrahamsBound) {
   }
 }
 
-TEST(ScheduleTest, RunsKeepTheOrderAndAreAsEvenAsItAllows) {
+TEST(ScheduleLocal, RunsKeepTheOrderAndAreAsEvenAsItAllows) {
   EXPECT_EQ(assign_in_order(std::vector<double>{1, 1, 1, 1, 4}, 2), (std::vector<Rank>{0, 0, 0, 0, 1}));
   EXPECT_EQ(assign_in_order(std::vector<double>{3, 1, 2, 2, 1, 3}, 3), (std::vector<Rank>{0, 0, 1, 1, 2, 2}));
   EXPECT_EQ(assign_in_order(std::vector<double>{5, 0, 0}, 4), (std::vector<Rank>{0, 0, 0}));
@@ -66,7 +66,7 @@ TEST(ScheduleTest, RunsKeepTheOrderAndAreAsEvenAsItAllows) {
   }
 }
 
-TEST(ScheduleTest, MovesNoMoreThanTheExcess) {
+TEST(ScheduleLocal, MovesNoMoreThanTheExcess) {
   const std::vector<double> loads{4, 3, 2, 1, 1, 1};
   EXPECT_EQ(move_excess(loads, std::vector<Rank>{0, 0, 0, 1, 1, 1}, 2),
             (std::vector<Rank>{0, 1, 0, 1, 1, 1}));
@@ -77,7 +77,7 @@ TEST(ScheduleTest, MovesNoMoreThanTheExcess) {
   EXPECT_EQ(move_excess(std::vector<double>{1}, std::vector<Rank>{2}, 3), (std::vector<Rank>{0}));
 }
 
-TEST(ScheduleTest, MovedTasksEvenOutTheLoad) {
+TEST(ScheduleLocal, MovedTasksEvenOutTheLoad) {
   std::mt19937 random(5);
   for (const int ranks : {1, 2, 3, 7, 64}) {
     std::vector<double> loads(200);
@@ -92,7 +92,7 @@ TEST(ScheduleTest, MovedTasksEvenOutTheLoad) {
   }
 }
 
-TEST(ScheduleTest, SharesGoWhereMostOfThemIs) {
+TEST(ScheduleLocal, SharesGoWhereMostOfThemIs) {
   const std::vector<double> loads{4, 3, 2, 1, 1, 1};
   const std::vector<Rank> shares{0, 1, 1, 0, 2, 2};
   // Share 0 has 4 on rank 2, share 1 has 5 on rank 0; share 2, of which nothing is there, gets what is left.
@@ -102,7 +102,7 @@ TEST(ScheduleTest, SharesGoWhereMostOfThemIs) {
   EXPECT_TRUE(keep_in_place({}, {}, {}, 4).empty());
 }
 
-TEST(ScheduleTest, MovesTasksOnlyWhereThatPays) {
+TEST(ScheduleLocal, MovesTasksOnlyWhereThatPays) {
   const std::vector<Rank> even{0, 0, 1, 1}, uneven{0, 0, 0, 1}, worst{0, 0, 0, 0};
   EXPECT_EQ(rebalance(std::vector<double>{1, 1, 1, 1}, even, 2), even);
   EXPECT_EQ(rebalance(std::vector<double>{1, 1, 1.04, 1.04}, even, 2), even);  // within five per cent
@@ -112,7 +112,7 @@ TEST(ScheduleTest, MovesTasksOnlyWhereThatPays) {
   EXPECT_TRUE(rebalance({}, {}, 3).empty());
 }
 
-TEST(ScheduleTest, BatchesFollowTheOrderOfEachRank) {
+TEST(ScheduleLocal, BatchesFollowTheOrderOfEachRank) {
   const std::vector<double> loads{1, 5, 3, 3, 4, 2, 7};
   const std::vector<Rank> assignment{0, 0, 0, 0, 0, 1, 1};
   const std::vector<int> batches = batches_of_tasks(assignment, loads, 2);
@@ -125,7 +125,7 @@ TEST(ScheduleTest, BatchesFollowTheOrderOfEachRank) {
   EXPECT_TRUE(batches_of_tasks({}, {}, 4).empty());
 }
 
-TEST(ScheduleTest, TasksOfRanksPartitionAllTasksLargestFirst) {
+TEST(ScheduleLocal, TasksOfRanksPartitionAllTasksLargestFirst) {
   const std::vector<double> loads{4, 9, 4, 1, 7, 4, 2};
   const auto assignment = assign_largest_first(loads, 3);
   std::vector<int> all;

@@ -9,7 +9,7 @@
 namespace aeroloom::parallel {
 namespace {
 
-TEST(TaskKindTest, RowsStandInTheOrderOfKinds) {
+TEST(TaskKindLocal, RowsStandInTheOrderOfKinds) {
   for (std::size_t i = 0; i < task_kinds.size(); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(task_kinds[i].kind), i) << task_kinds[i].name;
     EXPECT_EQ(row_of(task_kinds[i].kind).name, task_kinds[i].name);
@@ -17,7 +17,7 @@ TEST(TaskKindTest, RowsStandInTheOrderOfKinds) {
   EXPECT_EQ(task_kinds.back().kind, TaskKind::file);
 }
 
-TEST(TaskKindTest, NamesLeadBackToTheirKinds) {
+TEST(TaskKindLocal, NamesLeadBackToTheirKinds) {
   std::set<std::string_view> names;
   for (const TaskKindRow& row : task_kinds) {
     EXPECT_EQ(task_kind_called(name_of(row.kind)), row.kind) << row.name;
@@ -30,7 +30,7 @@ TEST(TaskKindTest, NamesLeadBackToTheirKinds) {
 }
 
 /// Records of earlier runs have these words.
-TEST(TaskKindTest, NamesAreThoseOfRecords) {
+TEST(TaskKindLocal, NamesAreThoseOfRecords) {
   std::string all;
   for (const TaskKindRow& row : task_kinds) all += std::string(row.name) + ";";
   EXPECT_EQ(all,
@@ -38,7 +38,7 @@ TEST(TaskKindTest, NamesAreThoseOfRecords) {
             "improved piece;cavity;file;");
 }
 
-TEST(TaskKindTest, ZonesAloneComeAFewAtATime) {
+TEST(TaskKindLocal, ZonesAloneComeAFewAtATime) {
   for (const TaskKindRow& row : task_kinds)
     EXPECT_EQ(row.at_a_time > 0, row.kind == TaskKind::zone) << row.name;
 }

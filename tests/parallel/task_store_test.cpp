@@ -113,7 +113,7 @@ TEST_F(TaskStoreTest, GoesOnWithoutWhereItCannotWrite) {
   EXPECT_NO_THROW(store.keep(key(2), result(2)));
 }
 
-TEST(Digest, DependsOnAllBytesAndNotOnTheirDivision) {
+TEST(DigestLocal, DependsOnAllBytesAndNotOnTheirDivision) {
   const Bytes bytes{std::byte{1}, std::byte{2}, std::byte{3}};
   const auto part = [&](std::size_t from, std::size_t count) {
     return std::span<const std::byte>(bytes).subspan(from, count);

@@ -1,5 +1,7 @@
 #include "parallel/observation/timers.hpp"
 
+#include "tests/several_ranks.hpp"
+
 #include <chrono>
 #include <cstring>
 #include <stdexcept>
@@ -20,7 +22,7 @@ void work(double seconds) {
   }
 }
 
-TEST(TimersTest, CpuTimeDoesNotRunWhileSleeping) {
+TEST(TimersLocal, CpuTimeDoesNotRunWhileSleeping) {
   const double cpu = cpu_seconds(), wall = wall_seconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   EXPECT_GE(wall_seconds() - wall, 0.1);
@@ -37,14 +39,14 @@ void use_memory(std::size_t size) {
   munmap(memory, size);
 }
 
-TEST(TimersTest, PeakMemoryRemembersWhatWasFreed) {
+TEST(TimersLocal, PeakMemoryRemembersWhatWasFreed) {
   const std::int64_t before = resident_bytes();
   use_memory(hundred_megabytes);
   EXPECT_GE(peak_resident_bytes(), before + 95'000'000);
   EXPECT_LT(resident_bytes(), peak_resident_bytes() - 90'000'000);
 }
 
-TEST(StageClockTest, PeaksAreThoseOfTheStage) {
+TEST(StageClockLocal, PeaksAreThoseOfTheStage) {
   if (access("/proc/self/clear_refs", W_OK) != 0)
     GTEST_SKIP() << "the system keeps one peak for the whole run";
   StageClock clock;
@@ -57,7 +59,7 @@ TEST(StageClockTest, PeaksAreThoseOfTheStage) {
   EXPECT_GE(peak_resident_bytes(), clock.costs()[0].peak_resident_bytes);
 }
 
-TEST(StageClockTest, TellsOwnMemoryFromShared) {
+TEST(StageClockLocal, TellsOwnMemoryFromShared) {
   constexpr auto size = static_cast<std::int64_t>(hundred_megabytes);
   const std::vector<char> mine(hundred_megabytes, 1);
   void* shared = mmap(nullptr, hundred_megabytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -86,7 +88,7 @@ TEST(StageClockTest, TellsOwnMemoryFromShared) {
   munmap(shared, hundred_megabytes);
 }
 
-TEST(StageClockTest, AddsToTheOpenStageOnly) {
+TEST(StageClockLocal, AddsToTheOpenStageOnly) {
   StageClock clock;
   clock.add_task_cpu(5);  // before any stage: nobody's
   clock.begin("surface");
@@ -115,6 +117,7 @@ TEST(StageClockTest, AddsToTheOpenStageOnly) {
 TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
   const auto world = Communicator::world();
   StageClock clock;
+  double between = 0;
   const double before = cpu_seconds();
   clock.begin("volume");
   {
@@ -123,9 +126,12 @@ TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
     // What lies within is no task, and neither is waiting.
     const ScopedCpu check(ScopedCpu::As::check);
     work(0.02);
-    // However late a rank comes to the first barrier, all but rank 0 wait at the second.
+    // However late a rank comes to the first barrier, all but rank 0 wait at the second, less what a busy
+    // machine makes of the time between them.
     world.barrier();
+    const double after_first = wall_seconds();
     if (world.is_root()) std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    between = wall_seconds() - after_first;
     world.barrier();
   }
   work(0.04);
@@ -140,10 +146,10 @@ TEST(StageClockTest, TellsTasksChecksMessagesAndTheRestApart) {
   if (world.is_root())
     EXPECT_LT(cost.waiting_seconds, cost.wall_seconds - 0.4);
   else
-    EXPECT_GT(cost.waiting_seconds, 0.2);
+    EXPECT_GT(cost.waiting_seconds, 0.2 - between);
 }
 
-TEST(StageClockTest, NotesWhatWasBefore) {
+TEST(StageClockLocal, NotesWhatWasBefore) {
   StageClock clock;
   const double noting = wall_seconds();
   clock.note("start", 2.5);
@@ -151,16 +157,19 @@ TEST(StageClockTest, NotesWhatWasBefore) {
   EXPECT_LE(clock.costs()[0].wall_seconds, 2.5 + wall_seconds() - noting);
   EXPECT_GT(clock.costs()[0].other_cpu_seconds, 0);
   EXPECT_LE(clock.costs()[0].other_cpu_seconds, cpu_seconds());
-  // The age has the clock ticks of the system. On a busy machine a sleep is as long as it likes.
-  const double age = process_age_seconds(), start = wall_seconds();
+  // The age has the clock ticks of the system. On a busy machine a sleep is as long as it likes, and so is
+  // any step between two clocks: the age is read within what the other clock tells.
+  const double start = wall_seconds();
+  const double age = process_age_seconds();
   EXPECT_GT(age, 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  const double least = process_age_seconds() - age, most = wall_seconds() - start;
+  const double least = process_age_seconds() - age;
+  const double most = wall_seconds() - start;
   EXPECT_GT(least, 0.02);
   EXPECT_LT(least, most + 0.03);
 }
 
-TEST(StageClockTest, GoesOnWithAStageBegunAgain) {
+TEST(StageClockLocal, GoesOnWithAStageBegunAgain) {
   StageClock clock;
   for (const char* name : {"decompose", "surface", "decompose"}) {
     clock.begin(name);
@@ -173,7 +182,7 @@ TEST(StageClockTest, GoesOnWithAStageBegunAgain) {
   EXPECT_EQ(clock.costs()[1].task_cpu_seconds, 1.5);
 }
 
-TEST(StageClockTest, RefusesNestedStages) {
+TEST(StageClockLocal, RefusesNestedStages) {
   StageClock clock;
   EXPECT_THROW(clock.end(), std::logic_error);
   clock.begin("a");
@@ -210,7 +219,7 @@ TEST(StageClockTest, IsTheClockOfItsThread) {
   EXPECT_EQ(clock.tasks()[0].round, 1);
 }
 
-TEST(StageClockTest, CountsChildrenOnTopOfTheRank) {
+TEST(StageClockLocal, CountsChildrenOnTopOfTheRank) {
   StageClock clock;
   clock.begin("volume");
   constexpr std::int64_t child = 1'000'000'000'000;
@@ -267,7 +276,7 @@ TEST(StageClockTest, SummarisesWhatWasToBeExchanged) {
   EXPECT_EQ(exchanges.neighbour, Messages{});
 }
 
-TEST(StageClockTest, TellsRepeatedWorkFromSerial) {
+TEST(StageClockLocal, TellsRepeatedWorkFromSerial) {
   StageClock clock;
   const double before = cpu_seconds();
   clock.begin("volume");
@@ -288,7 +297,7 @@ TEST(StageClockTest, TellsRepeatedWorkFromSerial) {
   EXPECT_DOUBLE_EQ(cost.task_cpu_seconds, cost.serial_cpu_seconds);
 }
 
-TEST(StageClockTest, NotesRoundsOfTasks) {
+TEST(StageClockLocal, NotesRoundsOfTasks) {
   StageClock clock;
   clock.begin_round();  // of no stage
   clock.begin("surface");
@@ -308,7 +317,7 @@ TEST(StageClockTest, NotesRoundsOfTasks) {
 
 TEST(StageClockTest, RefusesDifferentStagesOnEveryRank) {
   const auto world = Communicator::world();
-  if (world.size() == 1) GTEST_SKIP() << "needs two ranks";
+  NEEDS_SEVERAL_RANKS();
   StageClock clock;
   clock.begin(world.is_root() ? "surface" : "volume");
   clock.end();

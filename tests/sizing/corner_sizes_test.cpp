@@ -2,6 +2,7 @@
 
 #include "parallel/communication/imposed_nodes.hpp"
 #include "sizing/field/octree.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <random>
 #include <stdexcept>
@@ -70,6 +71,7 @@ TEST(CornerSizes, AreWhatWasGivenOnAnyNodes) {
 }
 
 TEST(CornerSizes, AreHeldAlikeByAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   const SplitCubes::Leaves leaves = random_leaves(7, 60);
   const auto packed = made_by(world, leaves).packed(), alone = made_by(Communicator::self(), leaves).packed();

@@ -16,10 +16,23 @@ namespace {
 
 using geometry::Vec3;
 
-LiftingBodies find(const cad::DomainOptions& options) {
-  const cad::Model model = cad::prepare_domain(options).model;
+/// The built-in aircraft of the default dimensions, made once.
+const cad::Model& built_in_aircraft() {
+  static const cad::Model model = [] {
+    cad::DomainOptions options;
+    options.transport = cad::TransportDimensions{};
+    return cad::prepare_domain(options).model;
+  }();
+  return model;
+}
+
+LiftingBodies find(const cad::Model& model) {
   const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   return find_lifting_bodies(sampler, {1, 0, 0});
+}
+
+LiftingBodies find(const cad::DomainOptions& options) {
+  return find(cad::prepare_domain(options).model);
 }
 
 LiftingBodies find_in(const std::string& name) {
@@ -43,11 +56,9 @@ double degrees(double angle) {
 }
 
 TEST(Lifting, OfTheBuiltInAircraft) {
-  cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
-  const LiftingBodies bodies = find(options);
+  const LiftingBodies bodies = find(built_in_aircraft());
   ASSERT_EQ(bodies.elements.size(), 5u);
-  const cad::LiftingSurface& wing = options.transport->wing;
+  const cad::LiftingSurface wing = cad::TransportDimensions{}.wing;
   EXPECT_NEAR(bodies.semispan, wing.half_span, 0.01 * wing.half_span);
   int wings = 0;
   for (const LiftingElement& element : bodies.elements) {
@@ -65,16 +76,14 @@ TEST(Lifting, OfTheBuiltInAircraft) {
     ASSERT_EQ(element.leading.size(), 1u);
     for (const Vec3 p : element.leading.front().points)
       innermost = std::min(innermost, std::abs(p.y)), outermost = std::max(outermost, std::abs(p.y));
-    EXPECT_LT(innermost, 0.5 * options.transport->fuselage_diameter);
+    EXPECT_LT(innermost, 0.5 * cad::TransportDimensions{}.fuselage_diameter);
     EXPECT_GT(outermost, 0.995 * wing.half_span);
   }
   EXPECT_EQ(wings, 2);
 }
 
 TEST(Wakes, BeginAtBothBordersOfAStrip) {
-  cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
-  const cad::Model model = cad::prepare_domain(options).model;
+  const cad::Model& model = built_in_aircraft();
   const auto length_behind = [&](const std::vector<std::string>& names, Vec3 flow) {
     double length = 0;
     for (const auto& [a, b] : trailing_segments(model, faces_like(model, names), flow))
@@ -89,9 +98,7 @@ TEST(Wakes, BeginAtBothBordersOfAStrip) {
 }
 
 TEST(Lifting, OfNamedFacesAlone) {
-  cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
-  const cad::Model model = cad::prepare_domain(options).model;
+  const cad::Model& model = built_in_aircraft();
   const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
   const auto named = [&](const std::vector<std::string>& names) {
     return find_lifting_bodies(sampler, {1, 0, 0}, names);

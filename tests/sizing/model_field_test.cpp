@@ -2,6 +2,7 @@
 #include "sizing/features/model_sources.hpp"
 #include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
+#include "tests/several_ranks.hpp"
 #include "tests/wall_bodies.hpp"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ std::int64_t hash(const SizeField& field) {
 }  // namespace
 
 /// What was sampled for other sizes, finer or coarser, does not show.
-TEST(FaceSamples, AnswerAsIfAskedForTheFirstTime) {
+TEST(FaceSamplesLocal, AnswerAsIfAskedForTheFirstTime) {
   cad::PrimitiveDimensions dimensions;
   dimensions.radius = 0.3;
   dimensions.major_radius = 1;
@@ -81,7 +82,7 @@ TEST(FaceSamples, AnswerAsIfAskedForTheFirstTime) {
 }
 
 /// Long facets, narrower than the size, are covered along some of them, and no more densely than that.
-TEST(FaceSamples, AreAsManyAlongSlenderFacetsAsTheirLengthHasRoomFor) {
+TEST(FaceSamplesLocal, AreAsManyAlongSlenderFacetsAsTheirLengthHasRoomFor) {
   constexpr double length = 1000, size = 4;
   const Model pipe = shapes::domain_of(BRepPrimAPI_MakeCylinder(1, length).Shape());
   cad::FaceId side = 0;
@@ -201,6 +202,7 @@ TEST(ModelField, WidthsAreThoseBetweenTheNearestLinesThatFaceEachOther) {
 }
 
 TEST(ModelField, IsTheSameForAnyRankCount) {
+  NEEDS_SEVERAL_RANKS();
   const SizingOptions options{0.01, 1, 12, 1.3, 0.3};
   for (const PrimitiveKind kind :
        {PrimitiveKind::torus, PrimitiveKind::cylinder, PrimitiveKind::box_with_sphere}) {

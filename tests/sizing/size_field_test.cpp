@@ -3,6 +3,7 @@
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/field_builder.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -64,7 +65,7 @@ const SizingOptions options{0.02, 1.5, 12, 1.3, 0};
 
 }  // namespace
 
-TEST(SizeField, StaysWithinItsBounds) {
+TEST(SizeFieldLocal, StaysWithinItsBounds) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.03), options);
   Points points(1);
   double smallest = 1e300, largest = 0;
@@ -79,7 +80,7 @@ TEST(SizeField, StaysWithinItsBounds) {
   EXPECT_DOUBLE_EQ(largest, options.maximum);
 }
 
-TEST(SizeField, GivesEverySourceItsSize) {
+TEST(SizeFieldLocal, GivesEverySourceItsSize) {
   const auto sources = sphere_sources(0.05);
   const SizeField field = SizeField::build(cube(10), sources, options);
   double sum = 0;
@@ -93,7 +94,7 @@ TEST(SizeField, GivesEverySourceItsSize) {
   EXPECT_GT(sum / static_cast<double>(sources.size()), 0.94);
 }
 
-TEST(SizeField, GrowsFromASourceByTheGrowth) {
+TEST(SizeFieldLocal, GrowsFromASourceByTheGrowth) {
   const double slope = std::log(options.growth);
   const SizeField field =
       SizeField::build(cube(10), std::vector<SizeSource>{{{0.1, 0.2, 0.3}, 0.05}}, options);
@@ -112,7 +113,7 @@ TEST(SizeField, GrowsFromASourceByTheGrowth) {
   EXPECT_LT(std::abs(excess / 2000), 0.05);
 }
 
-TEST(SizeField, ObeysTheGrowthLimitBetweenAnyTwoPoints) {
+TEST(SizeFieldLocal, ObeysTheGrowthLimitBetweenAnyTwoPoints) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.03), options);
   Points points(4);
   double steepest = 0;
@@ -128,7 +129,7 @@ TEST(SizeField, ObeysTheGrowthLimitBetweenAnyTwoPoints) {
   EXPECT_LT(steep, pairs / 1000);
 }
 
-TEST(SizeField, IsContinuousAcrossLeaves) {
+TEST(SizeFieldLocal, IsContinuousAcrossLeaves) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
   Points points(5);
   for (int i = 0; i < 20000; ++i) {
@@ -139,7 +140,7 @@ TEST(SizeField, IsContinuousAcrossLeaves) {
   }
 }
 
-TEST(SizeField, DoesNotDependOnTheOrderOfSources) {
+TEST(SizeFieldLocal, DoesNotDependOnTheOrderOfSources) {
   auto sources = sphere_sources(0.05);
   const SizeField one = SizeField::build(cube(10), sources, options);
   Points points(6);
@@ -153,7 +154,7 @@ TEST(SizeField, DoesNotDependOnTheOrderOfSources) {
   }
 }
 
-TEST(SizeField, IsTheSameOnEveryRank) {
+TEST(SizeFieldLocal, IsTheSameOnEveryRank) {
   const auto world = parallel::Communicator::world();
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
   Points points(7);
@@ -186,7 +187,7 @@ TEST(SizeField, RefinedOnlyLowers) {
   }
 }
 
-TEST(SizeField, ScaledMultipliesEverySize) {
+TEST(SizeFieldLocal, ScaledMultipliesEverySize) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
   const SizeField scaled = field.scaled(2).scaled(4);
   EXPECT_EQ(scaled.minimum(), 8 * field.minimum());
@@ -211,7 +212,7 @@ TEST(SizeField, RefinedKeepsTheGrowthLimit) {
   }
 }
 
-TEST(SizeField, CopesWithScalesOfAMillion) {
+TEST(SizeFieldLocal, CopesWithScalesOfAMillion) {
   const SizingOptions wide{1e-3, 100, 12, 1.3, 0};
   const SizeField field = SizeField::build(cube(500), std::vector<SizeSource>{{{1, 2, 3}, 1e-3}}, wide);
   EXPECT_NEAR(field({1, 2, 3}), 1e-3, 1e-9);
@@ -221,13 +222,13 @@ TEST(SizeField, CopesWithScalesOfAMillion) {
   EXPECT_LT(field.leaf_count(), 50000);
 }
 
-TEST(SizeField, WithoutSourcesIsTheMaximum) {
+TEST(SizeFieldLocal, WithoutSourcesIsTheMaximum) {
   const SizeField field = SizeField::build(cube(1), {}, options);
   EXPECT_EQ(field({0.3, 0.2, 0.1}), options.maximum);
   EXPECT_EQ(field({1e9, -1e9, 0}), options.maximum);
 }
 
-TEST(SizeField, OutsideItIsTheSizeOfTheNearestPointOfTheBox) {
+TEST(SizeFieldLocal, OutsideItIsTheSizeOfTheNearestPointOfTheBox) {
   Box flat;
   flat.add(Vec3{0, 0, 0});
   flat.add(Vec3{8, 2, 1});
@@ -251,7 +252,7 @@ TEST(SizeField, RefusesImpossibleOptions) {
                std::invalid_argument);
 }
 
-TEST(SizeField, LeavesDescribeTheField) {
+TEST(SizeFieldLocal, LeavesDescribeTheField) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.1), options);
   double volume = 0;
   for (std::int64_t i = 0; i < field.leaf_count(); ++i) {
@@ -263,7 +264,7 @@ TEST(SizeField, LeavesDescribeTheField) {
   EXPECT_NEAR(volume, 8000, 1e-6);
 }
 
-TEST(SizeField, EvaluatesInWellUnderAMicrosecond) {
+TEST(SizeFieldLocal, EvaluatesInWellUnderAMicrosecond) {
   const SizeField field = SizeField::build(cube(10), sphere_sources(0.02), options);
   Points points(10);
   std::vector<Vec3> places(100000);
@@ -296,6 +297,7 @@ TEST(FieldBuilder, GivesUpOnFieldsThatAreMuchTooFine) {
 }
 
 TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = parallel::Communicator::world();
   const auto sources = sphere_sources(0.08);
   const SizeField together = sizing::FieldBuilder(world, cube(5), options).build(sources);
@@ -327,7 +329,7 @@ TEST(FieldBuilder, AllRanksHearOfAnImpossibleSourceOfOne) {
   }
 }
 
-TEST(FieldBuilder, SizesAreThoseOfTheCheapestSource) {
+TEST(FieldBuilderLocal, SizesAreThoseOfTheCheapestSource) {
   // A source's cell is at most as wide as its size; what its corners hang on is as far again.
   const auto sources = sphere_sources(0.15);
   const SizeField field = SizeField::build(cube(4), sources, options);

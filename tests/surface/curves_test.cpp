@@ -2,6 +2,7 @@
 
 #include "surface/curves/curve_metric.hpp"
 #include "tests/cad/primitives.hpp"
+#include "tests/several_ranks.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>
@@ -20,7 +21,7 @@ using testing::curves_of;
 using testing::graded_field;
 using testing::uniform_field;
 
-TEST(MetricLength, IntegratesAndInvertsASmoothDensity) {
+TEST(MetricLengthLocal, IntegratesAndInvertsASmoothDensity) {
   const MetricLength length([](double t) { return std::exp(t); }, {0, 1, 3});
   EXPECT_NEAR(length.total(), std::exp(3) - 1, 1e-4);
   for (const double value : {0.0, 0.1, 5.0, 12.3}) {
@@ -28,7 +29,7 @@ TEST(MetricLength, IntegratesAndInvertsASmoothDensity) {
   }
 }
 
-TEST(MetricLength, InvertsWithoutAskingForTheDensityAgain) {
+TEST(MetricLengthLocal, InvertsWithoutAskingForTheDensityAgain) {
   int asked = 0;
   const MetricLength length(
       [&](double t) {
@@ -41,7 +42,7 @@ TEST(MetricLength, InvertsWithoutAskingForTheDensityAgain) {
   EXPECT_EQ(asked, before);
 }
 
-TEST(MetricLength, CopesWithKinksAndJumps) {
+TEST(MetricLengthLocal, CopesWithKinksAndJumps) {
   const MetricLength length([](double t) { return t < 0.31 ? 100.0 : 1.0 + std::abs(t - 0.7); }, {0, 1});
   const double exact = 31 + 0.69 + 0.5 * (0.39 * 0.39 + 0.3 * 0.3);
   EXPECT_NEAR(length.total(), exact, 2e-3);
@@ -49,7 +50,7 @@ TEST(MetricLength, CopesWithKinksAndJumps) {
   EXPECT_NEAR(length.parameter_at(length.total()), 1, 1e-12);
 }
 
-TEST(MetricLength, DividesASymmetricDensitySymmetrically) {
+TEST(MetricLengthLocal, DividesASymmetricDensitySymmetrically) {
   const MetricLength length([](double t) { return 1 + 10 * t * t; }, {-1, 1});
   const auto parts = equal_parts(length, 8);
   ASSERT_EQ(parts.size(), 7u);
@@ -146,6 +147,7 @@ TEST(Curves, CoarseSizesStillLeaveConformingLoops) {
 }
 
 TEST(Curves, AreTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const auto field = graded_field(model, model.bounds().low, 0.01, 0.2);
   const CurveMesh together = discretise_curves(parallel::Communicator::world(), model, field);

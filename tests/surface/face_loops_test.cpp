@@ -28,7 +28,7 @@ mesh::Piece flat_piece(cad::FaceId face, const std::vector<Vec3>& points, std::v
 
 /// A sheet stands on a square: its curve is a loop of the square, passed both ways. An edge inside between
 /// two vertices of the boundary is none.
-TEST(FaceLoops, PassACurveInsideTheFaceBothWays) {
+TEST(FaceLoopsLocal, PassACurveInsideTheFaceBothWays) {
   const Communicator self = Communicator::self();
   mesh::DistributedMesh surface(self);
   surface.kind = mesh::CellKind::triangle;

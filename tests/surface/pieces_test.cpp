@@ -6,12 +6,14 @@
 #include "surface/piece_mesher.hpp"
 #include "surface/piece_pool.hpp"
 #include "tests/cad/primitives.hpp"
+#include "tests/references.hpp"
 #include "tests/surface/face_fixture.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace aeroloom::surface {
@@ -117,9 +119,9 @@ TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
 }
 
 TEST_P(Pieces, AreTheSameOnAnyNumberOfRanks) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
-  EXPECT_EQ(hash_of(mesh_model(world, model, field, options)),
-            hash_of(self, mesh_model(self, model, field, options)));
+  references::expect_as_on_one_rank([&](const Communicator& communicator) {
+    return hash_of(mesh_model(communicator, model, field, options));
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Pieces,
@@ -131,19 +133,18 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Pieces,
 
 /// Very heavy faces are cut twice; the second cuts end on the first ones.
 TEST(DividedTwice, HasNoSeamEither) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const sizing::SizeField field = uniform_field(model, 0.008);
   const SurfaceOptions options{.piece_triangles = 500};
-  const Meshed meshed = mesh_model(world, model, field, options);
-  expect_valid(meshed);
-  EXPECT_GT(meshed.surface.mesh.piece_count, 40);
-  for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
-  const Seam seam = measure_seam(meshed.surface.mesh);
-  EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
-  const Meshed alone = mesh_model(self, model, field, options);
-  EXPECT_EQ(hash_of(meshed), hash_of(self, alone));
-  EXPECT_EQ(meshed.surface.report.cut_angles.size(), alone.surface.report.cut_angles.size());
+  references::expect_as_on_one_rank([&](const Communicator& communicator) {
+    const Meshed meshed = mesh_model(communicator, model, field, options);
+    expect_valid(meshed);
+    EXPECT_GT(meshed.surface.mesh.piece_count, 40);
+    for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
+    const Seam seam = measure_seam(meshed.surface.mesh);
+    EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
+    return fmt::format("{} {}", hash_of(meshed), meshed.surface.report.cut_angles.size());
+  });
 }
 
 /// However many pieces a face has, its parts are cut down to the size asked for.
@@ -219,7 +220,7 @@ Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field
   throw std::logic_error("a cylinder without a side");
 }
 
-TEST(CoarseLoops, KeepASubsetInOrder) {
+TEST(CoarseLoopsLocal, KeepASubsetInOrder) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.02);
   const Subface subface = side_of_cylinder(model, field);
@@ -250,7 +251,7 @@ TEST(CoarseLoops, KeepASubsetInOrder) {
   EXPECT_EQ(by_size.find(-1, 0), nullptr);
 }
 
-TEST(Subfaces, TravelBitForBit) {
+TEST(SubfacesLocal, TravelBitForBit) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.1);
   const Subface subface = side_of_cylinder(model, field);
@@ -260,7 +261,7 @@ TEST(Subfaces, TravelBitForBit) {
             parallel::to_wire(mesh_piece(model, subface, field, {})));
 }
 
-TEST(SharedVertexKeys, NameVerticesOfCurvesAndCuts) {
+TEST(SharedVertexKeysLocal, NameVerticesOfCurvesAndCuts) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1));
   std::set<mesh::SharedVertexKey> names;

@@ -103,7 +103,7 @@ TEST(FindUnmatched, finds_more_than_two) {
   expect_found({face({5, 6, 7}, 3, 0), face({5, 6, 7}, 4, 1), face({5, 6, 7}, 8, 1)});
 }
 
-TEST(FindPlaces, groups_faces_by_vertices) {
+TEST(FindPlacesLocal, groups_faces_by_vertices) {
   // Two faces with a common vertex, and a third that links to the second; another place apart.
   const std::vector<ZoneFace> faces{face({2, 10, 12}, 7, 0), face({4, 6, 8}, 5, 0), face({8, 20, 22}, 3, 1),
                                     face({22, 24, 26}, 5, 1)};
@@ -117,7 +117,7 @@ TEST(FindPlaces, groups_faces_by_vertices) {
   EXPECT_EQ(places[1].leaves, (std::vector<std::int64_t>{2, 3, 4, 10, 11, 12, 13}));
 }
 
-TEST(FindPlaces, joins_places_that_a_later_face_connects) {
+TEST(FindPlacesLocal, joins_places_that_a_later_face_connects) {
   const std::vector<ZoneFace> faces{face({0, 1, 2}, 1, 0), face({3, 4, 5}, 2, 0), face({6, 7, 8}, 3, 0),
                                     face({2, 8, 9}, 4, 0), face({5, 9, 11}, 0, 0)};
   const std::vector<DisputedPlace> places = find_places(faces);
@@ -126,7 +126,7 @@ TEST(FindPlaces, joins_places_that_a_later_face_connects) {
   EXPECT_EQ(places[0].zones, (std::vector<ZoneIndex>{0, 1, 2, 3, 4}));
 }
 
-TEST(FindPlaces, leaves_out_vertices_without_a_leaf) {
+TEST(FindPlacesLocal, leaves_out_vertices_without_a_leaf) {
   ZoneFace one = face({4, 6, 1ULL << 61}, 2, 0);
   one.leaves[2] = -1;
   const std::vector<DisputedPlace> places = find_places(std::vector{one});

@@ -2,6 +2,7 @@
 #include "volume/lattice/block_points.hpp"
 
 #include "mesh/quality/quality.hpp"
+#include "tests/several_ranks.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 #include "volume/filling/tetgen_run.hpp"
@@ -18,8 +19,6 @@ namespace {
 using geometry::Vec3;
 using mesh::RegionId;
 using parallel::Communicator;
-
-class LatticePoints : public OnOneRank {};
 
 /// A place of the lattice, in halves of the finest cells.
 using Place = std::array<std::int64_t, 3>;
@@ -95,7 +94,7 @@ Place place_of_slot(const LatticeTree& tree, BlockIndex b, int slot) {
   return place;
 }
 
-TEST_F(LatticePoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
+TEST(LatticePointsLocal, stand_at_corners_and_centres_of_leaves_each_place_once) {
   const Made made(Communicator::self());
   const BlockPoints points = made.make();
   const std::set<Place> places = all_places(made.lattice);
@@ -114,7 +113,7 @@ TEST_F(LatticePoints, stand_at_corners_and_centres_of_leaves_each_place_once) {
   for (const int count : of_slot) EXPECT_GT(count, 20);  // the lattice hangs in all possible ways
 }
 
-TEST_F(LatticePoints, leave_out_nothing_that_is_off_the_surface) {
+TEST(LatticePointsLocal, leave_out_nothing_that_is_off_the_surface) {
   const Made made(Communicator::self());
   const BlockPoints points = made.make();
   std::set<Place> used;
@@ -134,7 +133,7 @@ TEST_F(LatticePoints, leave_out_nothing_that_is_off_the_surface) {
   EXPECT_GT(static_cast<int>(used.size()), free);
 }
 
-TEST_F(LatticePoints, stay_inside_and_know_their_region) {
+TEST(LatticePointsLocal, stay_inside_and_know_their_region) {
   const Made made(Communicator::self());
   const BlockPoints points = made.make();
   std::array<int, 2> count{};
@@ -162,7 +161,7 @@ double least_clearance(const Made& made, const BlockPoints& points) {
   return least;
 }
 
-TEST_F(LatticePoints, keep_off_the_surface) {
+TEST(LatticePointsLocal, keep_off_the_surface) {
   for (const double clearance : {0.5, 0.75}) {
     VolumeOptions options;
     options.lattice_clearance = clearance;
@@ -191,7 +190,7 @@ surfaces::Surface uneven() {
   return surface;
 }
 
-TEST_F(LatticePoints, keep_off_triangles_of_any_size) {
+TEST(LatticePointsLocal, keep_off_triangles_of_any_size) {
   for (const double size : {0.1, 0.14}) {
     const Made made(Communicator::self(), uneven(), fields::uniform(size));
     const double least = least_clearance(made, made.make());
@@ -201,7 +200,7 @@ TEST_F(LatticePoints, keep_off_triangles_of_any_size) {
 }
 
 /// Regions told from within blocks, by what meets these, are those that the nearest triangle tells.
-TEST_F(LatticePoints, have_their_regions_from_within_blocks_too) {
+TEST(LatticePointsLocal, have_their_regions_from_within_blocks_too) {
   surfaces::Surface body = surfaces::cube({0, 0, 0}, 20, 8);
   surfaces::append(body, surfaces::sphere({0, 0, 0}, 1, 24), surfaces::Turn::inward);
   const auto far = fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}});
@@ -220,9 +219,9 @@ TEST_F(LatticePoints, have_their_regions_from_within_blocks_too) {
 }
 
 /// A rank has no other triangles than those within the search radii of its blocks.
-class WithinRadii : public OnOneRank, public testing::WithParamInterface<double> {};
+class WithinRadiiLocal : public testing::TestWithParam<double> {};
 
-TEST_P(WithinRadii, are_all_triangles_that_points_need) {
+TEST_P(WithinRadiiLocal, are_all_triangles_that_points_need) {
   Made made(Communicator::self(), uneven(), fields::uniform(GetParam()));
   const LatticeTree& tree = made.lattice.tree;
   std::vector<std::vector<std::int32_t>> of_blocks(tree.block_count());
@@ -262,9 +261,9 @@ TEST_P(WithinRadii, are_all_triangles_that_points_need) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(all, WithinRadii, testing::Values(0.1, 0.125));
+INSTANTIATE_TEST_SUITE_P(all, WithinRadiiLocal, testing::Values(0.1, 0.125));
 
-TEST_F(LatticePoints, keep_farther_off_where_a_retry_wants_it) {
+TEST(LatticePointsLocal, keep_farther_off_where_a_retry_wants_it) {
   Made made(Communicator::self());
   const BlockPoints before = made.make();
   for (BlockChange& change : made.lattice.changes) change.farther = 1;
@@ -279,7 +278,7 @@ TEST_F(LatticePoints, keep_farther_off_where_a_retry_wants_it) {
     EXPECT_EQ(half.count(b), (b < changed ? before : after).count(b));
 }
 
-TEST_F(LatticePoints, are_the_same_however_blocks_are_divided) {
+TEST(LatticePointsLocal, are_the_same_however_blocks_are_divided) {
   const Made made(Communicator::self());
   const BlockPoints whole = made.make();
   const BlockIndex blocks = made.lattice.tree.block_count();
@@ -302,6 +301,7 @@ TEST_F(LatticePoints, are_the_same_however_blocks_are_divided) {
 
 /// With the triangles within the search radii of the blocks alone, retries included.
 TEST(PointsOfRanks, are_the_same_on_any_number_of_ranks) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   const std::array<int, 3> n{20, 5, 5};
   const surfaces::Surface bar = surfaces::voxels(
@@ -320,7 +320,7 @@ TEST(PointsOfRanks, are_the_same_on_any_number_of_ranks) {
   }
 }
 
-TEST_F(LatticePoints, move_by_their_perturbation_in_another_variant) {
+TEST(LatticePointsLocal, move_by_their_perturbation_in_another_variant) {
   Made made(Communicator::self());
   std::map<std::int64_t, Vec3> before;
   const BlockPoints first = made.make();
@@ -354,7 +354,7 @@ TEST_F(LatticePoints, move_by_their_perturbation_in_another_variant) {
   EXPECT_GT(common, static_cast<int>(0.97 * static_cast<double>(before.size())));
 }
 
-TEST_F(LatticePoints, follow_the_perturbation_asked_for) {
+TEST(LatticePointsLocal, follow_the_perturbation_asked_for) {
   VolumeOptions still;
   still.perturbation = 0;
   const Made made(Communicator::self(), still);

@@ -1,6 +1,6 @@
 #include "volume/lattice/boundary_distance.hpp"
 
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 
 #include <random>
 #include <set>

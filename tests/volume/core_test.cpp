@@ -15,8 +15,6 @@ using parallel::Communicator;
 
 // --- the squares
 
-class Squares : public OnOneRank {};
-
 /// The area that triangles cover, in quarters of the square.
 int covered(const std::span<const CoreSquares::Triangle>& triangles) {
   int twice = 0;
@@ -27,7 +25,7 @@ int covered(const std::span<const CoreSquares::Triangle>& triangles) {
   return twice / 2;
 }
 
-TEST_F(Squares, are_covered_whatever_points_stand_on_their_edges) {
+TEST(SquaresLocal, are_covered_whatever_points_stand_on_their_edges) {
   const sizing::SizeField field = fields::uniform(0.3);
   const LatticeFrame frame(field, {{-1, -1, -1}, {1, 1, 1}});
   const CoreSquares squares(frame);

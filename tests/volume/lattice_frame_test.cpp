@@ -14,7 +14,7 @@ using geometry::Vec3;
 
 constexpr double root_size = sizing::grid_size;
 
-TEST(LatticeFrame, leads_to_the_grid_and_back) {
+TEST(LatticeFrameLocal, leads_to_the_grid_and_back) {
   Random random;
   for (const Box& box : {fields::domain, Box{{9e3, -2e4, 5}, {9.003e3, -1.999e4, 6}}}) {
     const LatticeFrame frame(fields::uniform(0.1, box), box);
@@ -27,7 +27,7 @@ TEST(LatticeFrame, leads_to_the_grid_and_back) {
   }
 }
 
-TEST(LatticeFrame, has_a_root_around_the_box) {
+TEST(LatticeFrameLocal, has_a_root_around_the_box) {
   Random random;
   for (const double size : {0.2, 0.23, 0.26, 0.3, 0.34, 0.38}) {
     const auto field = fields::uniform(size);
@@ -49,7 +49,7 @@ TEST(LatticeFrame, has_a_root_around_the_box) {
   }
 }
 
-TEST(LatticeFrame, is_scaled_to_the_sizes) {
+TEST(LatticeFrameLocal, is_scaled_to_the_sizes) {
   for (const double size : {0.1, 0.15, 0.19}) {
     const LatticeFrame frame(fields::uniform(size), fields::domain);
     double nearest = 1;
@@ -60,7 +60,7 @@ TEST(LatticeFrame, is_scaled_to_the_sizes) {
 }
 
 /// Where two edges are not at right angles the four points are not on a circle.
-TEST(LatticeFrame, takes_squares_off_their_circles) {
+TEST(LatticeFrameLocal, takes_squares_off_their_circles) {
   const LatticeFrame frame(fields::uniform(0.1), fields::domain);
   const Vec3 edges[3] = {{1e5, 0, 0}, {0, 1e5, 0}, {0, 0, 1e5}};
   Vec3 sheared[3];
@@ -76,7 +76,7 @@ TEST(LatticeFrame, takes_squares_off_their_circles) {
   }
 }
 
-TEST(LatticeFrame, bounds_distances_and_boxes_in_the_grid) {
+TEST(LatticeFrameLocal, bounds_distances_and_boxes_in_the_grid) {
   Random random;
   const LatticeFrame frame(fields::uniform(0.1), fields::domain);
   double tightest = 0;
@@ -97,7 +97,7 @@ TEST(LatticeFrame, bounds_distances_and_boxes_in_the_grid) {
   EXPECT_GT(tightest, 0.95);
 }
 
-TEST(LatticeFrame, has_tight_boxes_around_cubes) {
+TEST(LatticeFrameLocal, has_tight_boxes_around_cubes) {
   const LatticeFrame frame(fields::uniform(0.1), fields::domain);
   for (const GridCube& cube : {GridCube{}, GridCube{{1 << 18, 0, 3 << 18}, 2}, GridCube{{6, 8, 10}, 19}}) {
     const GridBox grid = GridBox::of(cube);
@@ -114,7 +114,7 @@ TEST(LatticeFrame, has_tight_boxes_around_cubes) {
   }
 }
 
-TEST(LatticeFrame, finds_the_nearest_cell_of_any_place) {
+TEST(LatticeFrameLocal, finds_the_nearest_cell_of_any_place) {
   const LatticeFrame frame(fields::uniform(0.1), fields::domain);
   const sizing::GridPoint inside = frame.cell_at({5.99, 7, 0.01});
   EXPECT_EQ(inside.x, 5u);
@@ -126,7 +126,7 @@ TEST(LatticeFrame, finds_the_nearest_cell_of_any_place) {
   EXPECT_EQ(outside.z, sizing::grid_size - 1);
 }
 
-TEST(GridBox, knows_gaps_and_touching) {
+TEST(GridBoxLocal, knows_gaps_and_touching) {
   const GridBox a{{0, 0, 0}, {4, 4, 4}};
   EXPECT_EQ(a.gap_to({{7, 8, 2}, {9, 9, 3}}), 5);
   EXPECT_EQ((GridBox{{7, 8, 2}, {9, 9, 3}}).gap_to(a), 5);

@@ -16,8 +16,6 @@ using geometry::Vec3;
 using mesh::RegionId;
 using parallel::Communicator;
 
-class EndlessLattice : public OnOneRank {};
-
 /// In all space, without any surface.
 struct Endless {
   Endless(const sizing::SizeField& field, const geometry::Box& box) : frame(field, box) {
@@ -33,7 +31,7 @@ struct Endless {
   std::vector<Vec3> points;
 };
 
-TEST_F(EndlessLattice, has_a_good_delaunay_mesh_across_all_levels) {
+TEST(EndlessLatticeLocal, has_a_good_delaunay_mesh_across_all_levels) {
   for (const double growth : {1.2, 1.3}) {
     for (const Vec3 anchor : {Vec3{0, 0, 0}, Vec3{0.23, -0.11, 0.37}}) {
       const std::vector<sizing::SizeSource> sources{{{0.31, -0.2, 0.13}, 0.02}, {{-0.6, 0.5, 0.4}, 0.05}};
@@ -67,7 +65,7 @@ TEST_F(EndlessLattice, has_a_good_delaunay_mesh_across_all_levels) {
   }
 }
 
-TEST_F(EndlessLattice, has_the_density_asked_for) {
+TEST(EndlessLatticeLocal, has_the_density_asked_for) {
   for (const double size : {0.1, 0.13}) {
     const auto field = fields::uniform(size);
     const Endless lattice(field, fields::domain);

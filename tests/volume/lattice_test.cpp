@@ -1,5 +1,6 @@
 /// The octree of the interior points.
 #include "mesh/data/mixing.hpp"
+#include "tests/several_ranks.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 
@@ -52,7 +53,7 @@ struct Grown {
   LatticeTree tree;
 };
 
-TEST(LatticeTree, fills_the_root_along_the_curve) {
+TEST(LatticeTreeLocal, fills_the_root_along_the_curve) {
   for (const Grown& grown : {Grown(graded()), Grown(steep())}) {
     std::uint64_t next = 0;
     for (BlockIndex b = 0; b < grown.tree.block_count(); ++b) {
@@ -72,7 +73,7 @@ TEST(LatticeTree, fills_the_root_along_the_curve) {
   }
 }
 
-TEST(LatticeTree, keeps_neighbours_within_one_level) {
+TEST(LatticeTreeLocal, keeps_neighbours_within_one_level) {
   for (const Grown& grown : {Grown(fields::around_unit_sphere(0.12, 0.9)), Grown(steep())}) {
     std::vector<LeafOfBlock> leaves = all_leaves(grown.tree);
     std::sort(leaves.begin(), leaves.end(),
@@ -111,18 +112,18 @@ void expect_no_split_without_need(const Grown& grown) {
   EXPECT_GT(split, 10);
 }
 
-TEST(LatticeTree, splits_what_sizes_ask_for_and_balance_needs) {
+TEST(LatticeTreeLocal, splits_what_sizes_ask_for_and_balance_needs) {
   expect_no_split_without_need(Grown(graded()));
 }
 
 /// Half a model: sizes are as small on the other side, which the sheared cubes reach.
-TEST(LatticeTree, does_not_split_what_lies_off_the_box) {
+TEST(LatticeTreeLocal, does_not_split_what_lies_off_the_box) {
   Box half = fields::domain;
   half.low.y = half.center().y;
   expect_no_split_without_need(Grown(graded(), Communicator::self(), half));
 }
 
-TEST(LatticeTree, is_no_finer_than_the_sizes_off_the_box) {
+TEST(LatticeTreeLocal, is_no_finer_than_the_sizes_off_the_box) {
   const Grown grown(fields::uniform(0.1), Communicator::self(), {{1, 1, 1}, {1.5, 1.5, 1.5}});
   int inside = 0;
   for (const LeafOfBlock& leaf : all_leaves(grown.tree)) {
@@ -138,7 +139,7 @@ TEST(LatticeTree, is_no_finer_than_the_sizes_off_the_box) {
   EXPECT_LT(grown.tree.leaf_level(0), 3);
 }
 
-TEST(LatticeTree, misses_no_small_size_in_a_steep_field) {
+TEST(LatticeTreeLocal, misses_no_small_size_in_a_steep_field) {
   const Grown grown(steep());
   int fine = 0;
   for (const sizing::SizeSource& source : few_sources()) {
@@ -154,6 +155,7 @@ TEST(LatticeTree, misses_no_small_size_in_a_steep_field) {
 }
 
 TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   // Several thousand cells of one level are needed for the ranks to have anything to share out.
   for (const auto& field : {fields::uniform(0.08), fields::around_unit_sphere(0.04, 0.4), steep()}) {
@@ -209,7 +211,7 @@ TEST(LatticeTree, learns_of_blocks_of_other_ranks) {
   }
 }
 
-TEST(LatticeTree, finds_blocks_and_leaves_of_places) {
+TEST(LatticeTreeLocal, finds_blocks_and_leaves_of_places) {
   Random random;
   const Grown grown(graded());
   const std::vector<LeafOfBlock> leaves = all_leaves(grown.tree);
@@ -234,7 +236,7 @@ TEST(LatticeTree, finds_blocks_and_leaves_of_places) {
   }
 }
 
-TEST(LatticeTree, knows_which_cells_are_split) {
+TEST(LatticeTreeLocal, knows_which_cells_are_split) {
   const Grown grown(graded());
   for (const LeafOfBlock& leaf : all_leaves(grown.tree)) {
     EXPECT_FALSE(grown.tree.is_split(leaf.cell));
@@ -247,7 +249,7 @@ TEST(LatticeTree, knows_which_cells_are_split) {
   }
 }
 
-TEST(LatticeTree, visits_the_blocks_in_a_box) {
+TEST(LatticeTreeLocal, visits_the_blocks_in_a_box) {
   Random random;
   const Grown grown(graded());
   std::size_t visited = 0;
@@ -278,7 +280,7 @@ TEST(LatticeTree, visits_the_blocks_in_a_box) {
 }
 
 /// Halos look for what is half a cell away from a block: neighbours over faces, edges and corners.
-TEST(LatticeTree, visits_the_neighbours_of_a_block) {
+TEST(LatticeTreeLocal, visits_the_neighbours_of_a_block) {
   const Grown grown(fields::around_unit_sphere(0.15, 0.9));
   const LatticeTree& tree = grown.tree;
   for (BlockIndex b = 0; b < tree.block_count(); b += 7) {

@@ -1,7 +1,7 @@
 /// Which region a point near a part of the surface lies in.
 #include "volume/lattice/near_surface.hpp"
 
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "volume/lattice/near_triangles.hpp"
 
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 
 #include <random>
 

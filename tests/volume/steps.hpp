@@ -1,7 +1,7 @@
 /// The steps of the decomposition, taken one by one so that tests can look at each.
 #pragma once
 
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/block_regions.hpp"
 #include "volume/lattice/near_surface.hpp"
@@ -17,14 +17,6 @@
 #include <gtest/gtest.h>
 
 namespace aeroloom::volume {
-
-/// Tests that would do the same on every rank: run on one alone.
-class OnOneRank : public testing::Test {
-protected:
-  void SetUp() override {
-    if (parallel::Communicator::world().size() > 1) GTEST_SKIP();
-  }
-};
 
 /// Numbers by chance, the same each time.
 class Random {

@@ -1,6 +1,6 @@
 #include "volume/filling/surface_check.hpp"
 
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 /// Which triangles meet which block, and who gets them.
 #include "mesh/data/mixing.hpp"
+#include "tests/several_ranks.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 
@@ -87,6 +88,7 @@ TEST(SurfaceTable, counts_each_triangle_in_the_block_of_its_centre) {
 }
 
 TEST(SurfaceTable, is_the_same_on_any_number_of_ranks) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   Shared shared(world), alone(Communicator::self());
   const LatticeTree& tree = shared.lattice.tree;

@@ -2,7 +2,7 @@
 #include "volume/filling/zone_in_child.hpp"
 
 #include "parallel/communication/communicator.hpp"
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 #include "volume/filling/cell_order.hpp"
 #include "volume/lattice/boundary_distance.hpp"
 #include "volume/volume_mesher.hpp"
@@ -148,7 +148,7 @@ TEST(FillZone, says_why_a_surface_cannot_be_filled) {
   EXPECT_TRUE(filling.owned.cells.empty());
 }
 
-TEST(PredictTetrahedra, grows_with_points_and_triangles) {
+TEST(PredictTetrahedraLocal, grows_with_points_and_triangles) {
   ZoneProblem problem = cube_problem(400);
   EXPECT_EQ(predict_tetrahedra(problem), static_cast<std::int64_t>(5.75 * 400 + 2 * 300));
 }
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(all, FailingChild,
 
 // --- the order of cells
 
-TEST(OrderAlongCurve, lists_each_cell_once_and_neighbours_near_each_other) {
+TEST(OrderAlongCurveLocal, lists_each_cell_once_and_neighbours_near_each_other) {
   const ZoneProblem problem = cube_problem(2000);
   const TetgenMesh mesh = run_tetgen({&problem.points[0].x, 3 * problem.points.size()}, problem.triangles);
   std::vector<LocalCell> cells = mesh.cells;

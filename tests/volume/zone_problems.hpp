@@ -1,7 +1,7 @@
 /// Problems of zones made of surfaces and random points, for tests of what fills them.
 #pragma once
 
-#include "tests/volume/surfaces.hpp"
+#include "tests/meshes/surfaces.hpp"
 #include "volume/filling/owned_cells.hpp"
 #include "volume/lattice/boundary_distance.hpp"
 

@@ -1,4 +1,5 @@
 /// Who fills which zone, and what each gets to know.
+#include "tests/several_ranks.hpp"
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
 #include "volume/filling/decomposition_data.hpp"
@@ -286,6 +287,7 @@ TEST(GatherZoneInputs, tells_whose_each_vertex_is) {
 }
 
 TEST(GatherZoneInputs, brings_the_same_on_any_number_of_ranks) {
+  NEEDS_SEVERAL_RANKS();
   Divided divided(Communicator::world()), alone(Communicator::self());
   std::map<ZoneIndex, ZoneInput> expected;
   for (ZoneInput& input : alone.gather_all()) expected.emplace(input.zone, input);

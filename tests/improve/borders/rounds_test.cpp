@@ -3,7 +3,8 @@
 #include "mesh/checks/validity.hpp"
 #include "mesh/data/tet_faces.hpp"
 #include "parallel/communication/collective_error.hpp"
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -229,7 +230,7 @@ TEST(Cavities, MayChangeTheSurface) {
   EXPECT_EQ(hash(together), hash(self, alone));
 }
 
-TEST(Cavities, RefuseAnotherBoundary) {
+TEST(CavitiesLocal, RefuseAnotherBoundary) {
   const auto self = Communicator::self();
   mesh::DistributedMesh mesh = mesh::examples::cube(self, squares, pieces);
   const auto without_one = [](const Cavity& cavity) {
@@ -241,6 +242,7 @@ TEST(Cavities, RefuseAnotherBoundary) {
 }
 
 TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   mesh::DistributedMesh together = mesh::examples::cube(world, squares, pieces);
   mesh::DistributedMesh alone = mesh::examples::cube(self, squares, pieces);
@@ -279,7 +281,7 @@ TEST(Cavities, ThatAreNotRefilledStay) {
   EXPECT_EQ(hash(mesh), before);
 }
 
-TEST(CavityAt, NamesTheSamePlaceAlike) {
+TEST(CavityAtLocal, NamesTheSamePlaceAlike) {
   const geometry::Vec3 p{0.3, -1.7, 12.5};
   for (int shift = 0; shift < 6; ++shift) {
     EXPECT_EQ(cavity_at(p, 0.1, 8, shift), cavity_at(p + geometry::Vec3{1e-9, 0, 0}, 0.1, 8, shift));

@@ -4,6 +4,7 @@
 #include "pipeline/stage_products.hpp"
 #include "tests/cad/blunt_shapes.hpp"
 #include "tests/cad/strip_shapes.hpp"
+#include "tests/references.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace aeroloom::domain {
@@ -59,31 +61,37 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   EXPECT_LT(predicted, 28'000);
 }
 
+/// Keys that may stand beside a target.
+const std::vector<void (*)(cases::SizingRequest&)> keys{
+    [](cases::SizingRequest& request) { request.growth = 1.15; },
+    [](cases::SizingRequest& request) { request.curvature_angle = 6; },
+    [](cases::SizingRequest& request) { request.chordal_deviation = 0.002; },
+    [](cases::SizingRequest& request) { request.minimum = 0.01; },
+    [](cases::SizingRequest& request) { request.proximity = 3; },
+    [](cases::SizingRequest& request) { request.maximum = 0.4; },
+};
+cases::SizingRequest target_beside(unsigned chosen) {
+  cases::SizingRequest request;
+  request.target_tetrahedra = 30'000;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (chosen >> k & 1) keys[k](request);
+  return request;
+}
+
 // The search goes around what is given; where that forbids the target, a warning names the key and the count.
-TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
+TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   const auto world = parallel::Communicator::world();
-  const std::vector<void (*)(cases::SizingRequest&)> keys{
-      [](cases::SizingRequest& request) { request.growth = 1.15; },
-      [](cases::SizingRequest& request) { request.curvature_angle = 6; },
-      [](cases::SizingRequest& request) { request.chordal_deviation = 0.002; },
-      [](cases::SizingRequest& request) { request.minimum = 0.01; },
-      [](cases::SizingRequest& request) { request.proximity = 3; },
-      [](cases::SizingRequest& request) { request.maximum = 0.4; },
-  };
   int met = 0;
   for (unsigned chosen = 0; chosen < 1u << keys.size(); chosen += 3) {
-    cases::SizingRequest request;
-    request.target_tetrahedra = 30'000;
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      if (chosen >> k & 1) keys[k](request);
+    const cases::SizingRequest request = target_beside(chosen);
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
     const parallel::Warnings warnings = parallel::take_warnings(world);
     const double share = sized.features ? sized.features->share.share : 1;
     const double error = std::log(sized.counts.tetrahedra / share / 30'000);
     met += std::abs(error) < std::log(1.25);
-    if (std::abs(error) > std::log(1.25) && world.is_root()) {
+    if (std::abs(error) > std::log(1.25)) {
       EXPECT_GT(error, 0) << chosen;
       ASSERT_FALSE(warnings.kept.empty()) << chosen;
       EXPECT_NE(warnings.kept.back().message.find("makes it"), std::string::npos)
@@ -92,6 +100,21 @@ TEST(SizeDomain, MeetsTheTargetWhateverElseIsGiven) {
     EXPECT_EQ(sized.sizes, sizing::with_given(sized.sizes, request)) << chosen;
   }
   EXPECT_GE(met, 8);
+}
+
+TEST(SizeDomain, ChoosesTheSameOnAnyNumberOfRanks) {
+  const Model model = cad::shapes::split_cylinder(0.5, 1.5);
+  references::expect_as_on_one_rank([&](const parallel::Communicator& communicator) {
+    std::string text;
+    for (const unsigned chosen : {0u, 21u, 42u, 63u}) {
+      const SizedDomain sized =
+          size_domain(communicator, model, target_beside(chosen), {cases::NarrowFaces::join});
+      text += fmt::format("{:a} {:a} {:a} {:a} {:a} {}\n", sized.counts.tetrahedra, sized.counts.triangles,
+                          sized.sizes.minimum, sized.sizes.surface_maximum,
+                          sized.features ? sized.features->share.share : 1, sized.field.leaf_count());
+    }
+    return text;
+  });
 }
 
 // A target that a key forbids: which, and what it costs.

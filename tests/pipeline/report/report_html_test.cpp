@@ -1,6 +1,5 @@
 // The page of a report: whatever is in report.json, it is a page, complete in itself and below its limit.
 #include "pipeline/report/html.hpp"
-#include "pipeline/report/page/base64.hpp"
 #include "pipeline/report/page/html_text.hpp"
 #include "pipeline/report/report_json.hpp"
 
@@ -15,7 +14,6 @@ namespace {
 
 namespace html = page;
 using html::Json;
-using page::base64;
 
 constexpr const char* hostile = "</td></table></style><script>alert(1)</script><a href='http://x'>&\"\x01";
 constexpr std::size_t limit = 5'000'000;
@@ -200,41 +198,6 @@ TEST(ReportHtml, ManyRanksBecomeAHistogram) {
     EXPECT_EQ(contains(page, "class=\"loads\""), ranks <= 64);
     EXPECT_EQ(contains(page, "class=\"small\""), ranks > 64);
   }
-}
-
-TEST(ReportHtml, NumbersAreForPeople) {
-  EXPECT_EQ(html::count(1384540), "1,384,540");
-  EXPECT_EQ(html::count(-1234), "-1,234");
-  EXPECT_EQ(html::count(999), "999");
-  EXPECT_EQ(html::count(Json()), "–");
-  EXPECT_EQ(html::degrees(28.0004), "28.0°");
-  EXPECT_EQ(html::degrees(0.0243), "0.024°");
-  EXPECT_EQ(html::seconds(7.42), "7.4 s");
-  EXPECT_EQ(html::seconds(59.99), "60.0 s");
-  EXPECT_EQ(html::seconds(723.4), "12 min 3 s");
-  EXPECT_EQ(html::seconds(7500), "2 h 5 min");
-  EXPECT_EQ(html::memory(466.0 * 1024 * 1024), "466 MiB");
-  EXPECT_EQ(html::memory(1.5 * (1LL << 40)), "1.5 TiB");
-  EXPECT_EQ(html::quantity(387.73735), "387.7");
-  EXPECT_EQ(html::quantity(12345.6), "12,346");
-  EXPECT_EQ(html::quantity(848255.99), "848,256");
-  EXPECT_EQ(html::quantity(8.5e-7), "8.5·10⁻⁷");
-  EXPECT_EQ(html::quantity(-0.0), "0");
-  EXPECT_EQ(html::percent(-0.0015), "-0.15 %");
-  EXPECT_EQ(html::percent(1e-16), "0 %");
-  EXPECT_EQ(html::place(Json::array({1.0, 1e-13, -2.5})), "<span class=\"place\">(1, 0, -2.5)</span>");
-  EXPECT_EQ(html::name(std::string(199, 'a') + "é"), "<bdi>" + std::string(199, 'a') + " …</bdi>");
-}
-
-TEST(ReportHtml, Base64) {
-  const auto encoded = [](const std::string& text) {
-    return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
-  };
-  EXPECT_EQ(encoded(""), "");
-  EXPECT_EQ(encoded("f"), "Zg==");
-  EXPECT_EQ(encoded("fo"), "Zm8=");
-  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64(std::vector<std::uint8_t>{0xFF, 0xFE, 0xFD}), "//79");
 }
 
 }  // namespace

@@ -29,14 +29,14 @@ std::vector<std::uint64_t> all_samples(const Canvas& canvas) {
   return {canvas.row(0), canvas.row(0) + canvas.width() * canvas.height() * Canvas::samples};
 }
 
-TEST(Canvas, TrianglesCoverTheirArea) {
+TEST(CanvasLocal, TrianglesCoverTheirArea) {
   Canvas canvas(100, 80);
   canvas.draw_triangle({{{10, 10, 0}, {90, 20, 0}, {30, 70, 0}}}, {red, red});
   const double area = 0.5 * (80 * 60 - 10 * 20);
   EXPECT_NEAR(samples_of(canvas, red), Canvas::samples * area, 0.01 * Canvas::samples * area);
 }
 
-TEST(Canvas, NeighboursLeaveNoCracksAndFillWhatTheyShare) {
+TEST(CanvasLocal, NeighboursLeaveNoCracksAndFillWhatTheyShare) {
   Canvas canvas(64, 64);
   const ScreenPoint centre{31.3, 30.7, 0};
   constexpr int blades = 37;
@@ -50,7 +50,7 @@ TEST(Canvas, NeighboursLeaveNoCracksAndFillWhatTheyShare) {
   EXPECT_EQ(samples_of(canvas, red), 64 * 64 * Canvas::samples);
 }
 
-TEST(Canvas, TheNearestIsSeenWhateverTheOrder) {
+TEST(CanvasLocal, TheNearestIsSeenWhateverTheOrder) {
   const std::array<ScreenPoint, 3> tilted = {{{0, 0, -10}, {40, 0, 10}, {0, 40, -10}}};
   const std::array<ScreenPoint, 3> flat = {{{0, 0, 0}, {40, 0, 0}, {0, 40, 0}}};
   Canvas one(40, 40), other(40, 40);
@@ -63,7 +63,7 @@ TEST(Canvas, TheNearestIsSeenWhateverTheOrder) {
   EXPECT_EQ(Canvas::colour_of(one.row(5)[30 * Canvas::samples]), blue);  // farther on the right
 }
 
-TEST(Canvas, EqualDepthsGoToTheDarkerWhateverTheOrder) {
+TEST(CanvasLocal, EqualDepthsGoToTheDarkerWhateverTheOrder) {
   const std::array<ScreenPoint, 3> corners = {{{0, 0, 3}, {20, 0, 3}, {0, 20, 3}}};
   for (const bool is_red_first : {true, false}) {
     Canvas canvas(20, 20);
@@ -74,7 +74,7 @@ TEST(Canvas, EqualDepthsGoToTheDarkerWhateverTheOrder) {
   }
 }
 
-TEST(Canvas, LinesRunAlongTheEdgesAskedFor) {
+TEST(CanvasLocal, LinesRunAlongTheEdgesAskedFor) {
   Canvas canvas(60, 60);
   TriangleStyle style{red, blue, 4};
   style.line_opacity = {1, 0, 0};
@@ -84,7 +84,7 @@ TEST(Canvas, LinesRunAlongTheEdgesAskedFor) {
   EXPECT_NEAR(samples_of(canvas, blue), Canvas::samples * 50 * 2, Canvas::samples * 50);
 }
 
-TEST(Canvas, LinesHaveTheirWidthAndStandInFront) {
+TEST(CanvasLocal, LinesHaveTheirWidthAndStandInFront) {
   Canvas canvas(60, 60);
   canvas.draw_triangle({{{-100, -100, 0}, {300, -100, 0}, {-100, 300, 0}}}, {red, red});
   canvas.draw_line({10, 30, 0}, {50, 30, 0}, 6, blue, 1);
@@ -93,7 +93,7 @@ TEST(Canvas, LinesHaveTheirWidthAndStandInFront) {
   EXPECT_EQ(samples_of(canvas, Colour{0, 200, 0}), 0) << "behind the triangle";
 }
 
-TEST(Canvas, NothingIsDrawnOutsideOfTheWindowOrTooNear) {
+TEST(CanvasLocal, NothingIsDrawnOutsideOfTheWindowOrTooNear) {
   Canvas canvas(40, 40);
   const std::array<ScreenPoint, 3> everywhere = {{{-1e9, -1e9, 0}, {3e9, -1e9, 0}, {-1e9, 3e9, 0}}};
   canvas.set_window({10, 10, 5, 7});
@@ -105,7 +105,7 @@ TEST(Canvas, NothingIsDrawnOutsideOfTheWindowOrTooNear) {
   EXPECT_EQ(samples_of(canvas, blue), 0);
 }
 
-TEST(Canvas, DegenerateTrianglesAndStrangeNumbersDrawNothing) {
+TEST(CanvasLocal, DegenerateTrianglesAndStrangeNumbersDrawNothing) {
   Canvas canvas(20, 20);
   const double nan = std::nan("");
   canvas.draw_triangle({{{1, 1, 0}, {5, 5, 0}, {9, 9, 0}}}, {red, red});
@@ -114,7 +114,7 @@ TEST(Canvas, DegenerateTrianglesAndStrangeNumbersDrawNothing) {
   EXPECT_EQ(samples_of(canvas, red), 0);
 }
 
-TEST(Camera, FramesWhatIsToBeSeen) {
+TEST(CameraLocal, FramesWhatIsToBeSeen) {
   const Viewpoint view = look_from({-1, -1, 0.5}, {0, 0, 1});
   EXPECT_NEAR(dot(view.right, view.up), 0, 1e-15);
   EXPECT_GT(view.up.z, 0.8);
@@ -129,7 +129,7 @@ TEST(Camera, FramesWhatIsToBeSeen) {
   }
 }
 
-TEST(Camera, LooksAlongTheUpwardDirectionToo) {
+TEST(CameraLocal, LooksAlongTheUpwardDirectionToo) {
   const Viewpoint view = look_from({0, 0, 1}, {0, 0, 1});
   EXPECT_NEAR(norm(view.right), 1, 1e-15);
   EXPECT_NEAR(norm(view.up), 1, 1e-15);

@@ -2,6 +2,7 @@
 
 #include "pipeline/report/picture/image.hpp"
 #include "tests/pipeline/report/picture/surfaces.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <algorithm>
 
@@ -26,6 +27,7 @@ Image drawn_wing(const Communicator& communicator, double edge_opacity) {
 }
 
 TEST(Drawing, OfASurfaceIsThatOfOneRank) {
+  NEEDS_SEVERAL_RANKS();
   for (const double edge_opacity : {0.0, 0.8}) {
     const Image together = drawn_wing(Communicator::world(), edge_opacity),
                 alone = drawn_wing(Communicator::self(), edge_opacity);
@@ -89,7 +91,7 @@ TEST(Drawing, CutsHaveTheColoursOfTheirAngles) {
   EXPECT_EQ(image.pixels[20 * 60 + 30], angle_classes[angle_class(45)].colour) << "of cubes in six";
 }
 
-TEST(Colours, OfAnglesHaveTheirLimits) {
+TEST(ColoursLocal, OfAnglesHaveTheirLimits) {
   EXPECT_EQ(angle_class(0), 0U);
   EXPECT_EQ(angle_class(4.99), 0U);
   EXPECT_EQ(angle_class(5), 1U);

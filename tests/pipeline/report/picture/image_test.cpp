@@ -1,6 +1,7 @@
 #include "pipeline/report/picture/image.hpp"
 
 #include "pipeline/report/picture/palette.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <cstring>
 #include <random>
@@ -45,6 +46,7 @@ Image scribble(const Communicator& communicator, int ranks) {
 }
 
 TEST(Composite, IsThePictureOfOneRank) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   const Image together = scribble(world, world.size()), alone = scribble(Communicator::self(), 1);
   if (!world.is_root()) {
@@ -84,7 +86,7 @@ TEST(Composite, CanvasesLowerThanThereAreRanks) {
   EXPECT_EQ(image.pixels, std::vector<Colour>(world.is_root() ? 6 : 0, ink));
 }
 
-TEST(Png, FewColoursComeBackExactly) {
+TEST(PngLocal, FewColoursComeBackExactly) {
   Image image{40, 30, {}};
   for (int i = 0; i < 40 * 30; ++i) {
     image.pixels.push_back(name_colours[static_cast<std::size_t>(i / 7) % name_colours.size()]);
@@ -95,7 +97,7 @@ TEST(Png, FewColoursComeBackExactly) {
   EXPECT_EQ(back.pixels, image.pixels);
 }
 
-TEST(Png, ManyColoursComeBackAboutRightAndFewerWhereBytesAreScarce) {
+TEST(PngLocal, ManyColoursComeBackAboutRightAndFewerWhereBytesAreScarce) {
   Image image{256, 128, {}};
   for (int y = 0; y < 128; ++y) {
     for (int x = 0; x < 256; ++x) {
@@ -116,7 +118,7 @@ TEST(Png, ManyColoursComeBackAboutRightAndFewerWhereBytesAreScarce) {
   EXPECT_EQ(decode(half).pixels.size(), image.pixels.size());
 }
 
-TEST(Palette, HasAtMostTheColoursAskedFor) {
+TEST(PaletteLocal, HasAtMostTheColoursAskedFor) {
   Image image{64, 64, {}};
   std::mt19937 random(3);
   for (int i = 0; i < 64 * 64; ++i) {
@@ -131,7 +133,7 @@ TEST(Palette, HasAtMostTheColoursAskedFor) {
   }
 }
 
-TEST(Palette, OneColourIsEnoughForOne) {
+TEST(PaletteLocal, OneColourIsEnoughForOne) {
   const PalettedImage plain = quantise({5, 4, std::vector<Colour>(20, ink)}, 256);
   EXPECT_EQ(plain.palette, std::vector<Colour>{ink});
 }

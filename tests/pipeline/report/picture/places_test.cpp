@@ -1,6 +1,7 @@
 #include "pipeline/report/picture/places.hpp"
 
 #include "tests/pipeline/report/picture/surfaces.hpp"
+#include "tests/several_ranks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,7 @@ TEST(Places, ABoxHasNone) {
 }
 
 TEST(Places, AreTheSameOnOneRank) {
+  NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   const auto self = Communicator::self();
   const Places wing = places_of(examples::wing_in_box(world)),

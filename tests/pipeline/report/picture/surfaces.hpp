@@ -1,7 +1,7 @@
 /// Surfaces around a flow, for tests: grids of triangles that share vertices where they have the same points.
 #pragma once
 
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <algorithm>
 #include <array>

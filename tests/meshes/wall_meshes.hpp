@@ -1,7 +1,7 @@
-/// Small walls for tests of layers, on any number of ranks: see tests/mesh/meshes.hpp.
+/// Small walls for tests of layers, on any number of ranks: see tests/meshes/small_meshes.hpp.
 #pragma once
 
-#include "tests/mesh/meshes.hpp"
+#include "tests/meshes/small_meshes.hpp"
 
 #include <algorithm>
 #include <array>

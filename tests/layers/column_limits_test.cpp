@@ -1,0 +1,154 @@
+#include "layers/column_limits.hpp"
+
+#include "tests/layers/directed_wall.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::layers {
+namespace {
+
+using examples::cube_in_a_box;
+using examples::layers_on;
+using geometry::Vec3;
+using parallel::Communicator;
+
+/// The cube in a box with its columns.
+struct Limited {
+  explicit Limited(const Communicator& ranks, int pieces = 6)
+      : communicator(ranks),
+        mesh(cube_in_a_box().distribute(ranks, pieces)),
+        base(ranks, mesh, options),
+        columns(base.wall, options, base.fans, base.directions) {}
+
+  template <class T>
+  std::vector<T> at_corner(T there, T elsewhere) const {
+    std::vector<T> values(static_cast<std::size_t>(base.wall.vertex_count()), elsewhere);
+    for (std::int32_t v = 0; v < base.wall.vertex_count(); ++v)
+      if (is_corner(v)) values[static_cast<std::size_t>(v)] = there;
+    return values;
+  }
+  bool is_corner(std::int32_t v) const { return distance(base.wall.points[v], {1, 1, 1}) == 0; }
+
+  /// Calls visit(v, u) for the ends of each edge of this rank's triangles, both ways round.
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    for (std::int32_t v = 0; v < base.wall.vertex_count(); ++v)
+      base.wall.for_each_neighbour(v, [&](std::int32_t u) { visit(v, u); });
+  }
+
+  Communicator communicator;
+  LayerOptions options = layers_on(2);
+  mesh::DistributedMesh mesh;
+  examples::DirectedWall base;
+  ColumnLimits columns;
+};
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+TEST(ColumnLimits, BeginAsThePatchesAsk) {
+  Limited limited(Communicator::world());
+  const std::int32_t n = limited.base.wall.vertex_count();
+  for (std::int32_t v = 0; v < n; ++v) {
+    EXPECT_GT(limited.columns.count(v), 10);
+    EXPECT_EQ(limited.columns.count(v), limited.columns.wanted_count(v));
+    EXPECT_EQ(limited.columns.heights(v).growth, 1.2);
+    EXPECT_FALSE(limited.columns.is_squeezed(v));
+    EXPECT_EQ(limited.columns.cause(v), LayerLimit::none);
+  }
+  EXPECT_EQ(limited.columns.take_changed().size(), static_cast<std::size_t>(n));
+  EXPECT_TRUE(limited.columns.take_changed().empty());
+}
+
+TEST(ColumnLimits, TotalsSqueezeTheGrowthBeforeTheCount) {
+  Limited limited(Communicator::world());
+  ColumnLimits& columns = limited.columns;
+  limited.columns.take_changed();
+  columns.limit_totals(limited.at_corner(unlimited, unlimited), LayerLimit::gap);
+  EXPECT_TRUE(columns.take_changed().empty()) << "no limit";
+
+  std::vector<double> halves;
+  for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) halves.push_back(columns.total(v) / 2);
+  columns.limit_totals(halves, LayerLimit::gap);
+  for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) {
+    EXPECT_LE(columns.total(v), halves[v]);
+    EXPECT_GT(columns.total(v), 0.99 * halves[v]);
+    EXPECT_EQ(columns.count(v), columns.wanted_count(v));
+    EXPECT_TRUE(columns.is_squeezed(v));
+    EXPECT_EQ(columns.cause(v), LayerLimit::gap);
+  }
+  // Two layers and a half of the first height: two layers.
+  columns.limit_totals(std::vector<double>(halves.size(), 2.5e-3), LayerLimit::crossing);
+  for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) {
+    EXPECT_LE(columns.total(v), 2.5e-3);
+    EXPECT_LE(columns.count(v), 2);
+    EXPECT_GE(columns.count(v), 1);
+  }
+}
+
+TEST(ColumnLimits, CountsFallFromOneVertexByStairs) {
+  Limited limited(Communicator::world());
+  ColumnLimits& columns = limited.columns;
+  const std::int32_t wanted = columns.count(0);
+  // What one piece knows of the corner counts for all of them.
+  columns.limit_counts(limited.at_corner<std::int32_t>(0, most_layers), LayerLimit::crossing);
+  columns.converge(limited.communicator);
+  std::int64_t steps = 0;
+  limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
+    EXPECT_LE(columns.count(v), columns.count(u) + limited.options.stairs);
+    if (columns.count(v) == columns.count(u) + limited.options.stairs) ++steps;
+  });
+  EXPECT_GT(limited.communicator.sum(steps), 0) << "no lower than the stairs ask for";
+  std::int32_t most = 0;
+  for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) {
+    most = std::max(most, columns.count(v));
+    if (limited.is_corner(v)) {
+      EXPECT_EQ(columns.count(v), 0);
+    } else if (columns.count(v) < columns.wanted_count(v)) {
+      EXPECT_TRUE(columns.cause(v) == LayerLimit::stairs || columns.cause(v) == LayerLimit::slope);
+    }
+  }
+  EXPECT_GE(limited.communicator.maximum(static_cast<std::int64_t>(most)), wanted) << "the box is far away";
+}
+
+TEST(ColumnLimits, TotalsRiseNoFasterThanTheSlope) {
+  Limited limited(Communicator::world());
+  ColumnLimits& columns = limited.columns;
+  const double low = 2e-3;
+  columns.limit_totals(limited.at_corner(low, unlimited), LayerLimit::gap);
+  columns.converge(limited.communicator);
+  limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
+    if (!limited.is_corner(v)) return;
+    EXPECT_LE(columns.total(v), low);
+    // At a growth of 1.2 totals may differ by the length of the edge.
+    EXPECT_LE(columns.total(u), low + distance(limited.base.wall.points[u], limited.base.wall.points[v]));
+  });
+}
+
+TEST(ColumnLimits, AreTheSameHoweverTheWallIsCut) {
+  const auto outcome = [](const Communicator& communicator, int pieces) {
+    Limited limited(communicator, pieces);
+    limited.columns.limit_counts(limited.at_corner<std::int32_t>(1, most_layers), LayerLimit::crossing);
+    limited.columns.converge(communicator);
+    std::map<std::array<double, 3>, std::tuple<std::int32_t, double, double>> by_place;
+    for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) {
+      const Vec3 p = limited.base.wall.points[v];
+      const Heights heights = limited.columns.heights(v);
+      const std::tuple column{limited.columns.count(v), heights.growth, limited.columns.total(v)};
+      const auto [found, is_new] = by_place.emplace(std::array{p.x, p.y, p.z}, column);
+      EXPECT_TRUE(is_new || found->second == column) << "equal in all pieces";
+    }
+    return by_place;
+  };
+  const auto alone = outcome(Communicator::self(), 6);
+  for (const auto& [place, column] : outcome(Communicator::world(), 6)) EXPECT_EQ(column, alone.at(place));
+}
+
+}  // namespace
+}  // namespace aeroloom::layers

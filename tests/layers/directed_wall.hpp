@@ -1,0 +1,39 @@
+/// A wall with what is known of its vertices before columns grow.
+#pragma once
+
+#include "layers/directions.hpp"
+#include "layers/fans.hpp"
+#include "tests/meshes/wall_meshes.hpp"
+
+#include <cstddef>
+
+namespace aeroloom::layers::examples {
+
+/// Layers of the same first height on each patch.
+inline LayerOptions layers_on(std::size_t patches) {
+  LayerOptions options;
+  options.patches.resize(patches);
+  for (WallLayers& wanted : options.patches) wanted.first = 1e-3;
+  return options;
+}
+
+/// A wall with its fans and directions. Refers to the mesh.
+struct DirectedWall {
+  DirectedWall(const mesh::DistributedMesh& mesh, const LayerOptions& options)
+      : wall(mesh.communicator, mesh, options),
+        fans(gather_fans(wall)),
+        directions(find_directions(wall, fans)) {}
+
+  WallShare wall;
+  Fans fans;
+  Directions directions;
+};
+
+/// A cube of edge 1 in a box.
+inline Shapes cube_in_a_box() {
+  return Shapes()
+      .add_box({-4, -4, -4}, {5, 5, 5}, {3, 3, 3}, Fluid::inside)
+      .add_box({0, 0, 0}, {1, 1, 1}, {4, 4, 4}, Fluid::outside);
+}
+
+}  // namespace aeroloom::layers::examples
