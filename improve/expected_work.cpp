@@ -1,6 +1,6 @@
 #include "improve/expected_work.hpp"
 
-#include "improve/borders/bad_cells.hpp"
+#include "improve/limits/examination.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
 namespace aeroloom::improve {

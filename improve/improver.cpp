@@ -1,10 +1,10 @@
 #include "improve/improver.hpp"
 
-#include "improve/borders/bad_cells.hpp"
 #include "improve/borders/balance.hpp"
 #include "improve/borders/border_smoothing.hpp"
 #include "improve/cavity_rounds.hpp"
 #include "improve/expected_work.hpp"
+#include "improve/limits/examination.hpp"
 #include "improve/stage_record.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 #include "mesh/quality/quality.hpp"

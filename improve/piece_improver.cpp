@@ -1,5 +1,5 @@
-#include "improve/borders/bad_cells.hpp"
 #include "improve/improver.hpp"
+#include "improve/limits/examination.hpp"
 #include "improve/operations/mean_ratio_smoothing.hpp"
 #include "improve/operations/over_constrained_removal.hpp"
 #include "improve/over_constrained_trials.hpp"

@@ -3,35 +3,13 @@
 #pragma once
 
 #include "improve/borders/rounds.hpp"
-#include "improve/improve_report.hpp"
+#include "improve/limits/examination.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace aeroloom::improve {
-
-/// Adds tetrahedra to a state, their qualities known.
-class Examination {
-public:
-  explicit Examination(const mesh::TetQuality& measure) : _target(measure.target()) {}
-  void add(double quality, const std::array<geometry::Vec3, 4>& p);
-
-  BadState state;
-
-private:
-  double _target;
-  /// The quality is at most the sine of the smallest angle: above this nothing can lower the least angle.
-  double _bound = 2;
-};
-
-std::array<geometry::Vec3, 4> points_of(const mesh::Piece& piece, mesh::LocalIndex cell);
-
-/// The quality of a piece's cell.
-double quality_of(const mesh::Piece& piece, mesh::LocalIndex cell, const mesh::TetQuality& measure);
-
-BadState examine(const mesh::Piece& piece, const mesh::TetQuality& measure);
 
 class BadCells {
 public:

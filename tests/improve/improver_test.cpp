@@ -22,8 +22,8 @@ TEST(ImproveMesh, RemovesAPlantedSliver) {
     DistributedMesh mesh = mesh::examples::distribute(self, whole, 1);
     if (examine(mesh.pieces, 15).angle > 6) continue;
     ++planted;
-    EXPECT_EQ(improve_mesh(self, mesh, {}).bad_after, 0);
-    expect_valid(self, mesh);
+    EXPECT_EQ(improve_mesh(mesh, {}).bad_after, 0);
+    expect_valid(mesh);
   }
   EXPECT_GT(planted, 2);
 }
@@ -84,9 +84,9 @@ TEST(ImproveMesh, LeavesALatticeAsItIs) {
     DistributedMesh mesh = before;
     ImproveOptions options;
     options.target_angle = target;
-    const ImproveReport report = improve_mesh(self, mesh, options);
+    const ImproveReport report = improve_mesh(mesh, options);
     EXPECT_EQ(report.min_angle_before, examine(before.pieces, target).angle);
-    expect_valid(self, mesh);
+    expect_valid(mesh);
     int moved = 0;
     const mesh::Piece &was = before.pieces[1], &is = mesh.pieces[1];
     for (mesh::LocalIndex v = 0; v < was.vertex_count(); ++v) {

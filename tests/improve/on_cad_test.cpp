@@ -112,16 +112,16 @@ TEST(ImproveOnCadLocal, SlidesAndKeepsTheBox) {
     const int pieces = 1 + static_cast<int>(seed % 3);
     mesh::DistributedMesh with = mesh::examples::distribute(self, shaken_on_cad(model, pieces, seed), pieces);
     mesh::DistributedMesh without = with;
-    expect_valid(self, with);
+    expect_valid(with);
     expect_on_cad(model, with.pieces);
     const ImproveOptions options;
     const auto before = examine(with.pieces, options.target_angle);
-    slid += improve_mesh(self, with, options, {&locator, nullptr}).slid;
+    slid += improve_mesh(with, options, {&locator, nullptr}).slid;
     const auto after = examine(with.pieces, options.target_angle);
-    expect_valid(self, with);
+    expect_valid(with);
     expect_on_cad(model, with.pieces);
     EXPECT_GT(after.quality, before.quality);
-    EXPECT_EQ(improve_mesh(self, without, options).slid, 0);
+    EXPECT_EQ(improve_mesh(without, options).slid, 0);
     EXPECT_GE(after.angle, 10) << seed;
   }
   EXPECT_GT(slid, 50);

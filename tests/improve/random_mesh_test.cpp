@@ -60,14 +60,14 @@ TEST_P(RandomMesh, GetsBetterAndKeepsItsBoundary) {
   const int pieces = 1 + GetParam() % 3;
   DistributedMesh mesh =
       mesh::examples::distribute(self, examples::shaken_cube(5, pieces, 25, GetParam()), pieces);
-  expect_valid(self, mesh);
+  expect_valid(mesh);
   ImproveOptions options;
   options.boundary_may_change = false;
   const Extremes before = examine(mesh.pieces, options.target_angle);
   const std::vector<Piece> old = mesh.pieces;
-  const ImproveReport report = improve_mesh(self, mesh, options);
+  const ImproveReport report = improve_mesh(mesh, options);
   const Extremes after = examine(mesh.pieces, options.target_angle);
-  expect_valid(self, mesh);
+  expect_valid(mesh);
   EXPECT_GT(after.quality, before.quality);
   EXPECT_GT(after.angle, pieces == 1 ? 12 : 8) << "from " << before.angle;
   EXPECT_LT(after.bad, before.bad / 4);
@@ -93,8 +93,8 @@ TEST(RandomMeshes, KeepTheirFacesWhereTrianglesMayChange) {
     const ImproveOptions options;
     const Extremes before = examine(mesh.pieces, options.target_angle);
     const FaceAreas areas = areas_of_faces(mesh.pieces);
-    changed += improve_mesh(self, mesh, options).changed_triangles;
-    expect_valid(self, mesh);
+    changed += improve_mesh(mesh, options).changed_triangles;
+    expect_valid(mesh);
     EXPECT_GT(examine(mesh.pieces, options.target_angle).quality, before.quality);
     const FaceAreas after = areas_of_faces(mesh.pieces);
     ASSERT_EQ(after.size(), areas.size());
@@ -113,9 +113,9 @@ TEST_P(RandomMesh, NeverGetsWorseWhenRepeated) {
     options.target_angle = target;
     options.sweeps = 4;
     const double before = examine(mesh.pieces, target).quality;
-    improve_mesh(self, mesh, options);
+    improve_mesh(mesh, options);
     EXPECT_GE(examine(mesh.pieces, target).quality, before);
-    expect_valid(self, mesh);
+    expect_valid(mesh);
   }
 }
 
@@ -167,10 +167,10 @@ TEST(RandomMeshes, AreWorkedOnOnceMoreForPercentiles) {
     ImproveOptions options;
     options.target_angle = target;
     options.percentiles = percentiles;
-    const ImproveReport report = improve_mesh(self, mesh, options);
+    const ImproveReport report = improve_mesh(mesh, options);
     EXPECT_EQ(report.bad_after, examine(mesh.pieces, target).bad);
     EXPECT_EQ(report.min_angle_after, examine(mesh.pieces, target).angle);
-    expect_valid(self, mesh);
+    expect_valid(mesh);
     return mesh.pieces;
   };
   const auto fraction_below = [&](const std::vector<Piece>& pieces) {

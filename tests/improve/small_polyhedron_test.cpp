@@ -65,7 +65,7 @@ TEST(SmallPolyhedron, FillsRandomPolyhedraExactly) {
       ++found;
     }
     mesh.finish();
-    examples::expect_valid(self, whole);
+    examples::expect_valid(whole);
   }
   EXPECT_GT(found, 50);
 }

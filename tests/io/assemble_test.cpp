@@ -88,7 +88,7 @@ TEST(Assemble, OneMeshWhateverTheRanks) {
   const examples::MixedMesh whole(4, 3);
   const Assembled mine = assemble(world, raw_of(world, whole), "file", 5);
   const Assembled all = assemble(self, raw_of(self, whole), "file", 5);
-  const FileMesh cut = repartition(mine.mesh, 4), cut_alone = repartition(self, all.mesh, 4);
+  const FileMesh cut = repartition(mine.mesh, 4), cut_alone = repartition(all.mesh, 4);
   for (const auto& [some, every] : {std::pair(&mine.mesh, &all.mesh), std::pair(&cut, &cut_alone)}) {
     for (const FilePart& part : some->parts) {
       const FilePart& other = every->parts[static_cast<std::size_t>(part.id)];

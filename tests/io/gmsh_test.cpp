@@ -75,8 +75,8 @@ TEST_F(Msh, BytesDoNotDependOnRanks) {
   if (world.is_root()) {
     const Communicator self = Communicator::self();
     const FileMesh alone = examples::mixed_mesh(self, 3, 5);
-    write_msh(self, alone, path("one/mesh.msh"));
-    write_msh_parts(self, alone, path("one/mesh.msh"));
+    write_msh(alone, path("one/mesh.msh"));
+    write_msh_parts(alone, path("one/mesh.msh"));
     EXPECT_EQ(examples::files_below(folder / "all"), examples::files_below(folder / "one"));
     EXPECT_EQ(examples::files_below(folder / "one").size(), 6U);
   }
@@ -264,7 +264,7 @@ TEST_F(Msh, UnwritablePlacesAreNamed) {
   const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
   for (const auto write : {write_msh, write_msh_parts}) {
     try {
-      write(world, mesh, path("file/mesh.msh"));
+      write(mesh, path("file/mesh.msh"));
       ADD_FAILURE();
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::files);

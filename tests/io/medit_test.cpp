@@ -80,7 +80,7 @@ TEST_F(Medit, BytesDependOnThePartsAlone) {
     const std::string together = path(name);
     write_medit(examples::mixed_mesh(world), together);
     const std::string alone = path("alone" + std::to_string(world.rank()) + name);
-    write_medit(self, examples::mixed_mesh(self), alone);
+    write_medit(examples::mixed_mesh(self), alone);
     EXPECT_EQ(examples::bytes_of(together), examples::bytes_of(alone));
     EXPECT_EQ(examples::bytes_of(medit_names_path(together)), examples::bytes_of(medit_names_path(alone)));
     EXPECT_FALSE(std::filesystem::exists(together + ".unfinished"));

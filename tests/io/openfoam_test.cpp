@@ -70,7 +70,7 @@ TEST(FoamFacesLocal, PartsAgreeOnWhatLiesBetweenThem) {
   std::map<std::tuple<int, int, int>, std::vector<GlobalIndex>> seen;
   std::multiset<GlobalIndex> numbers;
   std::map<std::int32_t, int> zoned;
-  for (const auto& [part, order] : order_all(self, mesh, plan)) {
+  for (const auto& [part, order] : order_all(mesh, plan)) {
     std::size_t f = order.faces.size();
     for (const FoamProcessorPatch& patch : order.processors) f -= static_cast<std::size_t>(patch.count);
     for (const FoamProcessorPatch& patch : order.processors) {
@@ -122,7 +122,7 @@ TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
     write_openfoam(mesh, path("all"), {binary, 0});
     if (!world.is_root()) continue;
     const Communicator self = Communicator::self();
-    write_openfoam(self, examples::mixed_mesh(self, 3, 4), path("one"), {binary, 0});
+    write_openfoam(examples::mixed_mesh(self, 3, 4), path("one"), {binary, 0});
     const auto files = examples::files_below(folder / "all");
     EXPECT_EQ(files, examples::files_below(folder / "one"));
     // Of each part the mesh and what refers to fields; dictionaries in system/ and constant/; fields with

@@ -25,7 +25,7 @@ using parallel::FailureKind;
 
 struct Format {
   const char* suffix;
-  void (*write)(const Communicator&, const FileMesh&, const std::string&);
+  void (*write)(const FileMesh&, const std::string&);
   RawMesh (*read)(const Communicator&, const std::string&);
 };
 constexpr std::array<Format, 2> formats = {{{".su2", write_su2, read_su2}, {".su2b", write_su2b, read_su2b}}};
@@ -57,7 +57,7 @@ TEST_F(Su2, TextAndBinaryReadBackTheSame) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
   for (const Format& format : formats) {
     const std::string file = path(std::string("mixed") + format.suffix);
-    format.write(world, mesh, file);
+    format.write(mesh, file);
     const Assembled read = assemble(world, format.read(world, file), file, 4);
     EXPECT_EQ(read.turned_cells, 0) << format.suffix;
     EXPECT_EQ(read.unnamed_faces, 0) << format.suffix;
@@ -70,11 +70,11 @@ TEST_F(Su2, BytesDependOnPartsAlone) {
   const FileMesh mesh = examples::mixed_mesh(world, 3, 4);
   for (const Format& format : formats) {
     const std::string file = path(std::string("all") + format.suffix);
-    format.write(world, mesh, file);
+    format.write(mesh, file);
     if (world.is_root()) {
       const Communicator self = Communicator::self();
       const std::string alone = path(std::string("alone") + format.suffix);
-      format.write(self, examples::mixed_mesh(self, 3, 4), alone);
+      format.write(examples::mixed_mesh(self, 3, 4), alone);
       EXPECT_TRUE(bytes_of(file) == bytes_of(alone)) << format.suffix;
     }
     world.barrier();
@@ -303,7 +303,7 @@ TEST_F(Su2, DamagedFilesAreErrorsOrMeshes) {
   const FileMesh mesh = examples::mixed_mesh(world, 1, 2);
   for (const Format& format : formats) {
     const std::string file = path(std::string("damaged") + format.suffix);
-    format.write(world, mesh, file);
+    format.write(mesh, file);
     const std::string good = bytes_of(file);
     world.barrier();
     const auto read = [&](const std::string& damaged) {
@@ -321,7 +321,7 @@ TEST_F(Su2, FilesThatCannotBeWrittenAreErrors) {
   const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
   for (const Format& format : formats) {
     try {
-      format.write(world, mesh, std::string("/proc/aeroloom/x") + format.suffix);
+      format.write(mesh, std::string("/proc/aeroloom/x") + format.suffix);
       ADD_FAILURE() << "no error";
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), FailureKind::files);

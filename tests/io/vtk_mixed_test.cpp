@@ -60,8 +60,8 @@ TEST_F(VtkMixed, IsTheSameBytesOnAnyNumberOfRanks) {
   if (!world.is_root()) return;
   const Communicator self = Communicator::self();
   const FileMesh alone = examples::mixed_mesh(self, 5, 7);
-  write_volume(self, alone, folder / "alone", "mesh");
-  write_surface(self, alone, folder / "alone", "surface");
+  write_volume(alone, folder / "alone", "mesh");
+  write_surface(alone, folder / "alone", "surface");
   const auto here = examples::files_below(folder / "all");
   EXPECT_EQ(here.size(), 4U);
   EXPECT_TRUE(here == examples::files_below(folder / "alone"));

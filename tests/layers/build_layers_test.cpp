@@ -21,7 +21,7 @@ void expect_same(const Shapes& shapes, int pieces, const LayerOptions& options) 
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = shapes.distribute(world, pieces),
                               whole = shapes.distribute(self, pieces);
-  const Layers spread = build(mesh, options), alone = build(self, whole, options);
+  const Layers spread = build(mesh, options), alone = build(whole, options);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const std::size_t other = mesh::position_of(whole, mesh.pieces[p].id);
     const PieceColumns &a = spread.columns.pieces[p], &b = alone.columns.pieces[other];

@@ -24,7 +24,7 @@ struct Limited {
   explicit Limited(const Communicator& ranks, int pieces = 6)
       : communicator(ranks),
         mesh(cube_in_a_box().distribute(ranks, pieces)),
-        base(ranks, mesh, options),
+        base(mesh, options),
         columns(base.wall, options, base.fans, base.directions) {}
 
   template <class T>

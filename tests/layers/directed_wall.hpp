@@ -20,9 +20,7 @@ inline LayerOptions layers_on(std::size_t patches) {
 /// A wall with its fans and directions. Refers to the mesh.
 struct DirectedWall {
   DirectedWall(const mesh::DistributedMesh& mesh, const LayerOptions& options)
-      : wall(mesh.communicator, mesh, options),
-        fans(gather_fans(wall)),
-        directions(find_directions(wall, fans)) {}
+      : wall(mesh, options), fans(gather_fans(wall)), directions(find_directions(wall, fans)) {}
 
   WallShare wall;
   Fans fans;

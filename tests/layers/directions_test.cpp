@@ -22,7 +22,7 @@ using examples::layers_on;
 TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7);
-  const Directed directed(world, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const Vec3 p = directed.wall.points[v], d = directed.directions.most_normal[v];
     ASSERT_EQ(directed.fans.kinds[v], FanKind::plain);
@@ -40,7 +40,7 @@ TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
 TEST(Directions, AreSmoothedWithoutLosingSight) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7);
-  const Directed directed(world, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   std::int64_t moved = 0;
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const auto normals = directed.fans.normals_at(v);
@@ -58,7 +58,7 @@ TEST(Directions, AreTheSameOnAnyNumberOfRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7),
                               whole = cube_in_a_box().distribute(self, 7);
-  const Directed spread(world, mesh, layers_on(2)), alone(self, whole, layers_on(2));
+  const Directed spread(mesh, layers_on(2)), alone(whole, layers_on(2));
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const std::int32_t from = alone.wall.first_vertex[mesh::position_of(whole, mesh.pieces[p].id)];
     for (std::int32_t v = spread.wall.first_vertex[p]; v < spread.wall.first_vertex[p + 1]; ++v) {
@@ -73,7 +73,7 @@ TEST(Directions, AreTheSameOnAnyNumberOfRanks) {
 TEST(Directions, AreEqualInAllPiecesThatKnowAVertex) {
   const auto self = Communicator::self();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(self, 7);
-  const Directed directed(self, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   std::map<mesh::SharedVertexKey, Vec3> known;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (std::size_t s = 0; s < mesh.pieces[p].shared_keys.size(); ++s) {
@@ -96,7 +96,7 @@ TEST(Directions, AreNoneBesideFacesWhereLayersMayNotEnd) {
       if (top) piece.triangle_patch[t] = 2;
     }
   }
-  const Directed directed(self, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const Vec3 p = directed.wall.points[v];
     if (p.z != 1) continue;
@@ -111,7 +111,7 @@ TEST(Directions, AreNoneOnFacesBetweenTwoRegions) {
   mesh::DistributedMesh mesh = cube_in_a_box().distribute(self, 2);
   mesh.regions = {"outer", "inner"};
   mesh.sides = {{0, mesh::no_region}, {0, 1}};
-  const Directed directed(self, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const bool on_box = norm(directed.wall.points[v] - Vec3{0.5, 0.5, 0.5}) > 2;
     EXPECT_EQ(directed.fans.kinds[v], on_box ? FanKind::plain : FanKind::off_wall);
@@ -126,7 +126,7 @@ TEST(Directions, AreNoneWhereTwoFansMeet) {
   shapes.add_box({1, 1, 1}, {2, 2, 2}, {2, 2, 2}, examples::Fluid::outside);
   shapes.merge_points();
   const mesh::DistributedMesh mesh = shapes.distribute(self, 3);
-  const Directed directed(self, mesh, layers_on(2));
+  const Directed directed(mesh, layers_on(2));
   int broken = 0;
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     if (directed.fans.kinds[v] == FanKind::plain) continue;

@@ -58,7 +58,7 @@ TEST(Fans, HaveTheTrianglesOfAllPieces) {
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7),
                               whole = cube_in_a_box().distribute(self, 1);
-  const auto alone = fans_by_place(self, whole, layers_on(2));
+  const auto alone = fans_by_place(whole, layers_on(2));
   for (const auto& [place, known] : fans_by_place(mesh, layers_on(2))) {
     EXPECT_EQ(known.kind, FanKind::plain);
     EXPECT_TRUE(known == alone.at(place));

@@ -30,7 +30,7 @@ LayerOptions layers_on_plates() {
 /// Columns of a wall that nobody has told of gaps.
 struct Unaware {
   Unaware(const mesh::DistributedMesh& mesh)
-      : wall(mesh.communicator, mesh, layers_on_plates()),
+      : wall(mesh, layers_on_plates()),
         fans(gather_fans(wall)),
         directions(find_directions(wall, fans)),
         limits(wall, layers_on_plates(), fans, directions) {

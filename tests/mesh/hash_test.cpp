@@ -27,9 +27,9 @@ TEST(Hash, IsTheSameForAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   for (const int pieces : {1, 2, 7, 30}) {
-    EXPECT_EQ(hash_of(examples::cube(world, 4, pieces)), hash_of(self, examples::cube(self, 4, pieces)));
+    EXPECT_EQ(hash_of(examples::cube(world, 4, pieces)), hash_of(examples::cube(self, 4, pieces)));
     EXPECT_EQ(hash_of(examples::cube_surface(world, 4, pieces)),
-              hash_of(self, examples::cube_surface(self, 4, pieces)));
+              hash_of(examples::cube_surface(self, 4, pieces)));
   }
 }
 
@@ -52,9 +52,9 @@ void with_each_flip(std::vector<T>& values, std::size_t stride, const std::funct
 TEST(HashLocal, ChangesWithAnyBitThatIsFlipped) {
   const auto self = Communicator::self();
   auto mesh = examples::cube(self, 2, 3);
-  const Numbering numbering = number_mesh(self, mesh);
-  std::set<std::string> seen{hash_mesh(self, mesh, numbering)};
-  const auto is_new = [&] { EXPECT_TRUE(seen.insert(hash_mesh(self, mesh, numbering)).second); };
+  const Numbering numbering = number_mesh(mesh);
+  std::set<std::string> seen{hash_mesh(mesh, numbering)};
+  const auto is_new = [&] { EXPECT_TRUE(seen.insert(hash_mesh(mesh, numbering)).second); };
   // Piece 0 owns all its vertices.
   Piece& piece = mesh.pieces[0];
   with_each_flip(piece.coordinates, 5, is_new);
@@ -68,8 +68,8 @@ TEST(HashLocal, ChangesWithAnyBitThatIsFlipped) {
 TEST(HashLocal, ChangesWithAnyOtherVertexOfACellOrTriangle) {
   const auto self = Communicator::self();
   auto mesh = examples::cube(self, 2, 3);
-  const Numbering numbering = number_mesh(self, mesh);
-  std::set<std::string> seen{hash_mesh(self, mesh, numbering)};
+  const Numbering numbering = number_mesh(mesh);
+  std::set<std::string> seen{hash_mesh(mesh, numbering)};
   Piece& piece = mesh.pieces[2];
   for (auto* indices : {&piece.cells, &piece.boundary}) {
     for (std::size_t i = 0; i < indices->size(); i += 3) {
@@ -77,7 +77,7 @@ TEST(HashLocal, ChangesWithAnyOtherVertexOfACellOrTriangle) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
         if (v == kept) continue;
         (*indices)[i] = v;
-        EXPECT_TRUE(seen.insert(hash_mesh(self, mesh, numbering)).second);
+        EXPECT_TRUE(seen.insert(hash_mesh(mesh, numbering)).second);
       }
       (*indices)[i] = kept;
     }
@@ -87,11 +87,11 @@ TEST(HashLocal, ChangesWithAnyOtherVertexOfACellOrTriangle) {
 TEST(HashLocal, ChangesWithOrderNamesAndMissingItems) {
   const auto self = Communicator::self();
   const auto original = examples::cube(self, 2, 3);
-  std::set<std::string> seen{hash_of(self, original)};
+  std::set<std::string> seen{hash_of(original)};
   const auto expect_new = [&](const std::function<void(DistributedMesh&)>& change) {
     auto mesh = original;
     change(mesh);
-    EXPECT_TRUE(seen.insert(hash_of(self, mesh)).second);
+    EXPECT_TRUE(seen.insert(hash_of(mesh)).second);
   };
   expect_new(
       [](auto& m) { std::swap_ranges(&m.pieces[0].cells[0], &m.pieces[0].cells[4], &m.pieces[0].cells[4]); });

@@ -186,8 +186,7 @@ void expect_same(const MixedQuality& a, const MixedQuality& b) {
 TEST(MixedQuality, TheSameForAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world(), self = Communicator::self();
-  expect_same(quality_of(examples::mixed_mesh(world, 4, 5)),
-              quality_of(self, examples::mixed_mesh(self, 4, 5)));
+  expect_same(quality_of(examples::mixed_mesh(world, 4, 5)), quality_of(examples::mixed_mesh(self, 4, 5)));
 }
 
 TEST(MixedQuality, PercentilesOfKnownValues) {

@@ -119,7 +119,7 @@ QualitySummary summary_of(const DistributedMesh& mesh) {
 TEST(QualitySummary, IsTheSameBitsForAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
-  const auto a = summary_of(examples::cube(world, 5, 7)), b = summary_of(self, examples::cube(self, 5, 7));
+  const auto a = summary_of(examples::cube(world, 5, 7)), b = summary_of(examples::cube(self, 5, 7));
   expect_same(a.min_dihedral, b.min_dihedral);
   expect_same(a.max_dihedral, b.max_dihedral);
   expect_same(a.mean_ratio, b.mean_ratio);
@@ -146,7 +146,7 @@ TEST(QualitySummary, AgreesWithSortedValues) {
     }
   }
   std::sort(angles.begin(), angles.end());
-  const auto summary = summary_of(self, mesh);
+  const auto summary = summary_of(mesh);
   const Distribution& found = summary.min_dihedral;
   const auto count = angles.size();
   EXPECT_EQ(found.minimum, angles.front().first);
@@ -180,7 +180,7 @@ TEST(QualitySummary, OfASurface) {
 }
 
 TEST(QualitySummary, OfAnEmptyMesh) {
-  DistributedMesh mesh(world);
+  DistributedMesh mesh(parallel::Communicator::world());
   const auto summary = summary_of(mesh);
   EXPECT_EQ(summary.min_dihedral.minimum, 0);
   EXPECT_EQ(summary.mean_ratio.mean, 0);
@@ -208,9 +208,9 @@ TEST(QualitySummary, TellsTheCellsBeyondAngles) {
 TEST(QualitySummary, CountsACellThatIsNoNumberAsFlat) {
   const auto self = Communicator::self();
   auto mesh = examples::two_tets(self);
-  const Numbering numbering = number_mesh(self, mesh);
+  const Numbering numbering = number_mesh(mesh);
   mesh.pieces[0].coordinates[3 * mesh.pieces[0].cells[3]] = std::numeric_limits<double>::quiet_NaN();
-  const auto summary = summarise_quality(self, mesh, numbering);
+  const auto summary = summarise_quality(mesh, numbering);
   EXPECT_EQ(summary.mean_ratio.minimum, 0);
   EXPECT_EQ(summary.worst[0].cell, 0);
 }

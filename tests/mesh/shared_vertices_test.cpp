@@ -83,7 +83,7 @@ void expect_sums(const Held& held, const Lists& all, const SharedVertices& share
 TEST(SharedVertices, KnowWhoOwnsAndWhoShares) {
   const Communicator world = Communicator::world();
   const Held held(world);
-  const SharedVertices shared(held.keyed);
+  const SharedVertices shared(world, held.keyed);
   ASSERT_EQ(shared.size(), held.keys.size());
   for (std::size_t p = 0; p < held.pieces.size(); ++p) {
     for (std::size_t c = shared.first(p); c < shared.first(p + 1); ++c) {
@@ -100,7 +100,7 @@ TEST(SharedVertices, KnowWhoOwnsAndWhoShares) {
 TEST(SharedVertices, SumInTheOrderOfPieces) {
   const Communicator world = Communicator::world();
   const Held held(world);
-  expect_sums(held, lists, SharedVertices(held.keyed));
+  expect_sums(held, lists, SharedVertices(world, held.keyed));
 }
 
 TEST(SharedVertices, MayAllBeOnOneRank) {
@@ -121,7 +121,7 @@ TEST(SharedVertices, SumManyInTheOrderOfPieces) {
   }
   const Communicator world = Communicator::world();
   const Held held(world, many);
-  expect_sums(held, many, SharedVertices(held.keyed));
+  expect_sums(held, many, SharedVertices(world, held.keyed));
 }
 
 TEST(SharedVertices, TakeValuesOfAnyKind) {
@@ -132,7 +132,7 @@ TEST(SharedVertices, TakeValuesOfAnyKind) {
   };
   const Communicator world = Communicator::world();
   const Held held(world);
-  const SharedVertices shared(held.keyed);
+  const SharedVertices shared(world, held.keyed);
   std::vector<Far> copies;
   for (const PieceId piece : held.piece_of_copy) copies.push_back({-1.5 * piece, piece});
   shared.reduce_and_scatter(copies,
@@ -145,7 +145,7 @@ TEST(SharedVertices, TakeValuesOfAnyKind) {
 
 TEST(SharedVertices, OfNoPieces) {
   const Communicator world = Communicator::world();
-  const SharedVertices shared(std::span<const KeyedVertices>());
+  const SharedVertices shared(world, std::span<const KeyedVertices>());
   EXPECT_EQ(shared.size(), 0u);
   std::vector<double> copies;
   shared.reduce_and_scatter(copies, std::plus<>());
@@ -157,7 +157,7 @@ TEST(SharedVertices, RefuseAKeyTwiceInAPiece) {
   twice[3].push_back(13);
   const Held held(world, twice);
   try {
-    SharedVertices(held.keyed);
+    SharedVertices(world, held.keyed);
     FAIL() << "no rank may go on";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_STREQ(error.what(), "shared vertices: vertices 10 and 13 of piece 3 are the same");

@@ -112,7 +112,7 @@ TEST(VolumeValidity, HasTheSameBitsOfVolumeOnOneRank) {
   const auto world = Communicator::world(), self = Communicator::self();
   const auto here = examples::cube(world, 4, 7), alone = examples::cube(self, 4, 7);
   const auto a = check_volume_mesh(here, number_mesh(here), nullptr);
-  const auto b = check_volume_mesh(self, alone, number_mesh(self, alone), nullptr);
+  const auto b = check_volume_mesh(alone, number_mesh(alone), nullptr);
   EXPECT_EQ(a.volume, b.volume);
   EXPECT_EQ(a.surface_volume, b.surface_volume);
 }

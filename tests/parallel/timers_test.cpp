@@ -203,7 +203,7 @@ TEST(StageClockTest, IsTheClockOfItsThread) {
   add_task_cpu(1.5);
   add_serial_cpu(0.5);
   begin_round();
-  note_task({.kind = "face"});
+  note_task({.kind = TaskKind::face});
   EXPECT_EQ(noted_tasks().size(), 1u);
   std::thread([] {
     const ScopedCpu scope(ScopedCpu::As::task);

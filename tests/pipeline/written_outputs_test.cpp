@@ -79,7 +79,6 @@ TEST(WrittenOutputsLocal, HaveTheNameOfTheirFormat) {
   EXPECT_TRUE(wants_vtk(output));
   output.formats = {io::FileFormat::su2};
   EXPECT_FALSE(wants_vtk(output));
-  EXPECT_TRUE(wants(output, io::FileFormat::su2));
 }
 
 }  // namespace

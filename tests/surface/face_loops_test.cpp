@@ -38,7 +38,7 @@ TEST(FaceLoopsLocal, PassACurveInsideTheFaceBothWays) {
                                       {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, {5, 10, 20, 30, 40}));
   surface.pieces.push_back(flat_piece(1, {{0, 0, 0}, {0.5, 0.5, 0}, {0, 0, 1}}, {0, 1, 2}, {10, 5, 50}));
   const std::vector<cad::FaceId> faces{0};
-  const auto loops = gather_loops(self, surface, faces);
+  const auto loops = gather_loops(surface, faces);
   ASSERT_EQ(loops.size(), 1u);
   const FaceLoops& square = loops.at(0);
   EXPECT_EQ(square.vertex_keys, (std::vector<SharedVertexKey>{5, 10, 20, 30, 40}));

@@ -38,7 +38,7 @@ protected:
     VolumeOptions options;
     options.piece_tets = 2000;
     problem = new Problem(*communicator, *surface, fields::uniform(0.14), options);
-    decomposition = new Decomposition(decompose(*communicator, problem->input()));
+    decomposition = new Decomposition(decompose(problem->input()));
     Decomposition::Data& data = decomposition->data();
     zones = new std::vector<Zone>;
     for (const SendPlan& batch : data.plan.batches) {

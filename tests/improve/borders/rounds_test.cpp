@@ -220,14 +220,14 @@ TEST(Cavities, MayChangeTheSurface) {
   const mesh::MeshCounts before = mesh::count_mesh(together, mesh::number_mesh(together));
   EXPECT_EQ(count_moved(together), 0);
   one_round(together, claim_for_surface(together), {}, slid);
-  one_round(self, alone, claim_for_surface(alone), {}, slid);
+  one_round(alone, claim_for_surface(alone), {}, slid);
   expect_valid(together);
   const mesh::MeshCounts after = mesh::count_mesh(together, mesh::number_mesh(together));
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.cells, before.cells);
   EXPECT_EQ(after.boundary_triangles, before.boundary_triangles);
   EXPECT_GT(count_moved(together), 10);
-  EXPECT_EQ(hash(together), hash(self, alone));
+  EXPECT_EQ(hash(together), hash(alone));
 }
 
 TEST(CavitiesLocal, RefuseAnotherBoundary) {
@@ -238,7 +238,7 @@ TEST(CavitiesLocal, RefuseAnotherBoundary) {
     result.tets.pop_back();
     return std::optional(result);
   };
-  EXPECT_THROW(one_round(self, mesh, claim_for_shared(mesh, 0), {}, without_one), parallel::CollectiveError);
+  EXPECT_THROW(one_round(mesh, claim_for_shared(mesh, 0), {}, without_one), parallel::CollectiveError);
 }
 
 TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
@@ -250,9 +250,9 @@ TEST(Cavities, AreTheSameForAnyNumberOfRanks) {
     const auto replace = shift == 1 ? divided : same;
     const CavityExtent reach{shift, shift == 2};
     one_round(together, claim_for_shared(together, shift), reach, replace);
-    one_round(self, alone, claim_for_shared(alone, shift), reach, replace);
+    one_round(alone, claim_for_shared(alone, shift), reach, replace);
   }
-  EXPECT_EQ(hash(together), hash(self, alone));
+  EXPECT_EQ(hash(together), hash(alone));
 }
 
 TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {

@@ -135,7 +135,7 @@ TEST(Forest, HasTheLeavesOfTheSmallestBalancedOctree) {
   for (const Splits& splits : examples()) {
     const Forest forest = grow(world, splits);
     const Octants expected = splits.leaves();
-    expect_sound(forest, expected);
+    expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);
   }
 }
@@ -152,7 +152,7 @@ TEST(Forest, IsPartitionedByWeight) {
                                                                                                       : 0);
     const Forest forest = partition_by_weight(world, grown, weights);
     const Octants expected = splits.leaves();
-    expect_sound(forest, expected);
+    expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);
     if (world.size() == 1 || expected.size() < 100 * static_cast<std::size_t>(world.size())) continue;
     const std::int64_t weighty = grown.count() - grown.count() / 2, share = weighty / world.size();

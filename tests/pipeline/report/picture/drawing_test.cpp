@@ -64,7 +64,7 @@ TEST(Drawing, ACutCoversTheSectionOfTheMesh) {
 
 /// A prism over the unit triangle as two layers, the upper one a pyramid and a tetrahedron.
 TEST(Drawing, ACutOfLayersHasTheirColour) {
-  mesh::DistributedMesh volume(world);
+  mesh::DistributedMesh volume(parallel::Communicator::world());
   volume.piece_count = 1;
   mesh::Piece& piece = volume.pieces.emplace_back();
   for (const double z : {0.0, 0.5, 1.0}) {

@@ -59,12 +59,11 @@ TEST(Places, AreTheSameOnOneRank) {
   NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world();
   const auto self = Communicator::self();
-  const Places wing = places_of(examples::wing_in_box(world)),
-               alone = places_of(self, examples::wing_in_box(self));
+  const Places wing = places_of(examples::wing_in_box(world)), alone = places_of(examples::wing_in_box(self));
   EXPECT_EQ(wing.leading_edge->point, alone.leading_edge->point);
   EXPECT_EQ(wing.leading_edge->along, alone.leading_edge->along);
   const Places step = places_of(examples::step_in_box(world)),
-               step_alone = places_of(self, examples::step_in_box(self));
+               step_alone = places_of(examples::step_in_box(self));
   EXPECT_EQ(step.junction->point, step_alone.junction->point);
   EXPECT_EQ(step.leading_edge->point, step_alone.leading_edge->point);
 }
