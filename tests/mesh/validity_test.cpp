@@ -294,7 +294,7 @@ TEST(VolumeValidity, RefusesANumberingOfAnotherMesh) {
 
 TEST(VolumeValidity, FindsAMeshWithoutTetrahedra) {
   const auto world = Communicator::world();
-  const DistributedMesh mesh;
+  const DistributedMesh mesh(world);
   const auto report = check_volume_mesh(mesh, number_mesh(mesh), nullptr);
   EXPECT_EQ(joined(report.violations), "the mesh has no tetrahedra\n");
 }

@@ -5,7 +5,7 @@ import pty
 import re
 import sys
 
-from program import COARSE_WING
+from program import COARSE_TRANSPORT, COARSE_WING
 from shell import Shell
 
 
@@ -34,11 +34,11 @@ def on_terminal(shell, line, **environment):
 def check_progress(shell):
     """On a terminal one line that leaves nothing behind; plain lines, here too few to show, where that is asked for."""
     erase = "\r\x1b[K"
-    text = on_terminal(shell, "run quick.yaml --set output.directory=quick")
+    text = on_terminal(shell, "run slow.yaml --set output.directory=slow")  # long enough to show progress
     assert re.search(re.escape(erase) + r"(sizing|surface|volume|improve) +\d+ %  \d+ [a-z ]+  \d+ MB  \d+\.\d s", text), text
     left = [line.split(erase)[-1] for line in text.split("\n")]
     assert not any(re.search(r" \d+ MB  ", line) for line in left), left
-    facts = [line for line in shell.run("run quick.yaml --set output.directory=quick")[1].split("\n") if re.match("(geometry|sizing|surface|hash):", line)]
+    facts = [line for line in shell.run("run slow.yaml --set output.directory=slow")[1].split("\n") if re.match("(geometry|sizing|surface|hash):", line)]
     assert [line for line in facts if "MB" not in line and line not in left] == [], left
     for how in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
         assert "\x1b" not in on_terminal(shell, "run quick.yaml --set output.directory=quick", **how)
@@ -48,6 +48,7 @@ def check_progress(shell):
 def main():
     shell = Shell(sys.argv[1])
     (shell.folder / "quick.yaml").write_text(COARSE_WING + "output: {pictures: false}\n")
+    (shell.folder / "slow.yaml").write_text(COARSE_TRANSPORT + "output: {pictures: false}\n")
     check_progress(shell)
 
 
