@@ -27,8 +27,8 @@ FORMATS = {
     "VTKHDF": "vtkhdf", "CGNS": "cgns", "UGRID": "ugrid", "SU2": "su2", "MSH": "msh", "Medit": "meshb", "OpenFOAM": "foam",
 }
 # The tables: what a file of the table is called, and its rows.
-WRITTEN = ("file_formats.hpp", re.compile(r'\{FileFormat::\w+, "\w+", "[^"]*\.(\w+)"\}'))
-READ = [("read_mesh.cpp", re.compile(r'\{"\.(\w+)", read_\w+\}')), ("read_facets.cpp", re.compile(r'\{"\.(\w+)", read_\w+\}')),
+WRITTEN = ("file_formats.cpp", re.compile(r'\.ends = \{"[^"]*\.(\w+)"'))
+READ = [("file_formats.cpp", re.compile(r'\{"\.(\w+)", "[^"]+"\}')), ("read_facets.cpp", re.compile(r'\{"\.(\w+)", read_\w+\}')),
         ("cad_reader.cpp", re.compile(r'return "([A-Z]+)";'))]
 EXPORTED = {"STEP": "export_cad_command.cpp"}  # what a command writes that no table has
 
@@ -201,8 +201,7 @@ def violations(root):
 
 
 SOURCES = {
-    "io/file_formats.hpp": '{FileFormat::cgns, "cgns", ".cgns"},\n{FileFormat::su2, "su2", ".su2"},\n',
-    "io/read_mesh.cpp": 'constexpr NamedReader readers[] = {{".su2", read_su2}};\n',
+    "io/file_formats.cpp": '.ends = {".cgns"},\n.ends = {".su2"},\n.readable_ends = {{{".su2", "SU2, text"}}},\n',
     "cad/read_facets.cpp": '{{".stl", read_stl}}\n',
     "cad/cad_reader.cpp": 'return "STEP";\n',
     "docs/configuration/layers.md": "| `layers.first` | – | number | Height. |\n| `improve.gate.min` | – | number | Least. |\n",
