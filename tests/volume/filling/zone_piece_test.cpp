@@ -42,7 +42,7 @@ protected:
     Decomposition::Data& data = decomposition->data();
     zones = new std::vector<Zone>;
     for (const SendPlan& batch : data.plan.batches) {
-      for (ZoneInput& input : gather_zone_inputs(*communicator, *data.lattice, data.shell, batch)) {
+      for (ZoneInput& input : gather_zone_inputs(*data.lattice, data.shell, batch)) {
         ZoneFilling filling = fill_zone_in_child(input.problem, parallel::Fault::none);
         if (!filling.filled) throw std::runtime_error(filling.failure);
         ZoneResult result = make_pieces(input, filling);
