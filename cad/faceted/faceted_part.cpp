@@ -2,6 +2,7 @@
 
 #include "cad/faceted/sharp_seams.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ std::vector<double> curvatures_along(const FacetComplex& complex, const FacetedE
     const Vec3 a = complex.points[edge.points[i]] - complex.points[edge.points[before]];
     const Vec3 b = complex.points[edge.points[after]] - complex.points[edge.points[i]];
     const double length = norm(a) + norm(b);
-    if (length > 0) turns[i] = 2 * std::atan2(norm(cross(a, b)), dot(a, b)) / length;
+    if (length > 0) turns[i] = 2 * angle_between(a, b) / length;
   }
   if (!closed && count > 2) turns.front() = turns[1], turns.back() = turns[count - 2];
   std::vector<double> smooth = turns;

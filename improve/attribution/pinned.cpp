@@ -36,7 +36,7 @@ double largest_allowed(double target) {
 }
 
 double corner_angle(Vec3 apex, Vec3 a, Vec3 b) {
-  return geometry::degrees_per_radian * std::atan2(norm(cross(a - apex, b - apex)), dot(a - apex, b - apex));
+  return geometry::degrees_per_radian * angle_between(a - apex, b - apex);
 }
 
 class PinnedSearch {

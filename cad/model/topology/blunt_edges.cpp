@@ -50,10 +50,6 @@ Vec3 direction_at(const Model& model, const Coedge& use, bool at_start) {
   return normalized(at_start ? inner - outer : outer - inner);
 }
 
-double angle_between(Vec3 a, Vec3 b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
 /// The loop cut at its corners; nothing where it has none.
 std::vector<Run> cut_at_corners(const Model& model, const std::vector<Coedge>& loop) {
   const std::size_t count = loop.size();
