@@ -26,7 +26,7 @@ namespace {
 constexpr double deflection_over_size = 0.1, deflection_over_diagonal = 1e-4;
 /// Of the diagonal, however small sizes are: the built-in aircraft has 100,000 triangles then.
 constexpr double least_deflection = 5e-5;
-constexpr double facet_angle = 12 * geometry::degree;
+constexpr double most_facet_angle = 12 * geometry::degree;
 /// Where bodies come near each other, triangles are made as much finer in turn.
 constexpr double finer[] = {1, 0.25, 0.0625};
 
@@ -142,7 +142,7 @@ private:
 
   const ShapeFacets& triangulate(CadBody& body, double share) {
     if (body.share == 0 || body.share > share) {
-      body.facets = facets_of(body.solid, _labels, {share * deflection(body), facet_angle});
+      body.facets = facets_of(body.solid, _labels, {share * deflection(body), most_facet_angle});
       body.share = share;
     }
     return body.facets;

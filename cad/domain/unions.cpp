@@ -142,8 +142,8 @@ Vec3 meeting_place(const Box& a, const Box& b) {
   return middle;
 }
 
-[[noreturn]] void refuse(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
-                         const std::string& fault) {
+[[noreturn]] void refuse_union(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
+                               const std::string& fault) {
   const Box box = tight_box(solid);
   const TopoDS_Solid* nearest = &united.front();
   double most = -std::numeric_limits<double>::max();
@@ -206,7 +206,7 @@ std::vector<TopoDS_Solid> unite_with(const Solids& united, const TopoDS_Solid& s
     labels = std::move(found->labels);
     return std::move(found->solids);
   }
-  refuse(united, solid, labels, first_fault);
+  refuse_union(united, solid, labels, first_fault);
 }
 
 }  // namespace aeroloom::cad

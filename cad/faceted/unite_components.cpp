@@ -91,7 +91,7 @@ double enclosed_by(const ClosedSurface& surface) {
 }
 
 /// A component on its own, normals outwards.
-ClosedSurface surface_of(const FacetSoup& soup, const std::vector<std::int32_t>& triangles) {
+ClosedSurface component_surface(const FacetSoup& soup, const std::vector<std::int32_t>& triangles) {
   ClosedSurface surface;
   std::map<std::int32_t, std::int32_t> number;
   for (const std::int32_t t : triangles) {
@@ -159,7 +159,8 @@ private:
   geometry::UnitedSurface unite(const std::vector<std::int32_t>& group) const {
     std::vector<ClosedSurface> surfaces;
     surfaces.reserve(group.size());
-    for (const std::int32_t component : group) surfaces.push_back(surface_of(_soup, _members[component]));
+    for (const std::int32_t component : group)
+      surfaces.push_back(component_surface(_soup, _members[component]));
     tell_step(fmt::format("uniting {} and {} others", name(group.front()), group.size() - 1));
     try {
       return geometry::unite_surfaces(surfaces, tolerances::exact_volume);

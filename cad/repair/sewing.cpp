@@ -288,11 +288,10 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
       continue;
     }
     for (const auto& [index, noise] : attempt.left_out) {
-      const FaceLabel* label = labels.Seek(faces(index));
       changes.push_back(
           {fmt::format("strip '{}', {:.4g} long and at most {:.4g} wide, is below the noise: left out and "
                        "its sides sewn",
-                       label ? shown_name(*label) : std::string(), noise.length, noise.widest),
+                       shown_name(labels, faces(index)), noise.length, noise.widest),
            noise.place, noise.widest});
     }
     const double gap = tell_sewn(sewn, attempt.faces.Extent(), changes);
