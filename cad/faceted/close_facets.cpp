@@ -6,6 +6,7 @@
 #include "cad/tolerances.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -37,8 +38,7 @@ public:
       _room[a] = std::min(_room[a], room), _room[b] = std::min(_room[b], room);
       _points.push_back(a), _points.push_back(b);
     }
-    std::sort(_points.begin(), _points.end());
-    _points.erase(std::unique(_points.begin(), _points.end()), _points.end());
+    geometry::sort_unique(_points);
     for (const std::int32_t p : _points) _boxes.emplace_back().add(soup.points[p]);
     _tree = geometry::BoxTree(_boxes, 8);
   }

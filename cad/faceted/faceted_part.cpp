@@ -3,6 +3,7 @@
 #include "cad/faceted/sharp_seams.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,8 +85,7 @@ void FacetedPart::collect_faces() {
       face.sheet_count = std::max(face.sheet_count, high - low + 1);
       face.points.insert(face.points.end(), _complex.triangles[t].begin(), _complex.triangles[t].end());
     }
-    std::sort(face.points.begin(), face.points.end());
-    face.points.erase(std::unique(face.points.begin(), face.points.end()), face.points.end());
+    geometry::sort_unique(face.points);
     std::vector<Vec3> points;
     points.reserve(face.points.size());
     for (const std::int32_t p : face.points) {

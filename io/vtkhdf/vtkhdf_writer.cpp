@@ -1,5 +1,6 @@
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "io/vtk_order.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -136,8 +137,7 @@ std::vector<mesh::LocalIndex> vertices_of_faces(const FilePart& part) {
   std::vector<mesh::LocalIndex> used;
   for (const Block& block : part.faces)
     used.insert(used.end(), block.connectivity.begin(), block.connectivity.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  geometry::sort_unique(used);
   return used;
 }
 

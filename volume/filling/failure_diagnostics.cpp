@@ -1,5 +1,7 @@
 #include "volume/filling/failure_diagnostics.hpp"
 
+#include "geometry/sort_unique.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -26,8 +28,7 @@ std::vector<std::int32_t> own_triangles(const ZoneProblem& problem) {
 }
 
 std::string name_faces(std::vector<std::int32_t> faces, const mesh::DistributedMesh& surface) {
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  geometry::sort_unique(faces);
   std::string text = faces.empty() ? "" : "; CAD faces:";
   for (std::size_t i = 0; i < std::min(faces.size(), most_names); ++i)
     text += " '" + surface.faces[faces[i]] + "'";
@@ -51,12 +52,9 @@ struct Soup {
 std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
                                     std::span<const SurfaceTriangle> mine) {
   std::vector<SurfaceTriangle> all = communicator.all_gather_items<SurfaceTriangle>(mine);
-  std::sort(all.begin(), all.end(),
-            [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
-  all.erase(
-      std::unique(all.begin(), all.end(),
-                  [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; }),
-      all.end());
+  geometry::sort_unique(
+      all, [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; },
+      [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; });
   return all;
 }
 
