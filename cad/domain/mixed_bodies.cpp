@@ -11,6 +11,7 @@
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +76,7 @@ public:
             bodies[i], [&](double share) -> const FacetSoup& { return triangulate(bodies[j], share).soup; });
         if (found.meeting != FacetMeeting::near) continue;
         throw CadError(fmt::format("{}; nor do their triangles tell whether they touch near {}",
-                                   refused.reason, shown_place(found.at)));
+                                   refused.reason, geometry::place_text(found.at)));
       }
     }
     for (CadBody& body : bodies) take(body, refused.reason);
@@ -172,7 +173,7 @@ private:
           fmt::format("the bodies '{}' and '{}' are so near each other at {} that triangles do not tell "
                       "whether they touch. "
                       "Remedy: move one of them so that they overlap clearly or stay apart",
-                      name_of_soup(body.facets.soup), name_of_soup(soup), shown_place(found.at)));
+                      name_of_soup(body.facets.soup), name_of_soup(soup), geometry::place_text(found.at)));
     }
     return std::nullopt;
   }

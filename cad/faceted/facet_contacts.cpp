@@ -243,10 +243,6 @@ FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& 
   return {all.size(), shown.first, shown.second};
 }
 
-std::string shown_place(Vec3 at) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
-}
-
 Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle) {
   const auto& [a, b, c] = soup.triangles[triangle];
   return (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;

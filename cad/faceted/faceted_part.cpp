@@ -3,6 +3,7 @@
 #include "cad/faceted/sharp_seams.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
+#include "geometry/place_text.hpp"
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
@@ -151,10 +152,10 @@ void FacetedPart::trace_loops() {
     for (const FacetedUse& use : _edges[e].uses) {
       if (std::find(use.half_edges.begin(), use.half_edges.end(), -1) != use.half_edges.end()) {
         const Vec3 at = _complex.points[_edges[e].points.front()];
-        throw CadError(fmt::format(
-            "face '{}' ends part of the way along the edge from ({:.6g}, {:.6g}, {:.6g}). Remedy: repair the "
-            "triangles there in the program that made the file",
-            _complex.faces[use.face].name, at.x, at.y, at.z));
+        throw CadError(
+            fmt::format("face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
+                        "there in the program that made the file",
+                        _complex.faces[use.face].name, geometry::place_text(at)));
       }
       geometry::HalfEdge h = use.reversed ? use.half_edges.back() : use.half_edges.front();
       if (seen[h]) continue;

@@ -1,6 +1,7 @@
 #include "cad/faceted/sharp_seams.hpp"
 
 #include "cad/faceted/facet_links.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -212,10 +213,10 @@ void divide_at_sharp_seams(FacetComplex& complex) {
     if (round == most_rounds) {
       const auto& [face, curve] = passes.begin()->first;
       const Vec3 at = complex.points[complex.curves[curve].points.front()];
-      throw CadError(fmt::format(
-          "a sharp edge from ({:.6g}, {:.6g}, {:.6g}) has face '{}' on both sides, which cannot be divided. "
-          "Remedy: another geometry.feature_angle, or finer triangles there",
-          at.x, at.y, at.z, complex.faces[face].name));
+      throw CadError(
+          fmt::format("a sharp edge from {} has face '{}' on both sides, which cannot be divided. Remedy: "
+                      "another geometry.feature_angle, or finer triangles there",
+                      geometry::place_text(at), complex.faces[face].name));
     }
     std::vector<std::int32_t> label = label_by_side(complex, links, passes);
     straighten_borders(complex, links, passes, label);

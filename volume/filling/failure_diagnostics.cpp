@@ -1,5 +1,6 @@
 #include "volume/filling/failure_diagnostics.hpp"
 
+#include "geometry/place_text.hpp"
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
@@ -78,9 +79,8 @@ void FailureDiagnostics::note(const ZoneInput& input, const mesh::DistributedMes
   for (std::size_t v = 0; v < problem.points.size(); ++v) {
     if (problem.owners[v] == Owner::mine) box.add(problem.points[v]);
   }
-  item.message = fmt::format(
-      "zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ", input.zone,
-      box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+  item.message = fmt::format("zone {} between {} and {} cannot be filled: ", input.zone,
+                             geometry::place_text(box.low), geometry::place_text(box.high));
   item.message += item.has_defect
                       ? defect.what + describe_triangles(part, triangles) + "\nThe mesher said: " + reason +
                             "\nUse smaller elements there, so that surfaces close to each other are "
@@ -174,8 +174,8 @@ void refuse_surface(const Contradiction& contradiction, std::span<const SurfaceT
   const Vec3 p = contradiction.place;
   throw VolumeFailure(
       fmt::format(
-          "{}: ({:.6g}, {:.6g}, {:.6g}) is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
-          intersects ? "the surface intersects itself" : "the surface has a gap", p.x, p.y, p.z,
+          "{}: {} is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
+          intersects ? "the surface intersects itself" : "the surface has a gap", geometry::place_text(p),
           name_region(contradiction.seen), name_region(contradiction.elsewhere),
           describe_triangles({soup.points, soup.triangles}, all),
           "Use smaller elements there, so that surfaces close to each other are resolved, or repair the "

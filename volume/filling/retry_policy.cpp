@@ -1,5 +1,6 @@
 #include "volume/filling/retry_policy.hpp"
 
+#include "geometry/place_text.hpp"
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
@@ -247,8 +248,8 @@ void RetryPolicy::note_places(std::span<const DisputedPlace> places) {
     const DisputedPlace& place = places[next++];
     const Vec3 where = _lattice.frame.to_space(0.5 * (leaf.box.low + leaf.box.high));
     _report.disagreements.push_back({where, place.zones.front(), place.faces, _rounds_of_reassignment});
-    parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
-                                      place.faces, place.zones.size(), where.x, where.y, where.z));
+    parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around {}", place.faces,
+                                      place.zones.size(), geometry::place_text(where)));
   }
 }
 
@@ -275,10 +276,9 @@ void RetryPolicy::merge_those_around(std::span<const DisputedPlace> places, Chan
       const Vec3 where = _report.disagreements[_report.disagreements.size() - places.size() + i].place;
       throw parallel::CollectiveError(
           parallel::FailureKind::input,
-          fmt::format(
-              "the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) fit together in no way that was tried. Use "
-              "other sizes there, or another piece size (VolumeOptions::piece_tets)",
-              where.x, where.y, where.z));
+          fmt::format("the tetrahedra around {} fit together in no way that was tried. Use other sizes "
+                      "there, or another piece size (VolumeOptions::piece_tets)",
+                      geometry::place_text(where)));
     }
     for (const ZoneIndex z : left) touch_all(z, changed);
     for (const ZoneIndex z : left) {
