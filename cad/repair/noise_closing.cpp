@@ -8,7 +8,6 @@
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <optional>

@@ -4,7 +4,6 @@
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

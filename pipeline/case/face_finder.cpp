@@ -7,7 +7,6 @@
 #include "pipeline/case/nearest_name.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 #include "sizing/features/segment_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace aeroloom::sizing {

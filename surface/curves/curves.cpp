@@ -11,7 +11,6 @@
 #include "surface/curves/tip_alignment.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <stdexcept>

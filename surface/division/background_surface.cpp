@@ -2,7 +2,6 @@
 
 #include "geometry/angle.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace aeroloom::partition {

@@ -4,7 +4,6 @@
 #include "surface/remesh/face_remesher.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace aeroloom::surface {

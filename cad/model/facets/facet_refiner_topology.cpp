@@ -2,7 +2,6 @@
 #include "geometry/angle.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <tuple>
 

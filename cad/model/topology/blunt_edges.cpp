@@ -7,7 +7,6 @@
 #include "geometry/angle.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
