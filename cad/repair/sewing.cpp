@@ -2,6 +2,7 @@
 
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "cad/repair/caps.hpp"
 #include "cad/repair/noise.hpp"
