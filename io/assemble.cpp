@@ -26,7 +26,6 @@ using mesh::PointTable;
 
 /// Cells of a part where nothing else decides.
 constexpr GlobalIndex suitable_part_cells = 250'000;
-constexpr GlobalIndex largest_id = GlobalIndex{1} << 62;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& what) {
   throw parallel::CollectiveError(parallel::FailureKind::input, fmt::format("'{}': {}", path, what));

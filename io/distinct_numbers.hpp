@@ -1,10 +1,10 @@
 /// The different numbers among many, of all ranks. Internal to io/.
 #pragma once
 
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/communicator.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,8 +22,7 @@ std::vector<Number> distinct_numbers(const parallel::Communicator& communicator,
                                      const std::string& complaint) {
   std::vector<Number> found;
   const auto is_too_many = [&] {
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    geometry::sort_unique(found);
     return found.size() > most;
   };
   bool fails = false;

@@ -1,5 +1,6 @@
 #include "io/raw_faces.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/piece_faces.hpp"
 #include "mesh/exchange/rendezvous.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -208,8 +209,7 @@ public:
     std::vector<Use> uses;
     uses.reserve(found.size());
     for (const BoundaryFace& face : found) uses.push_back(use_of(face));
-    std::sort(uses.begin(), uses.end());
-    uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+    geometry::sort_unique(uses);
     uses = communicator.all_gather_items(std::span<const Use>(uses));
     std::sort(uses.begin(), uses.end());
     const auto given = static_cast<std::int32_t>(_patches.size());
@@ -271,13 +271,9 @@ struct ModelFace {
 
 /// The different ones of all ranks, ascending. Collective.
 std::vector<ModelFace> all_faces(const parallel::Communicator& communicator, std::vector<ModelFace> faces) {
-  const auto sort_unique = [&] {
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  };
-  sort_unique();
+  geometry::sort_unique(faces);
   faces = communicator.all_gather_items(std::span<const ModelFace>(faces));
-  sort_unique();
+  geometry::sort_unique(faces);
   return faces;
 }
 

@@ -11,8 +11,11 @@
 
 namespace aeroloom::io {
 
+/// Of a point in a file.
+inline constexpr mesh::GlobalIndex largest_id = mesh::GlobalIndex{1} << 62;
+
 /// The share of one rank. Shares follow each other by rank: the order of the file is that of all shares one
-/// after another. Points are known by the ids of the file: any distinct numbers from 0 to 2^62.
+/// after another. Points are known by the ids of the file: any distinct numbers from 0 to `largest_id`.
 struct RawMesh {
   std::vector<double> coordinates;           ///< (n,3)
   std::vector<mesh::GlobalIndex> point_ids;  ///< (n); a point may come several times, with the same bits

@@ -1,6 +1,7 @@
 #include "layers/gaps.hpp"
 
 #include "geometry/box_tree.hpp"
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/deliver.hpp"
 
 #include <algorithm>
@@ -111,8 +112,7 @@ std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vect
     for (const Vec3 corner : triangle.corners) box.add(corner);
     ranks.clear();
     geometry::for_each_overlap(tree, boxes, box, [&](std::int32_t i) { ranks.push_back(batches[i].rank); });
-    std::sort(ranks.begin(), ranks.end());
-    ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+    geometry::sort_unique(ranks);
     for (const std::int64_t rank : ranks) {
       triangle.rank = rank;
       triangles.push_back(triangle);

@@ -1,5 +1,6 @@
 #include "layers/layer_cells.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "layers/layer_piece.hpp"
 #include "mesh/data/piece_faces.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
@@ -85,8 +86,7 @@ public:
         if (is_on_boundary(piece.vertex_dimension[v])) _asked.push_back(piece.vertex_entity[v]);
       }
     }
-    std::sort(_asked.begin(), _asked.end());
-    _asked.erase(std::unique(_asked.begin(), _asked.end()), _asked.end());
+    geometry::sort_unique(_asked);
     const FrontTable::Fetched found = table.fetch(_asked);
     if (found.missing >= 0)
       throw parallel::CollectiveError(

@@ -18,7 +18,7 @@ constexpr double kept_jacobian = 0.5;  // of the scaled Jacobian at vanishing he
 constexpr double kept_angle = 0.6;     // of the wall triangle's smallest angle
 
 /// Twice the area of a triangle along its normal.
-Vec3 normal_of(const Level& level) {
+Vec3 doubled_area(const Level& level) {
   return cross(level[1] - level[0], level[2] - level[0]);
 }
 
@@ -140,7 +140,7 @@ struct Least {
 
   explicit Least(const TriangleColumns& columns) {
     const Level wall{columns[0].point, columns[1].point, columns[2].point};
-    determinant = kept_jacobian * corner_determinant(wall, normal_of(wall), columns);
+    determinant = kept_jacobian * corner_determinant(wall, doubled_area(wall), columns);
     cosine = std::cos(kept_angle * std::acos(largest_cosine(wall)));
   }
 };
@@ -168,7 +168,7 @@ bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least
     prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
   }
   return largest_cosine(front) <= least.cosine &&
-         corner_determinant(prism, normal_of(prism), columns) >= least.determinant;
+         corner_determinant(prism, doubled_area(prism), columns) >= least.determinant;
 }
 
 }  // namespace
@@ -179,11 +179,11 @@ std::int32_t good_layers(const TriangleColumns& columns) {
   const Least least(columns);
   Levels levels(columns);
   Level lower = levels.level();
-  Vec3 below = normal_of(lower);
+  Vec3 below = doubled_area(lower);
   for (std::int32_t k = 1; k <= most; ++k) {
     levels.advance();
     const Level& upper = levels.level();
-    const Vec3 above = normal_of(upper);
+    const Vec3 above = doubled_area(upper);
     if (!is_good_cell(columns, k, lower, upper, below, above)) return k - 1;
     if (k <= prisms && corner_determinant(upper, above, columns) < least.determinant) return k - 1;
     lower = upper;

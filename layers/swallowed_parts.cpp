@@ -2,6 +2,7 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,10 +36,8 @@ bool is_before(const FacePoint& a, const FacePoint& b) {
 }
 
 void keep_first_of_each_face(std::vector<FacePoint>& points) {
-  std::sort(points.begin(), points.end(), is_before);
-  points.erase(std::unique(points.begin(), points.end(),
-                           [](const FacePoint& a, const FacePoint& b) { return a.face == b.face; }),
-               points.end());
+  geometry::sort_unique(points, is_before,
+                        [](const FacePoint& a, const FacePoint& b) { return a.face == b.face; });
 }
 
 /// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.

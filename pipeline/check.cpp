@@ -1,12 +1,12 @@
 #include "pipeline/check.hpp"
 
+#include "geometry/place_text.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/domain/face_patches.hpp"
 #include "pipeline/domain/load_domain.hpp"
-#include "pipeline/domain/place_text.hpp"
 #include "pipeline/domain/size_domain.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/report/change_json.hpp"
@@ -98,9 +98,9 @@ std::string describe_reading(const cases::Case& input, const cad::Diagnosis& fou
       "      box {} to {}, {:.6g} x {:.6g} x {:.6g}\n"
       "      solids {}, shells {}, faces {}, edges {}\n",
       input.domain.file.empty() ? "the built-in aircraft" : input.domain.file, found.format,
-      found.unit_name.empty() ? "not declared" : found.unit_name, domain::place(found.bounds.low),
-      domain::place(found.bounds.high), size.x, size.y, size.z, found.counts.solids, found.counts.shells,
-      found.counts.faces, found.counts.edges);
+      found.unit_name.empty() ? "not declared" : found.unit_name, geometry::place_text(found.bounds.low),
+      geometry::place_text(found.bounds.high), size.x, size.y, size.z, found.counts.solids,
+      found.counts.shells, found.counts.faces, found.counts.edges);
 }
 
 std::string describe_findings(const CheckRecord& record) {
@@ -115,7 +115,7 @@ std::string describe_findings(const CheckRecord& record) {
   const cad::Model& model = record.diagnosis.domain->model;
   for (const FaceContact& contact : record.contacts) {
     text += fmt::format("      faces '{}' and '{}' meet near {}\n", model.face(contact.first).name,
-                        model.face(contact.second).name, domain::place(contact.where));
+                        model.face(contact.second).name, geometry::place_text(contact.where));
   }
   return text;
 }

@@ -1,7 +1,7 @@
 #include "pipeline/info_text.hpp"
 
+#include "geometry/place_text.hpp"
 #include "io/read_mesh.hpp"
-#include "pipeline/domain/place_text.hpp"
 #include "pipeline/report/change_json.hpp"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ constexpr std::size_t shown_names = 20;
 
 std::string box_text(const geometry::Box& box) {
   const geometry::Vec3 size = box.size();
-  return fmt::format("{} to {}, {:.6g} x {:.6g} x {:.6g}", domain::place(box.low), domain::place(box.high),
-                     size.x, size.y, size.z);
+  return fmt::format("{} to {}, {:.6g} x {:.6g} x {:.6g}", geometry::place_text(box.low),
+                     geometry::place_text(box.high), size.x, size.y, size.z);
 }
 
 geometry::Box scaled(const geometry::Box& box, double factor) {
@@ -68,7 +68,8 @@ std::string faces_text(const std::vector<cad::FaceFacts>& faces) {
   for (std::size_t i = 0; i < shown; ++i) {
     const cad::FacePlace& at = faces[i].place;
     text += fmt::format("{:<{}}  {:>10.4g}  {:<32}  {} to {}\n", faces[i].name, width, at.area,
-                        domain::place(at.centre), domain::place(at.box.low), domain::place(at.box.high));
+                        geometry::place_text(at.centre), geometry::place_text(at.box.low),
+                        geometry::place_text(at.box.high));
   }
   if (faces.size() > shown) text += fmt::format("and {} more: --json has all\n", faces.size() - shown);
   return text;

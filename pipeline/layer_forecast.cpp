@@ -1,9 +1,9 @@
 #include "pipeline/layer_forecast.hpp"
 
+#include "geometry/place_text.hpp"
 #include "layers/column_heights.hpp"
 #include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/layer_rules.hpp"
-#include "pipeline/domain/place_text.hpp"
 #include "pipeline/report/change_json.hpp"
 #include "sizing/features/model_sources.hpp"
 #include "sizing/features/ray_tree.hpp"
@@ -172,7 +172,7 @@ std::string describe_patch(const LayerForecast& forecast, const PatchLayerForeca
     text += fmt::format(
         "       no room for that on {:.3g} % of its area, where gaps are down to {:.3g} (near {}): heights "
         "grow slower, and on {:.3g} % layers are left out\n",
-        100 * narrow / patch.area, patch.narrowest_gap, domain::place(patch.narrowest_at),
+        100 * narrow / patch.area, patch.narrowest_gap, geometry::place_text(patch.narrowest_at),
         100 * patch.lacking_area / patch.area);
   return text;
 }

@@ -1,5 +1,6 @@
 #include "pipeline/stage_log.hpp"
 
+#include "geometry/place_text.hpp"
 #include "io/file_formats.hpp"
 #include "parallel/observation/log.hpp"
 #include "pipeline/case/option_keys.hpp"
@@ -69,11 +70,10 @@ void log_closed_tips(const report::RunRecord& record) {
   const auto farthest = std::max_element(
       tips.begin(), tips.end(),
       [](const surface::ClosedTip& a, const surface::ClosedTip& b) { return a.moved < b.moved; });
-  log_info(
-      fmt::format("surface: {} tip(s) of faces between tangent curves closed, by at most {:.3g} (face "
-                  "'{}' at ({:.6g}, {:.6g}, {:.6g}))",
-                  tips.size(), farthest->moved, record.face_names.at(farthest->face), farthest->point.x,
-                  farthest->point.y, farthest->point.z));
+  log_info(fmt::format(
+      "surface: {} tip(s) of faces between tangent curves closed, by at most {:.3g} (face '{}' at {})",
+      tips.size(), farthest->moved, record.face_names.at(farthest->face),
+      geometry::place_text(farthest->point)));
 }
 
 }  // namespace
@@ -102,9 +102,8 @@ void log_needles(const report::RunRecord& record) {
     }
     others += group.needles;
     if (++listed > shown) continue;
-    places +=
-        fmt::format("; {} on '{}', {:.3g} degrees at ({:.6g}, {:.6g}, {:.6g})", group.needles,
-                    record.face_names.at(group.face), group.degrees, group.at.x, group.at.y, group.at.z);
+    places += fmt::format("; {} on '{}', {:.3g} degrees at {}", group.needles,
+                          record.face_names.at(group.face), group.degrees, geometry::place_text(group.at));
   }
   if (forced > 0) {
     log_info(

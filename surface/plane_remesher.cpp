@@ -1,5 +1,6 @@
 #include "surface/plane_remesher.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "surface/charts/support_mesher.hpp"
@@ -19,11 +20,6 @@ namespace {
 
 using cad::FaceId;
 using parallel::ScopedCpu;
-
-void make_unique(std::vector<mesh::SharedVertexKey>& keys) {
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-}
 
 /// New pieces of some faces.
 class PlaneRemesher {
@@ -136,7 +132,7 @@ private:
   PlaneConflicts gather_conflicts() const {
     PlaneConflicts all;
     all.vertices = _communicator.all_gather_items<mesh::SharedVertexKey>(_mine.vertices);
-    make_unique(all.vertices);
+    geometry::sort_unique(all.vertices);
     for (const std::string& complaint : _communicator.all_gather_values(_mine.complaint)) {
       if (all.complaint.empty()) all.complaint = complaint;
     }
@@ -146,8 +142,7 @@ private:
   /// The faces that are to be made again in one piece each, ascending, the same on every rank.
   std::vector<FaceId> leave_whole() {
     std::vector<FaceId> faces = _communicator.all_gather_items<FaceId>(_undivided);
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    geometry::sort_unique(faces);
     _undivided.clear();
     _dealer.leave_whole(faces);
     std::erase_if(_pieces, [&](const auto& entry) {

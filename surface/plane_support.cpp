@@ -1,5 +1,6 @@
 #include "surface/plane_support.hpp"
 
+#include "geometry/place_text.hpp"
 #include "surface/charts/support_flips.hpp"
 #include "surface/charts/support_mesher.hpp"
 #include "surface/charts/support_topology.hpp"
@@ -76,7 +77,7 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const FaceLo
   for (const auto& [first, second] : error.crossings()) {
     if (vertices.empty()) {
       const Vec3 at = loops.points[loops.edges[first][0]];
-      where = fmt::format(" near ({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
+      where = fmt::format(" near {}", geometry::place_text(at));
     }
     for (const std::int32_t e : {first, second}) {
       for (const std::int32_t v : loops.edges[e]) vertices.push_back(loops.vertex_keys[v]);

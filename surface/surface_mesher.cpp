@@ -1,5 +1,6 @@
 #include "surface/surface_mesher.hpp"
 
+#include "geometry/place_text.hpp"
 #include "mesh/checks/intersection.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
@@ -87,10 +88,10 @@ std::string complain(const cad::Model& model, const SizeField& field,
   }
   const geometry::Vec3 at = worst->place;
   return fmt::format(
-      "triangles of faces '{}' and '{}' intersect near ({:.6g}, {:.6g}, {:.6g}), over an area of about "
-      "{:.3g} in all, size {:.4g} there",
-      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, at.x, at.y, at.z, worst_area,
-      field(at));
+      "triangles of faces '{}' and '{}' intersect near {}, over an area of about {:.3g} in all, size {:.4g} "
+      "there",
+      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, geometry::place_text(at),
+      worst_area, field(at));
 }
 
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own

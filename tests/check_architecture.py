@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks the architecture: includes point down, third-party headers stay in their room, no function has more than
-six parameters, no two headers define types of one name.
+six parameters, no two headers define types of one name, no two sources that are compiled as one define a name in
+namespaces without a name.
 
 usage: check_architecture.py SOURCE_DIR | check_architecture.py --self-test
 """
@@ -174,6 +175,32 @@ def fault_of_include(root, name, header):
     return None
 
 
+# What a namespace without a name holds, as clang-format leaves it.
+NAMELESS = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.MULTILINE | re.DOTALL)
+# Names that it defines: types, aliases, functions, constants; not indented but in it.
+DEFINED = re.compile(
+    r"^(?:struct|class|enum class|enum) (\w+)[^;{]*\{|^using (\w+) =|^(?:inline |static )?(?:constexpr|const) [^;(]*?(\w+)(?:\[\w*\])? (?:=|\{)"
+    r"|^(?:\[\[\w+\]\] )?(?:\w[\w:<>,&*\[\] ]* [&*]?)(\w+)\([^;]*\{$", re.MULTILINE)
+
+
+def equal_names(root):
+    """Names that two sources of one library define in namespaces without a name: several sources are compiled as one
+    unit. Aliases of one text do no harm."""
+    for folder, given in libraries(root):
+        defined = {}
+        for source in given["SOURCES"]:
+            path = root / folder / source
+            where = f"{folder}/{source}"
+            for block in NAMELESS.findall(path.read_text() if path.exists() else ""):
+                plain = COMMENT_OR_LITERAL.sub('""', block)
+                for match in DEFINED.finditer(plain):
+                    name = next(filter(None, match.groups()))
+                    alias = re.match(r"using [^;]*;", plain[match.start():])
+                    other, text = defined.setdefault(name, (where, alias and alias.group()))
+                    if other != where and not (alias and alias.group() == text):
+                        yield where, name, other
+
+
 def split_list(text, begin):
     """The items between the bracket at `begin` and its twin."""
     items, depth, angles, start = [], 0, 0, begin + 1
@@ -254,6 +281,8 @@ def violations(root):
     for pattern, _, most in ROOMS:
         if most is not None and len(uses[pattern]) > most:
             found.append(f"{pattern.pattern}: included by {len(uses[pattern])} files, at most {most} may")
+    for where, defined, other in equal_names(root):
+        found.append(f"{where}: {other} has a {defined} in a namespace without a name too: one library")
     for path in root.iterdir():
         if path.is_dir() and path.name in CONCEPT_FREE:
             found.append(f"{path.name}/: a folder is a concept")
@@ -284,13 +313,15 @@ def self_test():
         "io/yaml.cpp": "#include <yaml-cpp/yaml.h>\n",
         "surface/charts.cpp": "#include <Eigen/Sparse>\n",
         "mesh/data/public.hpp": '#include "mesh/data/inner.hpp"\n',
+        "mesh/data/second.cpp": "namespace {\n\ndouble area_of(int a) {\n  return a;\n}\n\n}  // namespace\n",
+        "mesh/data/alias.cpp": "namespace {\n\nusing Place = Vec2;\n\n}  // namespace\n",
         "mesh/long.hpp": "void seven(int a, int b, int c, int d, int e,\n           const std::map<int, int>& f, int);\n",
         "mesh/long_constructor.hpp": "class A {\n  A(int a, int b, int c, B d, B& e, B* f, const char* g = \"\");\n};\n",
         "mesh/name.hpp": "template <class T>\nclass Piece final : public Base<T> {};\n",
         "mesh/kind.hpp": "// of a mesh\nenum class Kind : int { none };\n",
         "mesh/long_lambda.cpp": "const auto f = [&](int a, int b, int c, int d, int e, int f, int g) {};\n",
     }
-    lists = {"mesh/CMakeLists.txt": "aeroloom_library(mesh/data\n  SOURCES first.cpp second.cpp\n  HEADERS public.hpp)\n"
+    lists = {"mesh/CMakeLists.txt": "aeroloom_library(mesh/data\n  SOURCES first.cpp second.cpp third.cpp alias.cpp\n  HEADERS public.hpp)\n"
                                     "aeroloom_library(mesh/checks\n  SOURCES other_library.cpp)\n"}
     clean = {
         "geometry/piece.hpp": "struct Piece;\nstruct Piece {\n  enum class Side { left };\n};\nstruct Piece::Kind {};\n",
@@ -298,6 +329,9 @@ def self_test():
         "geometry/side.hpp": "// struct Piece {\nstruct Side {};\n",
         "mesh/local.cpp": "struct Piece {};\n",
         "mesh/down.cpp": '#include "geometry/vec.hpp"\n#include "mesh/data/piece.hpp"\n',
+        "mesh/data/first.cpp": "namespace {\n\nusing Place = Vec3;\n\ndouble area_of(double a) {\n  return a;\n}\n\n}  // namespace\n",
+        "mesh/data/third.cpp": "namespace {\n\nusing Place = Vec3;\n\n}  // namespace\n",
+        "mesh/checks/other_library.cpp": "namespace {\n\ndouble area_of(int a) {\n  return a;\n}\n\n}  // namespace\n",
         "surface/options.hpp": '#include "mesh/data/piece.hpp"\n',
         "surface/driver.hpp": '#include "surface/curves/curves.hpp"\n',
         "surface/curves/options.cpp": '#include "surface/options.hpp"\n',

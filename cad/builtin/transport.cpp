@@ -38,37 +38,39 @@ constexpr double root_stations[] = {0.35, 0.2, 0.1};
 constexpr double most_sweep = 75, most_dihedral = 60, most_incidence = 30, most_thickness = 0.4,
                  most_camber = 0.1;
 
-void require(bool holds, const std::string& dimension, const char* rule, double value) {
+void require_dimension(bool holds, const std::string& dimension, const char* rule, double value) {
   if (!holds) throw CadError(fmt::format("transport: {} must {}, but it is {}", dimension, rule, value));
 }
 
 void check_surface(const std::string& name, const LiftingSurface& s) {
-  require(s.root_chord > 0, name + ".root_chord", "be positive", s.root_chord);
-  require(s.taper > 0 && s.taper <= 1, name + ".taper", "lie in (0, 1]", s.taper);
-  require(s.half_span > 0, name + ".half_span", "be positive", s.half_span);
-  require(std::abs(s.sweep) < most_sweep, name + ".sweep", "lie within 75 degrees", s.sweep);
-  require(std::abs(s.dihedral) < most_dihedral, name + ".dihedral", "lie within 60 degrees", s.dihedral);
-  require(s.thickness > 0 && s.thickness <= most_thickness, name + ".thickness", "lie in (0, 0.4]",
-          s.thickness);
-  require(std::abs(s.camber) <= most_camber, name + ".camber", "lie within 0.1", s.camber);
-  require(std::abs(s.root_incidence) < most_incidence, name + ".root_incidence", "lie within 30 degrees",
-          s.root_incidence);
-  require(std::abs(s.tip_incidence) < most_incidence, name + ".tip_incidence", "lie within 30 degrees",
-          s.tip_incidence);
-  require(s.trailing_edge >= 0 && s.trailing_edge < s.thickness, name + ".trailing_edge",
-          "be at least 0 and below the thickness", s.trailing_edge);
+  require_dimension(s.root_chord > 0, name + ".root_chord", "be positive", s.root_chord);
+  require_dimension(s.taper > 0 && s.taper <= 1, name + ".taper", "lie in (0, 1]", s.taper);
+  require_dimension(s.half_span > 0, name + ".half_span", "be positive", s.half_span);
+  require_dimension(std::abs(s.sweep) < most_sweep, name + ".sweep", "lie within 75 degrees", s.sweep);
+  require_dimension(std::abs(s.dihedral) < most_dihedral, name + ".dihedral", "lie within 60 degrees",
+                    s.dihedral);
+  require_dimension(s.thickness > 0 && s.thickness <= most_thickness, name + ".thickness", "lie in (0, 0.4]",
+                    s.thickness);
+  require_dimension(std::abs(s.camber) <= most_camber, name + ".camber", "lie within 0.1", s.camber);
+  require_dimension(std::abs(s.root_incidence) < most_incidence, name + ".root_incidence",
+                    "lie within 30 degrees", s.root_incidence);
+  require_dimension(std::abs(s.tip_incidence) < most_incidence, name + ".tip_incidence",
+                    "lie within 30 degrees", s.tip_incidence);
+  require_dimension(s.trailing_edge >= 0 && s.trailing_edge < s.thickness, name + ".trailing_edge",
+                    "be at least 0 and below the thickness", s.trailing_edge);
 }
 
 void check_dimensions(const TransportDimensions& d) {
-  require(d.fuselage_diameter > 0, "fuselage_diameter", "be positive", d.fuselage_diameter);
-  require(d.nose_length >= 0.5 * d.fuselage_diameter, "nose_length", "be at least half the fuselage_diameter",
-          d.nose_length);
-  require(d.tail_length >= d.fuselage_diameter, "tail_length", "be at least the fuselage_diameter",
-          d.tail_length);
-  require(d.fuselage_length >= d.nose_length + d.tail_length + d.fuselage_diameter, "fuselage_length",
-          "leave a cabin of a fuselage_diameter between nose and tail", d.fuselage_length);
-  require(std::abs(d.tail_upsweep) <= 0.5 * d.fuselage_diameter, "tail_upsweep",
-          "lie within half the fuselage_diameter", d.tail_upsweep);
+  require_dimension(d.fuselage_diameter > 0, "fuselage_diameter", "be positive", d.fuselage_diameter);
+  require_dimension(d.nose_length >= 0.5 * d.fuselage_diameter, "nose_length",
+                    "be at least half the fuselage_diameter", d.nose_length);
+  require_dimension(d.tail_length >= d.fuselage_diameter, "tail_length", "be at least the fuselage_diameter",
+                    d.tail_length);
+  require_dimension(d.fuselage_length >= d.nose_length + d.tail_length + d.fuselage_diameter,
+                    "fuselage_length", "leave a cabin of a fuselage_diameter between nose and tail",
+                    d.fuselage_length);
+  require_dimension(std::abs(d.tail_upsweep) <= 0.5 * d.fuselage_diameter, "tail_upsweep",
+                    "lie within half the fuselage_diameter", d.tail_upsweep);
   check_surface("wing", d.wing);
   check_surface("horizontal_tail", d.horizontal_tail);
   check_surface("vertical_tail", d.vertical_tail);
@@ -76,7 +78,8 @@ void check_dimensions(const TransportDimensions& d) {
   for (const auto& [name, value] :
        {std::pair("dihedral", fin.dihedral), std::pair("camber", fin.camber),
         std::pair("root_incidence", fin.root_incidence), std::pair("tip_incidence", fin.tip_incidence)}) {
-    require(value == 0, fmt::format("vertical_tail.{}", name), "be 0, the aircraft being symmetric", value);
+    require_dimension(value == 0, fmt::format("vertical_tail.{}", name), "be 0, the aircraft being symmetric",
+                      value);
   }
 }
 
@@ -100,7 +103,8 @@ double find_inner_station(const std::string& name, const Fuselage& fuselage, con
 void check_tip_outside(const std::string& name, const Fuselage& fuselage, const Lifting& lifting,
                        double half_span) {
   for (const Vec3 p : lifting.section(half_span)) {
-    require(fuselage.depth(p) < 0, name + ".half_span", "put the tip outside the fuselage", half_span);
+    require_dimension(fuselage.depth(p) < 0, name + ".half_span", "put the tip outside the fuselage",
+                      half_span);
   }
 }
 
@@ -153,7 +157,7 @@ void check_union(const TopoDS_Shape& shape, const std::vector<Part>& parts) {
   }
 }
 
-NamedShape unite(const std::vector<Part>& parts) {
+NamedShape unite_parts(const std::vector<Part>& parts) {
   TopTools_ListOfShape arguments, tools;
   arguments.Append(parts.front().solid);
   for (std::size_t i = 1; i < parts.size(); ++i) tools.Append(parts[i].solid);
@@ -208,7 +212,7 @@ Part sew_part(const std::vector<NamedFace>& faces) {
 
 NamedShape make_transport(const TransportDimensions& dimensions) {
   check_dimensions(dimensions);
-  return guarded("building the transport aircraft", [&] { return unite(make_parts(dimensions)); });
+  return guarded("building the transport aircraft", [&] { return unite_parts(make_parts(dimensions)); });
 }
 
 }  // namespace aeroloom::cad

@@ -29,7 +29,7 @@ constexpr double distinct_points = 1e-9;
 /// Points of a section to test where it lies, in intervals of the interpolation.
 constexpr int tested_per_interval = 4;
 
-enum class Side { upper, lower };
+enum class WingSide { upper, lower };
 
 double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
@@ -37,7 +37,7 @@ double radians(double degrees) {
 
 /// A point of the four-digit aerofoil (Jacobs, Ward and Pinkerton, NACA report 460, 1933) of unit chord at
 /// x = 1 - cos(angle), angle in [0, pi/2]: this parameter is regular at the leading and at the trailing edge.
-Vec2 aerofoil(const LiftingSurface& surface, Side side, double angle) {
+Vec2 aerofoil(const LiftingSurface& surface, WingSide side, double angle) {
   const double x = 1 - std::cos(angle), root_x = std::numbers::sqrt2 * std::sin(0.5 * angle);
   // The last coefficient closes the trailing edge, whose thickness is then added linearly.
   double thickness =
@@ -47,16 +47,16 @@ Vec2 aerofoil(const LiftingSurface& surface, Side side, double angle) {
   const double scale = x < p ? m / (p * p) : m / ((1 - p) * (1 - p));
   const double camber = scale * (x < p ? x * (2 * p - x) : 1 - 2 * p + x * (2 * p - x));
   const double slope = std::atan(2 * scale * (p - x));
-  const double sign = side == Side::upper ? 1 : -1;
+  const double sign = side == WingSide::upper ? 1 : -1;
   return {x - sign * thickness * std::sin(slope), camber + sign * thickness * std::cos(slope)};
 }
 
-gp_Pnt to_gp(Vec2 p) {
+gp_Pnt point_in_plane(Vec2 p) {
   return {p.x, p.y, 0};
 }
 
 /// Derivative by angle at an end of the range.
-gp_Vec end_tangent(const LiftingSurface& surface, Side side, double angle, double inward) {
+gp_Vec end_tangent(const LiftingSurface& surface, WingSide side, double angle, double inward) {
   const double step = difference_step * inward;
   const Vec2 a = aerofoil(surface, side, angle), b = aerofoil(surface, side, angle + step),
              c = aerofoil(surface, side, angle + 2 * step);
@@ -66,17 +66,17 @@ gp_Vec end_tangent(const LiftingSurface& surface, Side side, double angle, doubl
 
 /// One side of the unit aerofoil from the leading to the trailing edge. At the leading edge both sides have
 /// the same tangent, so the faces join smoothly there.
-Handle(Geom_BSplineCurve) interpolate_side(const LiftingSurface& surface, Side side) {
+Handle(Geom_BSplineCurve) interpolate_side(const LiftingSurface& surface, WingSide side) {
   const Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, aerofoil_intervals + 1);
   const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, aerofoil_intervals + 1);
   for (int i = 0; i <= aerofoil_intervals; ++i) {
     const double angle = 0.5 * std::numbers::pi * i / aerofoil_intervals;
-    points->SetValue(i + 1, to_gp(aerofoil(surface, side, angle)));
+    points->SetValue(i + 1, point_in_plane(aerofoil(surface, side, angle)));
     parameters->SetValue(i + 1, angle);
   }
   GeomAPI_Interpolate interpolate(points, parameters, Standard_False, distinct_points);
-  gp_Vec leading = end_tangent(surface, Side::upper, 0, 1);
-  if (side == Side::lower) leading.Reverse();
+  gp_Vec leading = end_tangent(surface, WingSide::upper, 0, 1);
+  if (side == WingSide::lower) leading.Reverse();
   interpolate.Load(leading, end_tangent(surface, side, 0.5 * std::numbers::pi, -1), Standard_False);
   interpolate.Perform();
   return interpolate.Curve();
@@ -144,7 +144,7 @@ Vec3 Lifting::place(Vec2 point, double station) const {
 
 std::vector<Vec3> Lifting::section(double station) const {
   std::vector<Vec3> points;
-  for (const Side side : {Side::upper, Side::lower}) {
+  for (const WingSide side : {WingSide::upper, WingSide::lower}) {
     for (int i = 0; i <= tested_per_interval * aerofoil_intervals; ++i) {
       points.push_back(place(
           aerofoil(_surface, side, 0.5 / tested_per_interval * std::numbers::pi * i / aerofoil_intervals),
@@ -159,7 +159,8 @@ Part Lifting::make_part(const std::string& name, double inner_station) const {
   const double outer_station = _surface.half_span;
   const auto inner = [&](Vec2 p) { return place(p, inner_station); };
   const auto outer = [&](Vec2 p) { return place(p, outer_station); };
-  const auto upper = interpolate_side(_surface, Side::upper), lower = interpolate_side(_surface, Side::lower);
+  const auto upper = interpolate_side(_surface, WingSide::upper),
+             lower = interpolate_side(_surface, WingSide::lower);
   const auto upper_inner = placed(upper, inner), upper_outer = placed(upper, outer);
   const auto lower_inner = placed(lower, inner), lower_outer = placed(lower, outer);
   const gp_Dir span = up ? gp::DZ() : gp::DY();
@@ -169,8 +170,8 @@ Part Lifting::make_part(const std::string& name, double inner_station) const {
       {cap(upper_inner, lower_inner, span), name + "_root"},
       {cap(upper_outer, lower_outer, span), name + "_tip"}};
   if (_surface.trailing_edge > 0) {
-    const Vec2 high = aerofoil(_surface, Side::upper, 0.5 * std::numbers::pi),
-               low = aerofoil(_surface, Side::lower, 0.5 * std::numbers::pi);
+    const Vec2 high = aerofoil(_surface, WingSide::upper, 0.5 * std::numbers::pi),
+               low = aerofoil(_surface, WingSide::lower, 0.5 * std::numbers::pi);
     faces.push_back({whole_face(rule(line(inner(low), inner(high)), line(outer(low), outer(high)))),
                      name + "_trailing_edge"});
   }

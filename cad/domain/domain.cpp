@@ -2,6 +2,7 @@
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
+#include "cad/domain/far_field_shape.hpp"
 #include "cad/domain/mixed_bodies.hpp"
 #include "cad/domain/sharpen.hpp"
 #include "cad/faceted/facet_soup.hpp"
@@ -124,10 +125,6 @@ Model build_domain(const FluidShape& fluid, Volumes& volumes) {
     return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::body, nullptr));
   const HullComparison hull = fluid.hull ? *fluid.hull : compare(fluid.shape, volumes);
   return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::fluid, &hull));
-}
-
-double largest_extent(Vec3 size) {
-  return std::max({size.x, size.y, size.z});
 }
 
 /// The CAD library knows points to one length whatever the unit; far from the origin numbers are further

@@ -73,7 +73,7 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
 
 /// Trimmed spline faces are integrated to about four digits; what this is to find is a body that vanished or
 /// counts twice.
-void require_volume(double far_field, double body, double fluid) {
+void require_sum_of_volumes(double far_field, double body, double fluid) {
   const double error = std::abs(far_field - body - fluid);
   if (error <= tolerances::sum_of_volumes * std::abs(body) + tolerances::rounding * far_field && body > 0)
     return;
@@ -155,7 +155,7 @@ std::vector<std::vector<TopoDS_Face>> connected_groups(const std::vector<TopoDS_
   return groups;
 }
 
-TopoDS_Shell shell_of(const std::vector<TopoDS_Face>& faces) {
+TopoDS_Shell make_closed_shell(const std::vector<TopoDS_Face>& faces) {
   TopoDS_Shell shell;
   BRep_Builder builder;
   builder.MakeShell(shell);
@@ -166,8 +166,8 @@ TopoDS_Shell shell_of(const std::vector<TopoDS_Face>& faces) {
 
 /// The fluid's solid from its walls. Groups of walls that do not reach the plane of symmetry are voids around
 /// bodies; those closed by islands alone are cavities without connection to the outside.
-TopoDS_Solid make_fluid(const Walls& walls, const FaceLabels& labels, Volumes& volumes, double& cavities,
-                        Changes& changes) {
+TopoDS_Solid make_fluid_solid(const Walls& walls, const FaceLabels& labels, Volumes& volumes,
+                              double& cavities, Changes& changes) {
   TopoDS_Solid fluid;
   BRep_Builder builder;
   builder.MakeSolid(fluid);
@@ -175,7 +175,7 @@ TopoDS_Solid make_fluid(const Walls& walls, const FaceLabels& labels, Volumes& v
   all.insert(all.end(), walls.faces.begin(), walls.faces.end());
   const auto groups = connected_groups(all);
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const TopoDS_Shell shell = shell_of(groups[i]);
+    const TopoDS_Shell shell = make_closed_shell(groups[i]);
     const bool has_island = std::any_of(groups[i].begin(), groups[i].end(), [&](const TopoDS_Face& face) {
       const FaceLabel* label = labels.Seek(face);
       return label != nullptr && label->symmetry;
@@ -213,8 +213,8 @@ NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const
   walls.faces.insert(walls.faces.end(), far_walls.begin(), far_walls.end());
   for (const TopoDS_Face& face : body_walls) walls.faces.push_back(TopoDS::Face(face.Reversed()));
   double cavities = 0;
-  const TopoDS_Solid fluid = make_fluid(walls, bodies.labels, volumes, cavities, changes);
-  require_volume(volumes.of(far_field), body_volume + cavities, volumes.of(fluid));
+  const TopoDS_Solid fluid = make_fluid_solid(walls, bodies.labels, volumes, cavities, changes);
+  require_sum_of_volumes(volumes.of(far_field), body_volume + cavities, volumes.of(fluid));
   bodies.shape = make_compound({fluid});
   return bodies;
 }
@@ -231,7 +231,7 @@ NamedShape surround_whole(NamedShape bodies, const TopoDS_Solid& far_field, Volu
     body_volume += volumes.of(body);
     builder.Add(fluid, TopExp_Explorer(body, TopAbs_SHELL).Current().Reversed());
   }
-  require_volume(volumes.of(far_field), body_volume, volumes.of(fluid));
+  require_sum_of_volumes(volumes.of(far_field), body_volume, volumes.of(fluid));
   bodies.shape = make_compound({fluid});
   return bodies;
 }

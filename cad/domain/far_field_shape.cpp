@@ -17,10 +17,6 @@
 namespace aeroloom::cad {
 namespace {
 
-double largest_extent(const Box& box) {
-  return std::max({box.size().x, box.size().y, box.size().z});
-}
-
 /// Where the far field stands and how large it is.
 struct Extent {
   gp_Pnt center;
@@ -87,12 +83,12 @@ constexpr double least_clearance = 1.01;
 /// The length that the extent is given in. `whole`: of the body before it was cut, `body`: of what is left.
 double unit_of(const FarFieldOptions& options, const Box& whole, const Box& body,
                const std::optional<SymmetryPlane>& symmetry) {
-  if (options.unit == ExtentUnit::body) return largest_extent(whole);
+  if (options.unit == ExtentUnit::body) return largest_extent(whole.size());
   if (options.unit != ExtentUnit::semispan) return options.unit_length;
   if (symmetry) return body.size()[symmetry->axis];
   Vec3 across = body.size();
   across[static_cast<int>(options.flow)] = 0;
-  return 0.5 * std::max({across.x, across.y, across.z});
+  return 0.5 * largest_extent(across);
 }
 
 /// How far the far field must extend from the centre to clear the bodies' box.
@@ -102,13 +98,13 @@ double needed_extent(const FarFieldOptions& options, const Box& body, const gp_P
     const double at = center.Coord(axis + 1);
     needed[axis] = std::max(body.high[axis] - at, at - body.low[axis]);
   }
-  if (options.shape == FarFieldShape::box) return std::max({needed.x, needed.y, needed.z});
+  if (options.shape == FarFieldShape::box) return largest_extent(needed);
   if (options.shape != FarFieldShape::cylinder) return norm(needed);
   const int axis = static_cast<int>(options.axis);
   return std::max(needed[axis], std::hypot(needed[(axis + 1) % 3], needed[(axis + 2) % 3]));
 }
 
-const char* name_of(ExtentUnit unit) {
+const char* name_of_unit(ExtentUnit unit) {
   constexpr std::array names = {"lengths of the body", "semispans", "length units", "reference lengths"};
   return names[static_cast<std::size_t>(unit)];
 }
@@ -120,7 +116,7 @@ void require_clearance(const FarFieldOptions& options, const Box& body, const gp
   throw CadError(
       fmt::format("the far field cuts the body: its extent of {:.4g} {} ({:.6g}) must exceed "
                   "{:.4g} for this body",
-                  options.extent, name_of(options.unit), reference, least_clearance * needed));
+                  options.extent, name_of_unit(options.unit), reference, least_clearance * needed));
 }
 
 void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {

@@ -3,6 +3,7 @@
 
 #include "cad/domain/symmetry.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include <TopoDS_Solid.hxx>
@@ -13,6 +14,10 @@ namespace aeroloom::cad {
 struct BodyBoxes {
   Box whole, body;
 };
+
+inline double largest_extent(Vec3 size) {
+  return std::max({size.x, size.y, size.z});
+}
 
 /// The far field around bodies, its faces labelled. Throws CadError where it does not clear them.
 TopoDS_Solid place_far_field(const FarFieldOptions& options, const BodyBoxes& bodies,

@@ -11,6 +11,7 @@
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ namespace {
 constexpr double deflection_over_size = 0.1, deflection_over_diagonal = 1e-4;
 /// Of the diagonal, however small sizes are: the built-in aircraft has 100,000 triangles then.
 constexpr double least_deflection = 5e-5;
-constexpr double facet_angle = 12 * geometry::degree;
+constexpr double most_facet_angle = 12 * geometry::degree;
 /// Where bodies come near each other, triangles are made as much finer in turn.
 constexpr double finer[] = {1, 0.25, 0.0625};
 
@@ -75,7 +76,7 @@ public:
             bodies[i], [&](double share) -> const FacetSoup& { return triangulate(bodies[j], share).soup; });
         if (found.meeting != FacetMeeting::near) continue;
         throw CadError(fmt::format("{}; nor do their triangles tell whether they touch near {}",
-                                   refused.reason, shown_place(found.at)));
+                                   refused.reason, geometry::place_text(found.at)));
       }
     }
     for (CadBody& body : bodies) take(body, refused.reason);
@@ -142,7 +143,7 @@ private:
 
   const ShapeFacets& triangulate(CadBody& body, double share) {
     if (body.share == 0 || body.share > share) {
-      body.facets = facets_of(body.solid, _labels, {share * deflection(body), facet_angle});
+      body.facets = facets_of(body.solid, _labels, {share * deflection(body), most_facet_angle});
       body.share = share;
     }
     return body.facets;
@@ -172,7 +173,7 @@ private:
           fmt::format("the bodies '{}' and '{}' are so near each other at {} that triangles do not tell "
                       "whether they touch. "
                       "Remedy: move one of them so that they overlap clearly or stay apart",
-                      name_of_soup(body.facets.soup), name_of_soup(soup), shown_place(found.at)));
+                      name_of_soup(body.facets.soup), name_of_soup(soup), geometry::place_text(found.at)));
     }
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -152,9 +153,9 @@ void require_section(const TopoDS_Solid& body, const SymmetryPlane& symmetry) {
   }
   contact[symmetry.axis] = symmetry.position;
   throw CadError(
-      fmt::format("a body only touches the plane of symmetry {} = {:.6g}, near ({:.6g}, {:.6g}, {:.6g}), and "
-                  "has no planar face there: move FarFieldOptions::symmetry_position into the body",
-                  axis_names[symmetry.axis], symmetry.position, contact.x, contact.y, contact.z));
+      fmt::format("a body only touches the plane of symmetry {} = {:.6g}, near {}, and has no planar face "
+                  "there: move FarFieldOptions::symmetry_position into the body",
+                  axis_names[symmetry.axis], symmetry.position, geometry::place_text(contact)));
 }
 
 }  // namespace

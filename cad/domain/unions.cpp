@@ -4,6 +4,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,7 +132,7 @@ std::string name_of_body(const TopoDS_Shape& body, const FaceLabels& labels) {
       return fmt::format("that with face '{}'", name);
   }
   const Vec3 at = tight_box(body).center();
-  return fmt::format("that around ({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
+  return fmt::format("that around {}", geometry::place_text(at));
 }
 
 /// The middle of what the boxes of two shapes share.
@@ -142,8 +143,8 @@ Vec3 meeting_place(const Box& a, const Box& b) {
   return middle;
 }
 
-[[noreturn]] void refuse(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
-                         const std::string& fault) {
+[[noreturn]] void refuse_union(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
+                               const std::string& fault) {
   const Box box = tight_box(solid);
   const TopoDS_Solid* nearest = &united.front();
   double most = -std::numeric_limits<double>::max();
@@ -157,10 +158,9 @@ Vec3 meeting_place(const Box& a, const Box& b) {
   }
   const Vec3 at = meeting_place(box, tight_box(*nearest));
   throw CadError(fmt::format(
-      "the bodies {} and {} touch or overlap near ({:.6g}, {:.6g}, {:.6g}), and no way of the CAD library "
-      "unites them soundly: {}. Remedy: unite them in the CAD program, or move one so that they overlap "
-      "clearly or stay apart",
-      name_of_body(*nearest, labels), name_of_body(solid, labels), at.x, at.y, at.z, fault));
+      "the bodies {} and {} touch or overlap near {}, and no way of the CAD library unites them soundly: {}. "
+      "Remedy: unite them in the CAD program, or move one so that they overlap clearly or stay apart",
+      name_of_body(*nearest, labels), name_of_body(solid, labels), geometry::place_text(at), fault));
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ std::vector<TopoDS_Solid> unite_with(const Solids& united, const TopoDS_Solid& s
     labels = std::move(found->labels);
     return std::move(found->solids);
   }
-  refuse(united, solid, labels, first_fault);
+  refuse_union(united, solid, labels, first_fault);
 }
 
 }  // namespace aeroloom::cad

@@ -4,6 +4,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,8 +105,7 @@ std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volum
       const Vec3 high{std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y),
                       std::min(boxes[i].high.z, boxes[j].high.z)};
       const Vec3 at = 0.5 * (low + high);
-      text += fmt::format("; two share a volume of {:.6g} around ({:.6g}, {:.6g}, {:.6g})", common, at.x,
-                          at.y, at.z);
+      text += fmt::format("; two share a volume of {:.6g} around {}", common, geometry::place_text(at));
     }
   }
   return text;

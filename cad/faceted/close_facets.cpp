@@ -6,6 +6,8 @@
 #include "cad/tolerances.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/place_text.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -37,8 +39,7 @@ public:
       _room[a] = std::min(_room[a], room), _room[b] = std::min(_room[b], room);
       _points.push_back(a), _points.push_back(b);
     }
-    std::sort(_points.begin(), _points.end());
-    _points.erase(std::unique(_points.begin(), _points.end()), _points.end());
+    geometry::sort_unique(_points);
     for (const std::int32_t p : _points) _boxes.emplace_back().add(soup.points[p]);
     _tree = geometry::BoxTree(_boxes, 8);
   }
@@ -139,9 +140,8 @@ void refuse_open_sides(const FacetSoup& soup) {
   const Vec3 at = soup.points[longest];
   throw CadError(
       fmt::format("{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
-                  "length {:.6g}, passes "
-                  "({:.6g}, {:.6g}, {:.6g}); close the surface there and export it again",
-                  soup.file, open.size(), loops, length[longest], at.x, at.y, at.z));
+                  "length {:.6g}, passes {}; close the surface there and export it again",
+                  soup.file, open.size(), loops, length[longest], geometry::place_text(at)));
 }
 
 }  // namespace aeroloom::cad

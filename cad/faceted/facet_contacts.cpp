@@ -95,7 +95,7 @@ std::vector<geometry::Box> boxes_of(const FacetSoup& soup, const Frame& frame, d
   return boxes;
 }
 
-double surface_of(const std::vector<geometry::Box>& boxes) {
+double half_surface_of(const std::vector<geometry::Box>& boxes) {
   double sum = 0;
   for (const geometry::Box& box : boxes) {
     const Vec3 size = box.size();
@@ -132,7 +132,7 @@ public:
       farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     _boxes = boxes_of(soup, axes, 0);
     std::vector<geometry::Box> turned = boxes_of(soup, frame_of_longest(soup), rounding * farthest);
-    if (surface_of(turned) < 0.5 * surface_of(_boxes)) _boxes = std::move(turned);
+    if (half_surface_of(turned) < 0.5 * half_surface_of(_boxes)) _boxes = std::move(turned);
     gather_stars();
     for (Group& group : _groups) group.tree = tree_of(group.members, _boxes, group.boxes);
     std::vector<geometry::Box> all;
@@ -241,10 +241,6 @@ FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& 
   });
   const FacetContact& shown = apart == all.end() ? all.front() : *apart;
   return {all.size(), shown.first, shown.second};
-}
-
-std::string shown_place(Vec3 at) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
 }
 
 Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle) {

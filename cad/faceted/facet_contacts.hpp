@@ -37,7 +37,6 @@ std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup);
 /// What a component is called in messages, by one of its triangles, and where that is.
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle);
 Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle);
-std::string shown_place(Vec3 at);
 
 /// As list_facet_contacts.
 FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components);

@@ -1,5 +1,6 @@
 #include "cad/faceted/facet_links.hpp"
 
+#include "geometry/place_text.hpp"
 #include "geometry/sort_by_number.hpp"
 
 #include <algorithm>
@@ -51,10 +52,10 @@ std::vector<SideRow> list_sides(const FacetComplex& complex) {
 
 [[noreturn]] void refuse_side(const FacetComplex& complex, const SideRow& row, std::size_t users) {
   const Vec3 at = 0.5 * (complex.points[row.low] + complex.points[row.high]);
-  throw CadError(fmt::format(
-      "a side of {} triangles near ({:.6g}, {:.6g}, {:.6g}) does not lie between two triangles of "
-      "one face. Remedy: repair the triangles there in the program that made the file",
-      users, at.x, at.y, at.z));
+  throw CadError(
+      fmt::format("a side of {} triangles near {} does not lie between two triangles of one face. Remedy: "
+                  "repair the triangles there in the program that made the file",
+                  users, geometry::place_text(at)));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "cad/faceted/facet_rays.hpp"
 
 #include "cad/model/model.hpp"
+#include "geometry/place_text.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -87,9 +88,9 @@ std::vector<std::int32_t> FacetRays::passed(Vec3 point, std::int32_t from, Vec3 
       return found;
   }
   throw CadError(
-      fmt::format("{}: what encloses ({:.6g}, {:.6g}, {:.6g}) cannot be decided: all rays from there "
-                  "meet sides of triangles; repair the triangles there",
-                  _soup.file, point.x, point.y, point.z));
+      fmt::format("{}: what encloses {} cannot be decided: all rays from there meet sides of triangles; "
+                  "repair the triangles there",
+                  _soup.file, geometry::place_text(point)));
 }
 
 }  // namespace aeroloom::cad

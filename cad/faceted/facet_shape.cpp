@@ -1,5 +1,7 @@
 #include "cad/faceted/facet_shape.hpp"
 
+#include "geometry/angle.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,10 +30,6 @@ struct SymmetricTensor {
            a.z * (xz * b.x + yz * b.y + zz * b.z);
   }
 };
-
-double angle_between(Vec3 a, Vec3 b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
 
 bool has_direction(const std::array<Vec3, 3>& p) {
   double longest2 = 0;

@@ -72,7 +72,7 @@ struct BorderSegment {
   Vec2 a, b;
 };
 
-bool lies_within(Vec2 a, Vec2 b, Vec2 p) {
+bool lies_in_span(Vec2 a, Vec2 b, Vec2 p) {
   return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
          p.y <= std::max(a.y, b.y);
 }
@@ -88,8 +88,8 @@ bool segments_meet(const BorderSegment& s, const BorderSegment& t) {
   const int c = orient2d(s.a, s.b, t.a), d = orient2d(s.a, s.b, t.b);
   const int a = orient2d(t.a, t.b, s.a), b = orient2d(t.a, t.b, s.b);
   if (c * d < 0 && a * b < 0) return true;
-  return (c == 0 && lies_within(s.a, s.b, t.a)) || (d == 0 && lies_within(s.a, s.b, t.b)) ||
-         (a == 0 && lies_within(t.a, t.b, s.a)) || (b == 0 && lies_within(t.a, t.b, s.b));
+  return (c == 0 && lies_in_span(s.a, s.b, t.a)) || (d == 0 && lies_in_span(s.a, s.b, t.b)) ||
+         (a == 0 && lies_in_span(t.a, t.b, s.a)) || (b == 0 && lies_in_span(t.a, t.b, s.b));
 }
 
 bool is_simple(const std::vector<BorderSegment>& border) {

@@ -1,5 +1,7 @@
 #include "cad/faceted/facet_turns.hpp"
 
+#include "geometry/angle.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -118,7 +120,7 @@ std::vector<double> measure_turns(const FacetSoup& soup, const SideTable& table)
     if (side.passes() != 2) continue;
     const Vec3 a = normals[facet_of(table.passes[side.begin].half_edge)];
     const Vec3 b = normals[facet_of(table.passes[side.begin + 1].half_edge)];
-    turns[s] = std::atan2(norm(cross(a, b)), dot(a, b));
+    turns[s] = angle_between(a, b);
   }
   return turns;
 }

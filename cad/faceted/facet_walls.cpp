@@ -20,7 +20,7 @@ struct WallShell {
   Box box;
 };
 
-std::vector<WallShell> shells_of(const FacetComplex& complex, const std::vector<char>& kept) {
+std::vector<WallShell> wall_shells(const FacetComplex& complex, const std::vector<char>& kept) {
   geometry::DisjointSets<std::int32_t> sets(complex.points.size());
   for (std::size_t t = 0; t < kept.size(); ++t) {
     if (!kept[t]) continue;
@@ -144,7 +144,7 @@ FacetComplex outer_walls(const FacetComplex& bodies, Changes& changes) {
     const FacetComplex::Face& face = bodies.faces[bodies.face_of[t]];
     kept[t] = face.back == no_entity && !face.cavity;
   }
-  const int buried = drop_buried(bodies, shells_of(bodies, kept), kept);
+  const int buried = drop_buried(bodies, wall_shells(bodies, kept), kept);
   if (inner > 0)
     changes.push_back({fmt::format("{} faces between bodies do not reach the fluid: left out", inner)});
   if (cavities > 0) {

@@ -2,6 +2,9 @@
 
 #include "cad/faceted/sharp_seams.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/angle.hpp"
+#include "geometry/place_text.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +46,7 @@ std::vector<double> curvatures_along(const FacetComplex& complex, const FacetedE
     const Vec3 a = complex.points[edge.points[i]] - complex.points[edge.points[before]];
     const Vec3 b = complex.points[edge.points[after]] - complex.points[edge.points[i]];
     const double length = norm(a) + norm(b);
-    if (length > 0) turns[i] = 2 * std::atan2(norm(cross(a, b)), dot(a, b)) / length;
+    if (length > 0) turns[i] = 2 * angle_between(a, b) / length;
   }
   if (!closed && count > 2) turns.front() = turns[1], turns.back() = turns[count - 2];
   std::vector<double> smooth = turns;
@@ -83,8 +86,7 @@ void FacetedPart::collect_faces() {
       face.sheet_count = std::max(face.sheet_count, high - low + 1);
       face.points.insert(face.points.end(), _complex.triangles[t].begin(), _complex.triangles[t].end());
     }
-    std::sort(face.points.begin(), face.points.end());
-    face.points.erase(std::unique(face.points.begin(), face.points.end()), face.points.end());
+    geometry::sort_unique(face.points);
     std::vector<Vec3> points;
     points.reserve(face.points.size());
     for (const std::int32_t p : face.points) {
@@ -150,10 +152,10 @@ void FacetedPart::trace_loops() {
     for (const FacetedUse& use : _edges[e].uses) {
       if (std::find(use.half_edges.begin(), use.half_edges.end(), -1) != use.half_edges.end()) {
         const Vec3 at = _complex.points[_edges[e].points.front()];
-        throw CadError(fmt::format(
-            "face '{}' ends part of the way along the edge from ({:.6g}, {:.6g}, {:.6g}). Remedy: repair the "
-            "triangles there in the program that made the file",
-            _complex.faces[use.face].name, at.x, at.y, at.z));
+        throw CadError(
+            fmt::format("face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
+                        "there in the program that made the file",
+                        _complex.faces[use.face].name, geometry::place_text(at)));
       }
       geometry::HalfEdge h = use.reversed ? use.half_edges.back() : use.half_edges.front();
       if (seen[h]) continue;

@@ -8,6 +8,7 @@
 #include "cad/faceted/unite_components.hpp"
 #include "cad/faceted/weld_facets.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -22,7 +23,7 @@ void refuse_contacts(const FacetSoup& soup) {
   const FacetComponents components = find_components(soup);
   const FacetContacts contacts = find_facet_contacts(soup, components);
   if (contacts.pairs == 0) return;
-  const std::string place = shown_place(middle_of(soup, contacts.first));
+  const std::string place = geometry::place_text(middle_of(soup, contacts.first));
   if (components.of[contacts.first] != components.of[contacts.second]) {
     throw CadError(
         fmt::format("{}: {} and {} overlap or touch at {} ({} pairs of triangles in all); unite them in the "
@@ -69,7 +70,7 @@ std::vector<FacetSkin> orient_facets(FacetSoup& soup, const Chambers& chambers, 
       throw CadError(fmt::format(
           "{}: the triangles at {} lie within '{}' and divide nothing; delete the sheet there, or "
           "give it thickness",
-          soup.file, shown_place(middle_of(soup, static_cast<std::int32_t>(t))),
+          soup.file, geometry::place_text(middle_of(soup, static_cast<std::int32_t>(t))),
           chambers.chambers[ahead].name));
     }
     const bool turn =

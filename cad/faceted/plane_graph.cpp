@@ -2,6 +2,7 @@
 
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -50,8 +51,7 @@ public:
     for (Side& side : _sides) {
       if (side[0] > side[1]) std::swap(side[0], side[1]);
     }
-    std::sort(_sides.begin(), _sides.end());
-    _sides.erase(std::unique(_sides.begin(), _sides.end()), _sides.end());
+    geometry::sort_unique(_sides);
     if (std::any_of(_sides.begin(), _sides.end(), [](Side s) { return s[0] == s[1]; })) return {};
     if (_sides.size() < 3 || any_conflict()) return {};
     _real_sides = _sides.size();
@@ -97,11 +97,10 @@ private:
       parts.unite(side[0], side[1]);
       used.insert(used.end(), side.begin(), side.end());
     }
-    std::sort(used.begin(), used.end(), [&](std::int32_t a, std::int32_t b) {
+    geometry::sort_unique(used, [&](std::int32_t a, std::int32_t b) {
       const Vec2 p = _places[a], q = _places[b];
       return p == q ? a < b : lies_before(p, q);
     });
-    used.erase(std::unique(used.begin(), used.end()), used.end());
     for (std::size_t i = 1; i < used.size(); ++i) {
       // Bridges go back in this order, so a part that is not yet joined meets its first place first.
       if (_places[used[i]] == _places[used[i - 1]]) return false;

@@ -10,6 +10,7 @@
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -184,9 +185,9 @@ ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const
   }
   const Vec3 at = tight_box(solid).center();
   throw CadError(
-      fmt::format("the body around ({:.6g}, {:.6g}, {:.6g}) cannot be cut into triangles that close without "
-                  "crossing each other. Remedy: repair the body in the CAD program",
-                  at.x, at.y, at.z));
+      fmt::format("the body around {} cannot be cut into triangles that close without crossing each other. "
+                  "Remedy: repair the body in the CAD program",
+                  geometry::place_text(at)));
 }
 
 }  // namespace aeroloom::cad

@@ -1,6 +1,7 @@
 #include "cad/faceted/sharp_seams.hpp"
 
 #include "cad/faceted/facet_links.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -20,7 +21,7 @@ using geometry::HalfEdge;
 /// the next round looks at what is left.
 constexpr int most_rounds = 8;
 
-Vec3 centre_of(const FacetComplex& complex, std::int32_t triangle) {
+Vec3 centre_of_triangle(const FacetComplex& complex, std::int32_t triangle) {
   const auto corners = corners_of(complex, triangle);
   return (corners[0] + corners[1] + corners[2]) / 3;
 }
@@ -49,7 +50,8 @@ std::vector<std::int32_t> label_by_side(const FacetComplex& complex, const Facet
     const CurveSide& side = links.on_curve[h];
     if (side.curve == no_entity || !passes.contains({complex.face_of[h / 3], side.curve})) continue;
     const Vec3 middle = 0.5 * (complex.points[start_of(complex, h)] + complex.points[end_of(complex, h)]);
-    queue.emplace(distance(middle, centre_of(complex, h / 3)), 2 * side.curve + (side.along ? 0 : 1), h / 3);
+    queue.emplace(distance(middle, centre_of_triangle(complex, h / 3)), 2 * side.curve + (side.along ? 0 : 1),
+                  h / 3);
   }
   while (!queue.empty()) {
     const auto [way, side, t] = queue.top();
@@ -59,7 +61,8 @@ std::vector<std::int32_t> label_by_side(const FacetComplex& complex, const Facet
     for (int i = 0; i < 3; ++i) {
       const HalfEdge twin = links.inside[3 * t + i];
       if (twin < 0 || label[twin / 3] >= 0) continue;
-      queue.emplace(way + distance(centre_of(complex, t), centre_of(complex, twin / 3)), side, twin / 3);
+      queue.emplace(way + distance(centre_of_triangle(complex, t), centre_of_triangle(complex, twin / 3)),
+                    side, twin / 3);
     }
   }
   return label;
@@ -126,9 +129,9 @@ void split_faces(FacetComplex& complex, const FacetLinks& links, const std::vect
 }
 
 /// Sides between faces, and of the curves there are, joined to chains between vertices again.
-class CurveTracer {
+class CurveJoiner {
 public:
-  explicit CurveTracer(const FacetComplex& complex) : _at(complex.points.size()) {
+  explicit CurveJoiner(const FacetComplex& complex) : _at(complex.points.size()) {
     for (const auto& curve : complex.curves) {
       for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) add(curve.points[i], curve.points[i + 1]);
     }
@@ -210,15 +213,15 @@ void divide_at_sharp_seams(FacetComplex& complex) {
     if (round == most_rounds) {
       const auto& [face, curve] = passes.begin()->first;
       const Vec3 at = complex.points[complex.curves[curve].points.front()];
-      throw CadError(fmt::format(
-          "a sharp edge from ({:.6g}, {:.6g}, {:.6g}) has face '{}' on both sides, which cannot be divided. "
-          "Remedy: another geometry.feature_angle, or finer triangles there",
-          at.x, at.y, at.z, complex.faces[face].name));
+      throw CadError(
+          fmt::format("a sharp edge from {} has face '{}' on both sides, which cannot be divided. Remedy: "
+                      "another geometry.feature_angle, or finer triangles there",
+                      geometry::place_text(at), complex.faces[face].name));
     }
     std::vector<std::int32_t> label = label_by_side(complex, links, passes);
     straighten_borders(complex, links, passes, label);
     split_faces(complex, links, label);
-    CurveTracer tracer(complex);
+    CurveJoiner tracer(complex);
     for (HalfEdge h = 0; h < static_cast<HalfEdge>(links.inside.size()); ++h) {
       const HalfEdge twin = links.inside[h];
       if (twin > h && complex.face_of[h / 3] != complex.face_of[twin / 3])

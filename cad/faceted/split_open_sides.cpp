@@ -3,6 +3,7 @@
 #include "cad/faceted/plane_graph.hpp"
 #include "cad/faceted/weld_facets.hpp"
 #include "geometry/box_tree.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -22,8 +23,7 @@ public:
       _ends_at[a].push_back(b), _ends_at[b].push_back(a);
       _points.push_back(a), _points.push_back(b);
     }
-    std::sort(_points.begin(), _points.end());
-    _points.erase(std::unique(_points.begin(), _points.end()), _points.end());
+    geometry::sort_unique(_points);
     for (const std::int32_t p : _points) _boxes.emplace_back().add(soup.points[p]);
     _tree = geometry::BoxTree(_boxes, 8);
   }

@@ -5,6 +5,7 @@
 #include "cad/model/model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 #include "geometry/unite_surfaces.hpp"
 
 #include <algorithm>
@@ -91,7 +92,7 @@ double enclosed_by(const ClosedSurface& surface) {
 }
 
 /// A component on its own, normals outwards.
-ClosedSurface surface_of(const FacetSoup& soup, const std::vector<std::int32_t>& triangles) {
+ClosedSurface component_surface(const FacetSoup& soup, const std::vector<std::int32_t>& triangles) {
   ClosedSurface surface;
   std::map<std::int32_t, std::int32_t> number;
   for (const std::int32_t t : triangles) {
@@ -159,7 +160,8 @@ private:
   geometry::UnitedSurface unite(const std::vector<std::int32_t>& group) const {
     std::vector<ClosedSurface> surfaces;
     surfaces.reserve(group.size());
-    for (const std::int32_t component : group) surfaces.push_back(surface_of(_soup, _members[component]));
+    for (const std::int32_t component : group)
+      surfaces.push_back(component_surface(_soup, _members[component]));
     tell_step(fmt::format("uniting {} and {} others", name(group.front()), group.size() - 1));
     try {
       return geometry::unite_surfaces(surfaces, tolerances::exact_volume);
@@ -176,7 +178,8 @@ private:
       throw CadError(fmt::format(
           "{}: {} and {} overlap or touch at {}, and their union is no sound body: {}. Remedy: unite them in "
           "the CAD program, or move one so that they overlap clearly or stay apart",
-          _soup.file, name(other), name(last), shown_place(middle_of(_soup, found->first)), error.what()));
+          _soup.file, name(other), name(last), geometry::place_text(middle_of(_soup, found->first)),
+          error.what()));
     }
     throw CadError(fmt::format("{}: {}: {}", _soup.file, name(last), error.what()));
   }
@@ -208,10 +211,10 @@ bool unite_components(FacetSoup& soup, Changes& changes) {
   const auto own = std::find_if(meetings.begin(), meetings.end(), is_own);
   if (own != meetings.end()) {
     const std::int32_t at = own->second.first;
-    throw CadError(
-        fmt::format("{}: {} crosses or touches itself at {} and cannot be united with what it overlaps. "
-                    "Remedy: repair it there and export it again",
-                    soup.file, component_name(soup, components, at), shown_place(middle_of(soup, at))));
+    throw CadError(fmt::format(
+        "{}: {} crosses or touches itself at {} and cannot be united with what it overlaps. "
+        "Remedy: repair it there and export it again",
+        soup.file, component_name(soup, components, at), geometry::place_text(middle_of(soup, at))));
   }
   turn_alike(soup);
   ComponentUnion(soup, components, std::move(meetings)).run(changes);

@@ -6,6 +6,7 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/model/topology/closed_edges.hpp"
 #include "cad/model/topology/model_topology.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -206,7 +207,7 @@ std::string Model::Data::describe_face(FaceId id) const {
     at = face.surface.point(0.5 * (face.uv_low + face.uv_high));
   }
   const std::string& name = static_cast<std::size_t>(id) < faces.size() ? faces[id].name : std::string();
-  return fmt::format("face {} '{}' near ({:.6g}, {:.6g}, {:.6g})", id, name, at.x, at.y, at.z);
+  return fmt::format("face {} '{}' near {}", id, name, geometry::place_text(at));
 }
 
 }  // namespace aeroloom::cad

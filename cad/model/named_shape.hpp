@@ -32,6 +32,12 @@ inline std::string shown_name(const FaceLabel& label) {
 /// Labels by face; the orientation of the face does not matter. Look up only: iteration follows addresses.
 using FaceLabels = NCollection_DataMap<TopoDS_Shape, FaceLabel, TopTools_ShapeMapHasher>;
 
+/// Empty where the face has no label either.
+inline std::string shown_name(const FaceLabels& labels, const TopoDS_Shape& face) {
+  const FaceLabel* label = labels.Seek(face);
+  return label != nullptr ? shown_name(*label) : std::string();
+}
+
 struct NamedShape {
   TopoDS_Shape shape;
   FaceLabels labels;

@@ -166,7 +166,7 @@ Format recognise(const Ends& ends) {
   return contains(ends.head, "CASCADE Topology V") ? Format::brep : Format::unknown;
 }
 
-[[noreturn]] void refuse(const std::string& file, const Ends& ends) {
+[[noreturn]] void refuse_format(const std::string& file, const Ends& ends) {
   if (contains(ends.head, "ISO-10303-21")) {
     throw CadError(
         fmt::format("'{}': a STEP file must begin with ISO-10303-21; found \"{}\". Remedy: remove what "
@@ -196,7 +196,7 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
     case Format::unknown:
       break;
   }
-  refuse(file, ends);
+  refuse_format(file, ends);
 }
 
 /// In the order of the file, which no repair, cut or far field changes.

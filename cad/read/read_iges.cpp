@@ -21,7 +21,7 @@
 namespace aeroloom::cad {
 namespace {
 
-const LengthUnit* declared_unit(const IGESData_GlobalSection& section) {
+const LengthUnit* unit_of_section(const IGESData_GlobalSection& section) {
   constexpr int by_name = 3;
   if (section.UnitFlag() != by_name) return find_length_unit(section.UnitFlag());
   return section.UnitName().IsNull() ? nullptr : find_length_unit(section.UnitName()->ToCString());
@@ -29,7 +29,7 @@ const LengthUnit* declared_unit(const IGESData_GlobalSection& section) {
 
 /// Full names of any entity; the eight letters of the short label only where they name a part, as exporters
 /// put the entity's type there for faces.
-EntityNames entity_names(IGESControl_Reader& reader) {
+EntityNames names_in_iges(IGESControl_Reader& reader) {
   constexpr int manifold_solid = 186, shell = 514;
   EntityNames names;
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
@@ -58,12 +58,12 @@ NamedShape read_iges(const std::string& file) {
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone || reader.IGESModel().IsNull()) {
     throw CadError(fmt::format("'{}': an IGES file that cannot be parsed", file));
   }
-  const LengthUnit* declared = declared_unit(reader.IGESModel()->GlobalSection());
+  const LengthUnit* declared = unit_of_section(reader.IGESModel()->GlobalSection());
   const LengthUnit& unit = declared ? *declared : millimetre();
   set_cad_library_unit(unit);
   Handle(TDocStd_Document) document = make_document();
   if (!reader.Transfer(document)) throw CadError(fmt::format("'{}': an IGES file without shapes", file));
-  NamedShape named = collect_parts(document, entity_names(reader));
+  NamedShape named = collect_parts(document, names_in_iges(reader));
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
   named.precision = std::max(0.0, reader.IGESModel()->GlobalSection().Resolution());

@@ -25,7 +25,7 @@ namespace aeroloom::cad {
 namespace {
 
 /// The unit the file declares first; nullptr when it declares none that is known.
-const LengthUnit* declared_unit(STEPControl_Reader& reader) {
+const LengthUnit* first_declared_unit(STEPControl_Reader& reader) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.FileUnits(lengths, angles, solid_angles);
   for (const TCollection_AsciiString& name : lengths) {
@@ -46,7 +46,7 @@ double stated_uncertainty(STEPControl_Reader& reader) {
 }
 
 /// Names in the file's faces, shells and solids themselves: the framework keeps only those of products.
-EntityNames entity_names(STEPControl_Reader& reader) {
+EntityNames names_in_step(STEPControl_Reader& reader) {
   EntityNames names;
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
@@ -74,13 +74,13 @@ NamedShape read_step(const std::string& file) {
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
     throw CadError(fmt::format("'{}': a STEP file that cannot be parsed", file));
   }
-  const LengthUnit* declared = declared_unit(reader.ChangeReader());
+  const LengthUnit* declared = first_declared_unit(reader.ChangeReader());
   const LengthUnit& unit = declared ? *declared : millimetre();
   set_cad_library_unit(unit);
   reader.ChangeReader().SetSystemLengthUnit(unit.metres * 1000);
   Handle(TDocStd_Document) document = make_document();
   if (!reader.Transfer(document)) throw CadError(fmt::format("'{}': a STEP file without shapes", file));
-  NamedShape named = collect_parts(document, entity_names(reader.ChangeReader()));
+  NamedShape named = collect_parts(document, names_in_step(reader.ChangeReader()));
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
   named.precision = stated_uncertainty(reader.ChangeReader());

@@ -25,7 +25,7 @@
 namespace aeroloom::cad {
 namespace {
 
-std::string name_of(const TDF_Label& label) {
+std::string name_of_label(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
   const TCollection_AsciiString text(name->Get(), '?');
@@ -59,7 +59,7 @@ private:
       XCAFDoc_ShapeTool::GetReferredShape(label, part);
       return visit(part, place * XCAFDoc_ShapeTool::GetLocation(label), inherited);
     }
-    const std::string name = name_of(label);
+    const std::string name = name_of_label(label);
     if (!is_placeholder(name)) inherited.solid = name;
     if (XCAFDoc_ShapeTool::IsAssembly(label)) {
       TDF_LabelSequence components;
@@ -86,7 +86,7 @@ private:
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(detail);
     if (shape.IsNull() || shape.ShapeType() > TopAbs_FACE) return;
     const bool is_face = shape.ShapeType() == TopAbs_FACE;
-    const std::string name = name_of(detail);
+    const std::string name = name_of_label(detail);
     describe_faces(shape, place, [&](FaceLabel& face) {
       add_attributes(detail, face);
       if (is_placeholder(name)) return;

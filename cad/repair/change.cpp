@@ -1,5 +1,7 @@
 #include "cad/repair/change.hpp"
 
+#include "geometry/place_text.hpp"
+
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -7,7 +9,7 @@ namespace aeroloom::cad {
 std::string describe(const Change& change) {
   std::string text = change.what;
   if (change.where) {
-    text += fmt::format(" at ({:.6g}, {:.6g}, {:.6g})", change.where->x, change.where->y, change.where->z);
+    text += fmt::format(" at {}", geometry::place_text(*change.where));
   }
   if (change.how_much > 0) text += fmt::format(", moved by at most {:.3g}", change.how_much);
   return text;

@@ -64,9 +64,8 @@ void find_short_edges(const TopoDS_Shape& shape, double diagonal, Diagnosis& dia
   }
 }
 
-std::string name_of(const NamedShape& named, const TopoDS_Shape& face, int index) {
-  const FaceLabel* label = named.labels.Seek(face);
-  const std::string shown = label != nullptr ? shown_name(*label) : std::string();
+std::string shown_or_numbered(const NamedShape& named, const TopoDS_Shape& face, int index) {
+  const std::string shown = shown_name(named.labels, face);
   return shown.empty() ? fmt::format("face_{}", index) : shown;
 }
 
@@ -86,7 +85,7 @@ void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis
     if (const auto strip = examine_noise(TopoDS::Face(faces(i)), tolerances::sliver_width * diagonal))
       width = strip->widest;
     diagnosis.findings.push_back({fmt::format("a sliver face '{}' {:.3g} wide and {:.3g} long",
-                                              name_of(named, faces(i), i - 1), width, length),
+                                              shown_or_numbered(named, faces(i), i - 1), width, length),
                                   tight_box(faces(i)).center()});
   }
 }

@@ -97,8 +97,7 @@ private:
       ++wires;
     }
     if (wires == 0) {
-      const FaceLabel* label = _labels.Seek(face);
-      throw CadError(fmt::format("face '{}' would vanish", label ? shown_name(*label) : std::string()));
+      throw CadError(fmt::format("face '{}' would vanish", shown_name(_labels, face)));
     }
     return copy;
   }

@@ -7,6 +7,7 @@
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -109,8 +110,7 @@ void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
     if (used.Contains(faces(i))) continue;
     const Vec3 center = tight_box(faces(i)).center();
     changes.push_back(
-        {fmt::format("a loose face around ({:.6g}, {:.6g}, {:.6g}) belongs to no solid: dropped", center.x,
-                     center.y, center.z)});
+        {fmt::format("a loose face around {} belongs to no solid: dropped", geometry::place_text(center))});
   }
 }
 
@@ -122,10 +122,10 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
     const double volume = volumes.of(solids[i]);
     if (volume > tolerances::no_volume * std::pow(box.diagonal(), 3)) continue;
     const Vec3 at = box.center();
-    throw CadError(fmt::format(
-        "solid {} around ({:.6g}, {:.6g}, {:.6g}) encloses next to no volume ({:.3g} in a box of "
-        "diagonal {:.6g}): what is as thin as that, a sheet or a wire, cannot be meshed as a body",
-        i, at.x, at.y, at.z, volume, box.diagonal()));
+    throw CadError(
+        fmt::format("solid {} around {} encloses next to no volume ({:.3g} in a box of diagonal {:.6g}): "
+                    "what is as thin as that, a sheet or a wire, cannot be meshed as a body",
+                    i, geometry::place_text(at), volume, box.diagonal()));
   }
 }
 

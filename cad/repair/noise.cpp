@@ -35,11 +35,6 @@ struct NoiseItem {
   Vec3 place;
 };
 
-std::string name_of(const TopoDS_Shape& face, const FaceLabels& labels) {
-  const FaceLabel* label = labels.Seek(face);
-  return label ? shown_name(*label) : std::string();
-}
-
 std::vector<NoiseItem> find_items(const TopoDS_Shape& shape, const FaceLabels& labels, double tolerance) {
   std::vector<NoiseItem> items;
   TopTools_IndexedMapOfShape faces, edges, of_noise;
@@ -49,7 +44,7 @@ std::vector<NoiseItem> find_items(const TopoDS_Shape& shape, const FaceLabels& l
     const TopoDS_Face face = TopoDS::Face(faces(i));
     const auto noise = examine_noise(face, tolerance);
     if (!noise) continue;
-    items.push_back({face, true, name_of(face, labels), noise->widest, noise->length, noise->place});
+    items.push_back({face, true, shown_name(labels, face), noise->widest, noise->length, noise->place});
     TopExp::MapShapes(face, TopAbs_EDGE, of_noise);
   }
   for (int i = 1; i <= edges.Extent(); ++i) {

@@ -5,9 +5,9 @@
 #include "cad/repair/edge_pieces.hpp"
 #include "cad/repair/sampled_edge.hpp"
 #include "cad/repair/united_vertices.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <optional>
@@ -63,7 +63,7 @@ public:
 
 private:
   [[noreturn]] static void refuse(Vec3 at, const char* why) {
-    throw CadError(fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", why, at.x, at.y, at.z));
+    throw CadError(fmt::format("{} at {}", why, geometry::place_text(at)));
   }
 
   TopoDS_Edge edge(int e) const { return TopoDS::Edge(_edges(e + 1).Oriented(TopAbs_FORWARD)); }

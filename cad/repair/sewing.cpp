@@ -2,12 +2,14 @@
 
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "cad/repair/caps.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -252,8 +254,8 @@ std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels)
   for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {
     const BRepAdaptor_Curve curve(edges[i]);
     const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    text += fmt::format("{} at ({:.6g}, {:.6g}, {:.6g}) length {:.6g}", i == 0 ? ":" : ";", middle.X(),
-                        middle.Y(), middle.Z(), GCPnts_AbscissaPoint::Length(curve));
+    text += fmt::format("{} at {} length {:.6g}", i == 0 ? ":" : ";", geometry::place_text(to_vec(middle)),
+                        GCPnts_AbscissaPoint::Length(curve));
     const std::string name = name_around(edges[i], shape, labels);
     if (!name.empty()) text += fmt::format(" of '{}'", name);
   }
@@ -288,11 +290,10 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
       continue;
     }
     for (const auto& [index, noise] : attempt.left_out) {
-      const FaceLabel* label = labels.Seek(faces(index));
       changes.push_back(
           {fmt::format("strip '{}', {:.4g} long and at most {:.4g} wide, is below the noise: left out and "
                        "its sides sewn",
-                       label ? shown_name(*label) : std::string(), noise.length, noise.widest),
+                       shown_name(labels, faces(index)), noise.length, noise.widest),
            noise.place, noise.widest});
     }
     const double gap = tell_sewn(sewn, attempt.faces.Extent(), changes);
@@ -312,10 +313,9 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
   const Sewn& last = tried.back();
   if (faces.Extent() == 1) {
     const Vec3 at = box.center();
-    throw CadError(
-        fmt::format("a single face, around ({:.6g}, {:.6g}, {:.6g}), bounds no volume: {}. Add the faces "
-                    "that close it in the CAD program",
-                    at.x, at.y, at.z, list_open_edges(faces(1), labels)));
+    throw CadError(fmt::format(
+        "a single face, around {}, bounds no volume: {}. Add the faces that close it in the CAD program",
+        geometry::place_text(at), list_open_edges(faces(1), labels)));
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "

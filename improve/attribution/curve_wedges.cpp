@@ -4,7 +4,6 @@
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -30,7 +29,7 @@ struct EdgeShare {
 double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const Vec3 axis = b - a;
   const Vec3 left = cross(axis, c - a), right = cross(axis, d - a);
-  return geometry::degrees_per_radian * std::atan2(norm(cross(left, right)), dot(left, right));
+  return geometry::degrees_per_radian * angle_between(left, right);
 }
 
 void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {

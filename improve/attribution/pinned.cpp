@@ -1,6 +1,7 @@
 #include "improve/attribution/pinned.hpp"
 
 #include "geometry/angle.hpp"
+#include "geometry/sort_unique.hpp"
 #include "improve/attribution/curve_wedges.hpp"
 #include "improve/attribution/front_vertices.hpp"
 #include "improve/attribution/sharp_curves.hpp"
@@ -36,7 +37,7 @@ double largest_allowed(double target) {
 }
 
 double corner_angle(Vec3 apex, Vec3 a, Vec3 b) {
-  return geometry::degrees_per_radian * std::atan2(norm(cross(a - apex, b - apex)), dot(a - apex, b - apex));
+  return geometry::degrees_per_radian * angle_between(a - apex, b - apex);
 }
 
 class PinnedSearch {
@@ -139,8 +140,7 @@ void PinnedSearch::collect_edges() {
     }
   }
   _edges = _communicator.all_gather_items<EdgeName>(mine);
-  std::sort(_edges.begin(), _edges.end());
-  _edges.erase(std::unique(_edges.begin(), _edges.end()), _edges.end());
+  geometry::sort_unique(_edges);
 }
 
 /// Edges that belong to bad tetrahedra are all there are: whatever fills less than the target is bad.

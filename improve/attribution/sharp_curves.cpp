@@ -1,6 +1,7 @@
 #include "improve/attribution/sharp_curves.hpp"
 
-#include <algorithm>
+#include "geometry/sort_unique.hpp"
+
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -10,10 +11,9 @@ namespace aeroloom::attribution {
 SharpCurves::SharpCurves(const parallel::Communicator& communicator, const std::vector<SharpSegment>& mine)
     : _segments(communicator.all_gather_items<SharpSegment>(mine)) {
   const auto key = [](const SharpSegment& s) { return std::tie(s.region, s.low, s.high, s.edge); };
-  std::sort(_segments.begin(), _segments.end(),
-            [&](const SharpSegment& s, const SharpSegment& t) { return key(s) < key(t); });
   const auto same = [&](const SharpSegment& s, const SharpSegment& t) { return key(s) == key(t); };
-  _segments.erase(std::unique(_segments.begin(), _segments.end(), same), _segments.end());
+  geometry::sort_unique(
+      _segments, [&](const SharpSegment& s, const SharpSegment& t) { return key(s) < key(t); }, same);
   std::map<Wedge, std::vector<sizing::SegmentTree::Segment>> segments;
   for (std::size_t i = 0; i < _segments.size(); ++i) {
     const SharpSegment& s = _segments[i];

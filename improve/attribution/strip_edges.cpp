@@ -1,5 +1,6 @@
 #include "improve/attribution/strip_edges.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "improve/attribution/strip_triangles.hpp"
 
 #include <algorithm>
@@ -34,11 +35,13 @@ std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const
     }
   }
   std::vector<StripEdge> strips = communicator.all_gather_items<StripEdge>(mine);
-  std::sort(strips.begin(), strips.end(), [](const StripEdge& a, const StripEdge& b) {
-    return std::tie(a.edge, a.width, a.face) < std::tie(b.edge, b.width, b.face);
-  });
   const auto same = [](const StripEdge& a, const StripEdge& b) { return a.edge == b.edge; };
-  strips.erase(std::unique(strips.begin(), strips.end(), same), strips.end());
+  geometry::sort_unique(
+      strips,
+      [](const StripEdge& a, const StripEdge& b) {
+        return std::tie(a.edge, a.width, a.face) < std::tie(b.edge, b.width, b.face);
+      },
+      same);
   return strips;
 }
 

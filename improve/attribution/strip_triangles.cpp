@@ -1,5 +1,6 @@
 #include "improve/attribution/strip_triangles.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
@@ -75,10 +76,9 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
                                               const mesh::Numbering& numbering) {
   const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
-    std::sort(edges.begin(), edges.end(),
-              [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) < edge_key(b); });
     const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
-    edges.erase(std::unique(edges.begin(), edges.end(), same), edges.end());
+    geometry::sort_unique(
+        edges, [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) < edge_key(b); }, same);
   };
   std::vector<EdgeAtVertex> edges;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)

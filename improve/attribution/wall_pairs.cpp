@@ -1,5 +1,6 @@
 #include "improve/attribution/wall_pairs.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
@@ -43,10 +44,7 @@ double longest_edge(const std::array<Vec3, 4>& p) {
 
 VertexFaces::VertexFaces(const mesh::DistributedMesh& mesh) {
   const parallel::Communicator& communicator = mesh.communicator;
-  const auto sort_out = [](std::vector<Classification>& rows) {
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  };
+  const auto sort_out = [](std::vector<Classification>& rows) { geometry::sort_unique(rows); };
   std::vector<Classification> mine;
   for (const Piece& piece : mesh.pieces) {
     for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
@@ -88,8 +86,7 @@ std::optional<WallPair> WallFinder::find(const Piece& piece, LocalIndex tet) {
   }
   _first[4] = _faces.size();
   _candidates = _faces;
-  std::sort(_candidates.begin(), _candidates.end());
-  _candidates.erase(std::unique(_candidates.begin(), _candidates.end()), _candidates.end());
+  geometry::sort_unique(_candidates);
   std::optional<WallPair> nearest;
   for (std::size_t low = 0; low < _candidates.size(); ++low) {
     for (std::size_t high = low + 1; high < _candidates.size(); ++high) {

@@ -1,5 +1,6 @@
 #include "improve/borders/piece_update.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/piece_room.hpp"
 
 #include <algorithm>
@@ -56,8 +57,7 @@ mesh::LocalIndex PieceUpdate::add(Vec3 p, mesh::CadDimension dimension, std::int
 void PieceUpdate::add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices) {
   std::vector<mesh::SharedVertexKey> wanted;
   for (const WireTet& t : tets) wanted.insert(wanted.end(), t.vertices.begin(), t.vertices.end());
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  geometry::sort_unique(wanted);
   std::vector<const WireVertex*> missing;
   for (const WireVertex& v : vertices) {
     if (std::binary_search(wanted.begin(), wanted.end(), v.vertex_key) && find(v.vertex_key) < 0)

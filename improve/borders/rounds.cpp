@@ -1,6 +1,7 @@
 #include "improve/borders/rounds.hpp"
 
 #include "geometry/runs.hpp"
+#include "geometry/sort_unique.hpp"
 #include "improve/borders/claims.hpp"
 #include "improve/borders/piece_update.hpp"
 #include "improve/borders/shares.hpp"
@@ -113,8 +114,7 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
                              {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]], vertex_key[v[3]]}});
       for (int k = 0; k < 4; ++k) used.push_back({of_cell[c], v[k]});
     }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    geometry::sort_unique(used);
     for (const auto& [cavity, v] : used)
       result.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
                                  vertex_key[v], piece.point(v), piece.vertex_entity[v]});
@@ -256,8 +256,7 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
                         {vertex_key(t[0]), vertex_key(t[1]), vertex_key(t[2]), vertex_key(t[3])}});
     for (const mesh::LocalIndex v : t) uses.emplace_back(shares.of_tet[i], v);
   }
-  std::sort(uses.begin(), uses.end());
-  uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
+  geometry::sort_unique(uses);
   for (const auto& [piece, v] : uses) {
     if (v < known) {
       out.vertices.push_back({id, piece, static_cast<std::int32_t>(owned.cavity.dimension[v]),

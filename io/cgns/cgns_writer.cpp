@@ -28,8 +28,8 @@ void write_coordinates(SharedFile& file, const cgns::Plan& plan, const FilePart&
 
 /// The elements of a run, by the numbers of their vertices from 1.
 template <class Index>
-void write_run(SharedFile& file, const cgns::Section& section, const FilePart& part, const Block& block,
-               const Run& run) {
+void write_elements(SharedFile& file, const cgns::Section& section, const FilePart& part, const Block& block,
+                    const Run& run) {
   ItemStream<Index> stream(
       file, section.offset + run.before * block.corners * static_cast<std::int64_t>(sizeof(Index)));
   for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
@@ -46,9 +46,9 @@ void write_block(SharedFile& file, const cgns::Plan& plan, const FilePart& part,
     if (place < 0) continue;
     const cgns::Section& section = plan.sections[static_cast<std::size_t>(place)];
     if (plan.index_type == hdf5::ItemType::int32) {
-      write_run<std::int32_t>(file, section, part, block, run);
+      write_elements<std::int32_t>(file, section, part, block, run);
     } else {
-      write_run<std::int64_t>(file, section, part, block, run);
+      write_elements<std::int64_t>(file, section, part, block, run);
     }
   }
 }

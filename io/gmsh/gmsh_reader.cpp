@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::int64_t largest_tag = std::int64_t{1} << 62;
 /// Values that are read at a time.
 constexpr std::int64_t integers_at_once = std::int64_t{1} << 16;
 
@@ -182,7 +181,7 @@ void rename_twins(RawMesh& raw) {
 }
 
 void require_tag(const MshScanner& scanner, std::int64_t tag) {
-  if (tag < 0 || tag > largest_tag) scanner.fail(fmt::format("{} is no tag of a node", tag));
+  if (tag < 0 || tag > largest_id) scanner.fail(fmt::format("{} is no tag of a node", tag));
 }
 
 void read_nodes(Source& source, RawMesh& raw) {

@@ -5,7 +5,7 @@ namespace aeroloom::io {
 namespace {
 
 /// Appends a block after those before.
-void place(MshBlocks& blocks, MshBlock& block) {
+void place_block(MshBlocks& blocks, MshBlock& block) {
   block.first_tag = blocks.elements + 1;
   block.offset = blocks.bytes;
   if (block.count == 0) return;
@@ -26,7 +26,7 @@ MshBlocks lay_out_elements(const std::vector<std::array<mesh::GlobalIndex, face_
     for (std::size_t patch = 0; patch < patch_faces.size(); ++patch) {
       blocks.faces[patch][s] = {2, static_cast<std::int32_t>(patch + 1), msh_face_type[s], corners_of(shape),
                                 patch_faces[patch][s]};
-      place(blocks, blocks.faces[patch][s]);
+      place_block(blocks, blocks.faces[patch][s]);
     }
   }
   for (const CellShape shape : cell_shapes) {
@@ -34,7 +34,7 @@ MshBlocks lay_out_elements(const std::vector<std::array<mesh::GlobalIndex, face_
     for (std::size_t region = 0; region < region_cells.size(); ++region) {
       blocks.cells[region][s] = {3, static_cast<std::int32_t>(region + 1), msh_cell_type[s],
                                  corners_of(shape), region_cells[region][s]};
-      place(blocks, blocks.cells[region][s]);
+      place_block(blocks, blocks.cells[region][s]);
     }
   }
   return blocks;

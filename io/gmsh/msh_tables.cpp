@@ -12,7 +12,7 @@ namespace aeroloom::io {
 namespace {
 
 /// The number of a physical group; a minus says that the group looks at the entity from behind.
-std::int32_t group_of(std::int32_t tag) {
+std::int32_t physical_group(std::int32_t tag) {
   return tag < 0 ? -std::max(tag, -std::numeric_limits<std::int32_t>::max()) : tag;
 }
 
@@ -131,7 +131,7 @@ private:
       const std::size_t first = text.find('"'), last = text.rfind('"');
       if (!(line >> dimension >> tag) || first == std::string::npos || first == last)
         _scanner.fail(fmt::format("'{}' where a physical name was expected", text.substr(0, 40)));
-      _tables.physical_names[{dimension, group_of(tag)}] = text.substr(first + 1, last - first - 1);
+      _tables.physical_names[{dimension, physical_group(tag)}] = text.substr(first + 1, last - first - 1);
     }
   }
 
@@ -154,7 +154,7 @@ private:
 
   void read_physical(MshEntity& entity) {
     const std::int64_t count = _scanner.count(4);
-    for (std::int64_t i = 0; i < count; ++i) entity.physical.push_back(group_of(_scanner.int32()));
+    for (std::int64_t i = 0; i < count; ++i) entity.physical.push_back(physical_group(_scanner.int32()));
   }
 
   /// Reads the record of an entity after its tag.

@@ -24,7 +24,7 @@ const MemoryFile& file_of(const H5FD_t* file) {
   return *reinterpret_cast<const MemoryFile*>(file);
 }
 
-H5FD_t* open_file(const char*, unsigned, hid_t access, haddr_t) {
+H5FD_t* open_image(const char*, unsigned, hid_t access, haddr_t) {
   const void* info = H5Pget_driver_info(access);
   if (info == nullptr) return nullptr;
   auto* file = new (std::nothrow) MemoryFile{};
@@ -80,7 +80,7 @@ H5FD_class_t driver_class() {
   driver.maxaddr = (haddr_t{1} << 62) - 1;
   driver.fc_degree = H5F_CLOSE_STRONG;
   driver.fapl_size = sizeof(void*);  // of the image
-  driver.open = open_file;
+  driver.open = open_image;
   driver.close = close_file;
   driver.query = query;
   driver.get_eoa = end_of_space;

@@ -54,7 +54,7 @@ std::vector<std::int64_t> dimensions_of(hid_t space, const std::string& name) {
   return {sizes.begin(), sizes.end()};
 }
 
-ItemKind kind_of(hid_t array, const std::string& name) {
+ItemKind item_kind_of(hid_t array, const std::string& name) {
   const Handle type(H5Dget_type(array), H5Tclose, name);
   switch (H5Tget_class(type)) {
     case H5T_INTEGER:
@@ -84,7 +84,7 @@ ArrayFacts facts_of(hid_t file, const std::string& name, std::int64_t file_bytes
   if (object < 0) return facts;
   facts.kind = ItemKind::other;
   if (H5Iget_type(object) != H5I_DATASET) return facts;
-  facts.kind = kind_of(object, name);
+  facts.kind = item_kind_of(object, name);
   const Handle space(H5Dget_space(object), H5Sclose, name);
   facts.dimensions = dimensions_of(space, name);
   const Handle type(H5Dget_type(object), H5Tclose, name);
@@ -222,7 +222,7 @@ Bytes texts(hid_t file, const std::string& name) {
   return parallel::to_wire(texts);
 }
 
-Bytes run(std::span<const std::byte> input) {
+Bytes run_request(std::span<const std::byte> input) {
   const auto request = parallel::from_wire<ReadingRequest>(input);
   const std::span<const std::byte> details = request.details;
   const Handle file = open_file(request.path);
@@ -240,6 +240,6 @@ Bytes run(std::span<const std::byte> input) {
 
 }  // namespace
 
-const parallel::NamedTask reading_task("reading HDF5", run);
+const parallel::NamedTask reading_task("reading HDF5", run_request);
 
 }  // namespace aeroloom::io::hdf5

@@ -1,5 +1,6 @@
 #include "io/medit/medit_reader.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "io/distinct_numbers.hpp"
 #include "io/medit/medit_names.hpp"
 #include "io/medit/medit_share.hpp"
@@ -50,8 +51,7 @@ std::optional<std::int64_t> first_nameless(const std::vector<std::int64_t>& refe
 template <class Names>
 void add_named(const Names& names, std::vector<std::int64_t>& references) {
   for (const auto& [reference, name] : names) references.push_back(reference);
-  std::sort(references.begin(), references.end());
-  references.erase(std::unique(references.begin(), references.end()), references.end());
+  geometry::sort_unique(references);
 }
 
 std::vector<std::int32_t> ids_of(const MeditItems& items, const std::vector<std::int64_t>& references) {

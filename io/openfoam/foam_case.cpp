@@ -56,7 +56,7 @@ void remove_if_empty(const fs::path& folder) {
 }
 
 /// Empty where there is no such file, or it is too large for a dictionary.
-std::string text_of(const fs::path& path) {
+std::string dictionary_text(const fs::path& path) {
   constexpr std::uintmax_t largest = 1 << 20;
   if (!fs::is_regular_file(path) || fs::file_size(path) > largest) return {};
   std::ifstream stream(path, std::ios::binary);
@@ -65,7 +65,7 @@ std::string text_of(const fs::path& path) {
 
 /// Whether the file refers to a field in 0.orig/ and is as it was written here.
 bool is_own_field(const fs::path& file) {
-  const std::string text = text_of(file);
+  const std::string text = dictionary_text(file);
   for (const std::string_view up : {"../", "../../"}) {
     for (const FoamField& field : foam_fields(up)) {
       if (file.filename() == field.name && text == field.link) return true;
@@ -118,7 +118,7 @@ bool holds_results(const fs::path& processor) {
 
 /// The number of subdomains that a decomposeParDict asks for; 0: none.
 std::int64_t subdomains_of(const fs::path& path) {
-  const std::string text = text_of(path), word = "numberOfSubdomains";
+  const std::string text = dictionary_text(path), word = "numberOfSubdomains";
   const std::size_t at = text.find(word);
   if (at == std::string::npos) return 0;
   std::istringstream rest(text.substr(at + word.size(), 100));
@@ -142,7 +142,7 @@ void write_decomposition(const FoamCase& foam_case) {
   const fs::path old = foam_case.folder / "system" / "decomposeParDict";
   const std::int64_t subdomains = subdomains_of(old);
   if (subdomains > 0 && subdomains != foam_case.parts) {
-    if (text_of(old) == foam_decomposition(subdomains)) {
+    if (dictionary_text(old) == foam_decomposition(subdomains)) {
       fs::remove(old);
     } else {
       parallel::log_warning(

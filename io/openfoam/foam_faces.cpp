@@ -105,7 +105,7 @@ struct PartRow {
 };
 
 /// By part. Collective.
-std::vector<PartRow> gather_rows(const FileMesh& mesh, const FaceLinks& links) {
+std::vector<PartRow> gather_part_rows(const FileMesh& mesh, const FaceLinks& links) {
   std::vector<PartRow> mine;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const FilePart& part = mesh.parts[i];
@@ -302,7 +302,7 @@ FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
 FoamPlan plan_faces(const FileMesh& mesh, const FaceLinks& links) {
   require_closed(links.defects);
   FoamPlan plan;
-  for (const PartRow& row : gather_rows(mesh, links)) {
+  for (const PartRow& row : gather_part_rows(mesh, links)) {
     plan.first_cell.push_back(plan.cells);
     plan.first_inner_face.push_back(plan.faces);
     plan.cells += row.cells;

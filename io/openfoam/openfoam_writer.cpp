@@ -34,7 +34,7 @@ struct FoamMesh {
   FoamFormat format;
 };
 
-const char* type_of(mesh::PatchType type) {
+const char* foam_type_of(mesh::PatchType type) {
   switch (type) {
     case mesh::PatchType::wall:
       return "wall";
@@ -158,7 +158,7 @@ private:
     for (std::size_t p = 0; p < _mesh.patches.size(); ++p) {
       if (!is_boundary(_mesh.patches[p])) continue;
       file.text(fmt::format("    {}\n    {{\n        type            {};\n", _names.patches.names[p],
-                            type_of(_mesh.patches[p].type)));
+                            foam_type_of(_mesh.patches[p].type)));
       if (!_names.patches.groups[p].empty())
         file.text(fmt::format("        inGroups        1({});\n", _names.patches.groups[p]));
       file.text(fmt::format("        nFaces          {};\n        startFace       {};\n    }}\n",

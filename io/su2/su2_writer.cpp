@@ -132,7 +132,8 @@ bool stands_before(const TextBlock& a, const TextBlock& b) {
 }
 
 /// Places headings and stretches one behind the other; returns the offsets of headings.
-std::vector<std::int64_t> place(const std::vector<std::string>& headings, std::vector<TextBlock>& stretches) {
+std::vector<std::int64_t> place_stretches(const std::vector<std::string>& headings,
+                                          std::vector<TextBlock>& stretches) {
   std::sort(stretches.begin(), stretches.end(), stands_before);
   std::vector<std::int64_t> heading_offsets;
   std::int64_t at = 0;
@@ -157,7 +158,7 @@ void write_su2(const FileMesh& mesh, const std::string& path) {
   const std::vector<std::string> headings = headings_of(mesh, patches, names);
   const std::vector<TextBlock> mine = measure(mesh, patches);
   std::vector<TextBlock> all = communicator.all_gather_items(std::span<const TextBlock>(mine));
-  const std::vector<std::int64_t> heading_offsets = place(headings, all);
+  const std::vector<std::int64_t> heading_offsets = place_stretches(headings, all);
   remove_markers(communicator, path);
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file);

@@ -16,7 +16,7 @@ namespace {
 using mesh::GlobalIndex;
 using mesh::LocalIndex;
 
-Su2bCounts counts_of(const FileMesh& mesh, const BoundaryPatches& patches) {
+Su2bCounts counts_of_mesh(const FileMesh& mesh, const BoundaryPatches& patches) {
   Su2bCounts counts;
   counts.points = mesh.vertex_count;
   counts.cells = mesh.counts(CountedFaces::boundary).cells;
@@ -30,7 +30,7 @@ class Su2bParts {
 public:
   Su2bParts(const FileMesh& mesh, const BoundaryPatches& patches, RangeWriter& writer)
       : _patches(patches),
-        _counts(counts_of(mesh, patches)),
+        _counts(counts_of_mesh(mesh, patches)),
         _layout(su2b_layout(_counts)),
         _writer(writer) {}
 
@@ -131,8 +131,8 @@ private:
 };
 
 template <class Integer>
-void write_share(const FileMesh& mesh, const BoundaryPatches& patches, const std::vector<std::string>& names,
-                 bool is_root, RangeWriter& writer) {
+void write_binary_share(const FileMesh& mesh, const BoundaryPatches& patches,
+                        const std::vector<std::string>& names, bool is_root, RangeWriter& writer) {
   Su2bParts<Integer> parts(mesh, patches, writer);
   if (is_root) parts.write_heads(names);
   for (const FilePart& part : mesh.parts) parts.write_part(part);
@@ -145,15 +145,15 @@ void write_su2b(const FileMesh& mesh, const std::string& path) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
-  const bool is_narrow = su2b_layout(counts_of(mesh, patches)).integer_bytes == 4;
+  const bool is_narrow = su2b_layout(counts_of_mesh(mesh, patches)).integer_bytes == 4;
   const bool is_root = communicator.is_root();
   remove_markers(communicator, path);
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file, ByteOrder::little);
     if (is_narrow) {
-      write_share<std::uint32_t>(mesh, patches, names, is_root, writer);
+      write_binary_share<std::uint32_t>(mesh, patches, names, is_root, writer);
     } else {
-      write_share<std::uint64_t>(mesh, patches, names, is_root, writer);
+      write_binary_share<std::uint64_t>(mesh, patches, names, is_root, writer);
     }
   });
   write_markers(path, mesh, patches, names);

@@ -1,3 +1,4 @@
+#include "io/raw_mesh.hpp"
 #include "io/vtk/vtk_grid.hpp"
 #include "io/vtk/vtk_labels.hpp"
 #include "io/vtk/vtk_part.hpp"
@@ -37,8 +38,8 @@ std::optional<std::vector<GlobalIndex>> read_ids(vtkUnstructuredGrid& grid) {
   if (!ids)
     throw std::runtime_error(
         fmt::format("point array '{}' does not hold one whole number for each point", name));
-  const auto bad = std::find_if(ids->begin(), ids->end(),
-                                [](std::int64_t id) { return id < 0 || id > std::int64_t{1} << 62; });
+  const auto bad =
+      std::find_if(ids->begin(), ids->end(), [](std::int64_t id) { return id < 0 || id > largest_id; });
   if (bad != ids->end())
     throw std::runtime_error(
         fmt::format("point array '{}': point {} has the id {}", name, bad - ids->begin(), *bad));
@@ -147,7 +148,7 @@ struct Places {
   std::array<std::vector<vtkIdType>, face_shape_count> faces;
 };
 
-void append_corners(std::span<const vtkIdType> corners, Kind kind, int type, VtkPart& part) {
+void append_item_corners(std::span<const vtkIdType> corners, Kind kind, int type, VtkPart& part) {
   if (kind.use == Use::cell) {
     std::vector<GlobalIndex>& items = part.cells[kind.shape];
     for (std::size_t k = 0; k < corners.size(); ++k) items.push_back(corners[to_vtk[kind.shape][k]]);
@@ -167,7 +168,7 @@ Places read_cells(vtkUnstructuredGrid& grid, bool faces_too, VtkPart& part) {
     const std::span<const vtkIdType> corners = cells.corners(c);
     const Kind kind = kind_of(cells.type(c), corners.size(), c);
     if (kind.use == Use::none || cells.is_ghost(c) || (kind.use == Use::face && !faces_too)) continue;
-    append_corners(corners, kind, cells.type(c), part);
+    append_item_corners(corners, kind, cells.type(c), part);
     (kind.use == Use::cell ? places.cells[kind.shape] : places.faces[kind.shape]).push_back(c);
   }
   return places;

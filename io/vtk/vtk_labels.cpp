@@ -1,5 +1,7 @@
 #include "io/vtk/vtk_labels.hpp"
 
+#include "geometry/sort_unique.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -96,8 +98,7 @@ CellLabels label(const std::optional<std::vector<std::int64_t>>& values, const N
   for (const auto& list : lists) {
     for (const vtkIdType cell : list) used.push_back(value_of(cell));
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  geometry::sort_unique(used);
   for (const auto& list : lists) {
     std::vector<std::int32_t>& places = labels.of_cells.emplace_back();
     places.reserve(list.size());

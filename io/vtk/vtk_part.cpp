@@ -43,7 +43,7 @@ parallel::Bytes run_sources_task(std::span<const std::byte> input) {
 const parallel::NamedTask part_task("read a VTK file", run_part_task);
 const parallel::NamedTask sources_task("read an index of VTK files", run_sources_task);
 
-parallel::Bytes run(const parallel::NamedTask& task, const std::string& path) {
+parallel::Bytes run_reader(const parallel::NamedTask& task, const std::string& path) {
   const parallel::SandboxLimits limits = limits_of(readable_bytes(path));
   const parallel::CrashNote note(fmt::format("reading '{}'", path));
   parallel::SandboxResult result =
@@ -83,11 +83,11 @@ std::int64_t readable_bytes(const std::string& path) {
 }
 
 VtkPart read_vtk_part(const std::string& path) {
-  return parallel::from_wire<VtkPart>(run(part_task, path));
+  return parallel::from_wire<VtkPart>(run_reader(part_task, path));
 }
 
 std::vector<std::string> read_vtk_sources(const std::string& path) {
-  return parallel::from_wire<std::vector<std::string>>(run(sources_task, path));
+  return parallel::from_wire<std::vector<std::string>>(run_reader(sources_task, path));
 }
 
 }  // namespace aeroloom::io

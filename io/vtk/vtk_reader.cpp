@@ -1,5 +1,6 @@
 #include "io/vtk/vtk_reader.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "io/vtk/joined_points.hpp"
 #include "io/vtk/vtk_part.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -151,10 +152,8 @@ bool is_before(const VtkLabel& a, const VtkLabel& b) {
   return sort_key(a) < sort_key(b);
 }
 void sort_labels(std::vector<VtkLabel>& labels) {
-  std::sort(labels.begin(), labels.end(), is_before);
-  labels.erase(std::unique(labels.begin(), labels.end(),
-                           [](const VtkLabel& a, const VtkLabel& b) { return sort_key(a) == sort_key(b); }),
-               labels.end());
+  geometry::sort_unique(labels, is_before,
+                        [](const VtkLabel& a, const VtkLabel& b) { return sort_key(a) == sort_key(b); });
 }
 
 /// One table of all ranks by value and name; `labels`, of this rank's cells, become places in it. Collective.

@@ -33,8 +33,8 @@ struct FaceArrays {
   std::vector<float> quality;
 };
 
-void append_corners(const Block& block, mesh::LocalIndex face, const std::vector<PointIndex>& places,
-                    FaceArrays& arrays) {
+void append_face(const Block& block, mesh::LocalIndex face, const std::vector<PointIndex>& places,
+                 FaceArrays& arrays) {
   for (int k = 0; k < block.corners; ++k) arrays.cells.connectivity.push_back(places[block.item(face)[k]]);
   arrays.cells.close_cell();
 }
@@ -42,7 +42,7 @@ void append_corners(const Block& block, mesh::LocalIndex face, const std::vector
 void append_triangles(const PartPiece& piece, const std::vector<PointIndex>& places, FaceArrays& arrays) {
   const Block& triangles = piece.part.faces[0];
   for (mesh::LocalIndex t = 0; t < triangles.count(); ++t) {
-    append_corners(triangles, t, places, arrays);
+    append_face(triangles, t, places, arrays);
     const mesh::LocalIndex* v = triangles.item(t);
     arrays.quality.push_back(static_cast<float>(
         mesh::triangle_mean_ratio(piece.part.point(v[0]), piece.part.point(v[1]), piece.part.point(v[2]))));
@@ -55,7 +55,7 @@ void append_triangles(const PartPiece& piece, const std::vector<PointIndex>& pla
 void append_faces(const FilePart& part, const std::vector<PointIndex>& places, FaceArrays& arrays) {
   for (const Block& block : part.faces) {
     for (const Run& run : block.runs) {
-      for (mesh::LocalIndex f = run.begin; f < run.end; ++f) append_corners(block, f, places, arrays);
+      for (mesh::LocalIndex f = run.begin; f < run.end; ++f) append_face(block, f, places, arrays);
       arrays.patch.resize(arrays.patch.size() + static_cast<std::size_t>(run.end - run.begin), run.id);
     }
   }

@@ -102,8 +102,8 @@ void add_fields(vtkUnstructuredGrid& grid, const std::vector<PartPiece>& pieces,
   fields.AddArray(make_array<vtkIntArray>("boundary_patch", boundary.patch));
 }
 
-void write_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, const std::string& path,
-                Compression compression) {
+void write_volume_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, const std::string& path,
+                       Compression compression) {
   const PartPoints points = merge_points(pieces, PartContent::cells);
   CellArrays arrays;
   std::size_t count = 0;
@@ -133,7 +133,7 @@ void write_volume(const FileMesh& mesh, const std::string& directory, const std:
   const std::size_t parts =
       write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file(mesh.cell_count()),
                   files, [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_part(pieces, mesh, path, compression);
+                    write_volume_part(pieces, mesh, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   std::vector<IndexArray> cell_arrays = {

@@ -1,5 +1,6 @@
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "io/distinct_numbers.hpp"
 #include "io/streams/range_reader.hpp"
 #include "io/vtkhdf/vtkhdf_share.hpp"
@@ -29,8 +30,7 @@ public:
   void replace(const std::vector<std::vector<mesh::GlobalIndex>*>& lists) {
     parallel::agree(_communicator, [&] {
       for (const auto* list : lists) _places.insert(_places.end(), list->begin(), list->end());
-      std::sort(_places.begin(), _places.end());
-      _places.erase(std::unique(_places.begin(), _places.end()), _places.end());
+      geometry::sort_unique(_places);
     });
     ask();
     for (auto* list : lists) {

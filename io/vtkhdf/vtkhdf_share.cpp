@@ -31,7 +31,6 @@ std::string name_of_cell_type(std::int64_t type) {
   }
 }
 
-constexpr std::int64_t largest_id = std::int64_t{1} << 62;
 constexpr std::int64_t cells_at_a_time = std::int64_t{1} << 20;
 constexpr std::int64_t duplicate_cell = 1;  ///< of vtkGhostType
 

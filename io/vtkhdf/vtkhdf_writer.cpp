@@ -1,5 +1,6 @@
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "io/vtk_order.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -21,7 +22,7 @@ namespace {
 constexpr auto item_bytes = static_cast<std::int64_t>(sizeof(std::int64_t));
 
 template <std::size_t N>
-GridCounts counts_of(std::int64_t points, const std::array<Block, N>& blocks) {
+GridCounts counts_of_grid(std::int64_t points, const std::array<Block, N>& blocks) {
   GridCounts counts{points, 0, 0};
   for (const Block& block : blocks) {
     counts.cells += block.count();
@@ -31,7 +32,7 @@ GridCounts counts_of(std::int64_t points, const std::array<Block, N>& blocks) {
 }
 
 /// One row per part of the whole mesh, by its id.
-std::vector<GridCounts> gather_rows(const FileMesh& mesh, const std::vector<GridCounts>& mine) {
+std::vector<GridCounts> gather_counts(const FileMesh& mesh, const std::vector<GridCounts>& mine) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
   struct PartCounts {
     std::int64_t part;
@@ -91,8 +92,8 @@ private:
   ItemStream<std::int32_t> _parts, _ids;
 };
 
-void write_cells(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
-                 const FilePart& part) {
+void write_grid_cells(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
+                      const FilePart& part) {
   file.write_items(places.points + 3 * before.points * item_bytes, part.coordinates);
   file.write_items(places.numbers + before.points * item_bytes, part.numbers);
   PartitionWriter writer(file, places, before, part.id);
@@ -136,13 +137,12 @@ std::vector<mesh::LocalIndex> vertices_of_faces(const FilePart& part) {
   std::vector<mesh::LocalIndex> used;
   for (const Block& block : part.faces)
     used.insert(used.end(), block.connectivity.begin(), block.connectivity.end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  geometry::sort_unique(used);
   return used;
 }
 
-void write_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
-                 const FilePart& part) {
+void write_grid_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
+                      const FilePart& part) {
   const std::vector<mesh::LocalIndex> used = vertices_of_faces(part);
   ItemStream<double> points(file, places.points + 3 * before.points * item_bytes);
   ItemStream<std::int64_t> numbers(file, places.numbers + before.points * item_bytes);
@@ -169,12 +169,12 @@ void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::vector<GridCounts> cells, faces;
   for (const FilePart& part : mesh.parts) {
-    cells.push_back(counts_of(part.vertex_count(), part.cells));
-    faces.push_back(counts_of(0, part.faces));
+    cells.push_back(counts_of_grid(part.vertex_count(), part.cells));
+    faces.push_back(counts_of_grid(0, part.faces));
   }
-  const std::vector<GridCounts> rows = gather_rows(mesh, cells);
+  const std::vector<GridCounts> rows = gather_counts(mesh, cells);
   const std::vector<GridCounts> before = vtkhdf::sums_before(rows);
-  const std::vector<GridCounts> faces_before = vtkhdf::sums_before(gather_rows(mesh, faces));
+  const std::vector<GridCounts> faces_before = vtkhdf::sums_before(gather_counts(mesh, faces));
   vtkhdf::GridPlaces grid;
   vtkhdf::BoundaryPlaces boundary;
   std::vector<hdf5::Extent> structure;
@@ -191,7 +191,7 @@ void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
     if (communicator.is_root()) file.write_items(boundary.offsets, std::span(&none, 1));
     for (const FilePart& part : mesh.parts) {
       const auto p = static_cast<std::size_t>(part.id);
-      write_cells(file, grid, before[p], part);
+      write_grid_cells(file, grid, before[p], part);
       write_boundary(file, boundary, faces_before[p], part);
     }
   });
@@ -201,9 +201,9 @@ void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::vector<GridCounts> faces;
   for (const FilePart& part : mesh.parts) {
-    faces.push_back(counts_of(static_cast<std::int64_t>(vertices_of_faces(part).size()), part.faces));
+    faces.push_back(counts_of_grid(static_cast<std::int64_t>(vertices_of_faces(part).size()), part.faces));
   }
-  const std::vector<GridCounts> rows = gather_rows(mesh, faces);
+  const std::vector<GridCounts> rows = gather_counts(mesh, faces);
   const std::vector<GridCounts> before = vtkhdf::sums_before(rows);
   vtkhdf::GridPlaces grid;
   std::vector<hdf5::Extent> structure;
@@ -221,7 +221,7 @@ void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path) {
   });
   hdf5::write_laid_out(communicator, path, structure, [&](SharedFile& file) {
     for (const FilePart& part : mesh.parts)
-      write_faces(file, grid, before[static_cast<std::size_t>(part.id)], part);
+      write_grid_faces(file, grid, before[static_cast<std::size_t>(part.id)], part);
   });
 }
 

@@ -1,5 +1,7 @@
 #include "mesh/quality/quality.hpp"
 
+#include "geometry/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,12 +15,10 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-
 /// Angle at `apex` of the triangle (apex, b, c), degrees.
 double angle_at(Vec3 apex, Vec3 b, Vec3 c) {
   const Vec3 u = b - apex, v = c - apex;
-  return degrees * std::atan2(norm(cross(u, v)), dot(u, v));
+  return geometry::degrees_per_radian * angle_between(u, v);
 }
 
 double squared_edges(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
@@ -43,7 +43,8 @@ DihedralRange dihedral_range(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double x[6] = {scaled_cosine(2, 3, b - a), scaled_cosine(1, 3, c - a), scaled_cosine(1, 2, d - a),
                        scaled_cosine(0, 3, c - b), scaled_cosine(0, 2, d - b), scaled_cosine(0, 1, d - c)};
   const auto [lowest, highest] = std::minmax_element(x, x + 6);
-  return {degrees * std::atan2(volume, *highest), degrees * std::atan2(volume, *lowest)};
+  return {geometry::degrees_per_radian * std::atan2(volume, *highest),
+          geometry::degrees_per_radian * std::atan2(volume, *lowest)};
 }
 
 double mean_ratio(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {

@@ -1,25 +1,20 @@
 #include "mesh/quality/tet_measures.hpp"
 
+#include "geometry/angle.hpp"
+
 #include <cmath>
-#include <numbers>
 
 namespace aeroloom::mesh {
 
 using geometry::Vec3;
-
-namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-}  // namespace
 
 void TetMeasures::measure(const Piece& piece, LocalIndex first, int count) {
   gather(piece, first, count);
   measure_edges_and_normals();
   for (int i = 0; i < count; ++i) {
     const double volume = volume6[i];
-    smallest_dihedral[i] = volume > 0 ? degrees * std::atan2(volume, _highest[i]) : 0;
-    largest_dihedral[i] = volume > 0 ? degrees * std::atan2(volume, _lowest[i]) : 180;
+    smallest_dihedral[i] = volume > 0 ? geometry::degrees_per_radian * std::atan2(volume, _highest[i]) : 0;
+    largest_dihedral[i] = volume > 0 ? geometry::degrees_per_radian * std::atan2(volume, _lowest[i]) : 180;
     const double root = std::cbrt(volume / 2);
     mean_ratio[i] = _squared_edges[i] > 0 ? 12 * root * std::abs(root) / _squared_edges[i] : 0;
   }

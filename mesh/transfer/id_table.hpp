@@ -1,6 +1,7 @@
 /// Distinct numbers and their places among them.
 #pragma once
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/piece.hpp"
 
 #include <algorithm>
@@ -28,8 +29,7 @@ public:
         _numbers.push_back(_low + static_cast<GlobalIndex>(i));
       }
     } else {
-      std::sort(numbers.begin(), numbers.end());
-      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+      geometry::sort_unique(numbers);
       _numbers = std::move(numbers);
     }
     _numbers.shrink_to_fit();

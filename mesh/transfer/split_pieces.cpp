@@ -1,5 +1,6 @@
 #include "mesh/transfer/split_pieces.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/communication/schedule.hpp"
@@ -98,8 +99,7 @@ public:
       part.triangle_face.push_back(_piece.triangle_face[t]);
       part.triangle_patch.push_back(_piece.triangle_patch[t]);
     }
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    geometry::sort_unique(used);
     for (std::size_t i = 0; i < used.size(); ++i) add_vertex(used[i], static_cast<LocalIndex>(i), part);
     for (const LocalIndex t : triangles)
       for (int k = 0; k < 3; ++k) part.cells.push_back(_local[_piece.cell(t)[k]]);

@@ -30,7 +30,7 @@ struct Header {
 static_assert(sizeof(Header) % alignof(std::max_align_t) == 0);
 
 /// Frees a group, unless the library has ended before.
-void release(MPI_Comm& group) {
+void free_group(MPI_Comm& group) {
   if (group != MPI_COMM_NULL && session::is_library_running()) MPI_Comm_free(&group);
 }
 
@@ -48,7 +48,7 @@ public:
                    "making the ranks of a node");
     note_size();
   }
-  ~NodeGroup() { release(_group); }
+  ~NodeGroup() { free_group(_group); }
   NodeGroup(const NodeGroup&) = delete;
   NodeGroup& operator=(const NodeGroup&) = delete;
 
@@ -89,7 +89,7 @@ public:
     session::check(MPI_Allgather(&mine, 1, MPI_INT, _leader_of.data(), 1, MPI_INT, all.communicator),
                    "telling nodes apart");
   }
-  ~FirstRanks() { release(_group); }
+  ~FirstRanks() { free_group(_group); }
   FirstRanks(const FirstRanks&) = delete;
   FirstRanks& operator=(const FirstRanks&) = delete;
 

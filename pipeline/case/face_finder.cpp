@@ -7,7 +7,6 @@
 #include "pipeline/case/nearest_name.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -239,7 +238,7 @@ std::vector<char> FaceFinder::with_direction(geometry::Vec3 direction, double wi
     geometry::Vec3 normal = _model.face_area_vector(f);
     if (bodies && !_model.is_far_field(f)) normal = -normal;
     if (norm(normal) <= least_area_vector * _model.face_area(f)) return false;
-    double turned = std::atan2(norm(cross(normal, direction)), dot(normal, direction));
+    double turned = angle_between(normal, direction);
     // A face between two regions looks both ways.
     if (_model.face(f).back != cad::no_entity) turned = std::min(turned, std::numbers::pi - turned);
     return turned <= within * geometry::degree;

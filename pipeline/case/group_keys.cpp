@@ -65,7 +65,7 @@ void declare_lists(KeyTable& keys, const char* name, std::deque<FaceConditions>&
       [&list] { list.clear(); }, doc);
 }
 
-void declare_rule(KeyTable& keys, GroupRule& rule) {
+void declare_group_rule(KeyTable& keys, GroupRule& rule) {
   declare_conditions(keys, rule.all);
   declare_lists(keys, "any", rule.any,
                 {"Selections with the keys above: the face must meet at least one.", "any",
@@ -110,7 +110,7 @@ void declare_groups(KeyTable& root, std::deque<GroupRule>& rules, bool& strict) 
                                         [&](const GroupRule& rule) { return rule.name == name; });
         GroupRule& rule = known != rules.end() ? *known : rules.emplace_back();
         rule.name = name;
-        declare_rule(keys, rule);
+        declare_group_rule(keys, rule);
       });
   groups.flag("strict", strict,
               "Whether every boundary face has to be in a group or in `patches`; others are then an error. "

@@ -1,5 +1,7 @@
 #include "pipeline/case/quality_gate.hpp"
 
+#include "geometry/place_text.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -87,8 +89,8 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
   std::string place;
   if (!quality.worst.empty()) {
     const mesh::WorstCell& worst = quality.worst.front();
-    place = fmt::format("\n  the worst tetrahedron has {:.4g} degrees at ({:.6g}, {:.6g}, {:.6g})",
-                        worst.value, worst.center.x, worst.center.y, worst.center.z);
+    place = fmt::format("\n  the worst tetrahedron has {:.4g} degrees at {}", worst.value,
+                        geometry::place_text(worst.center));
   }
   return "the mesh misses what was asked for; it was written nevertheless:" + text + place +
          "\n  remedy: a larger improve.target_angle, smaller sizes there, or lower limits";

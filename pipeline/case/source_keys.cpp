@@ -64,7 +64,7 @@ void declare_wake(SourceRule& rule, KeyTable& keys) {
                "as `size`; shapes other than `wake` have none", "0.4"});
 }
 
-void declare_rule(SourceRule& rule, KeyTable& keys) {
+void declare_source_rule(SourceRule& rule, KeyTable& keys) {
   std::vector<std::pair<std::string, std::optional<SourceShape>>> names;
   for (const ShapeKeys& each : shapes()) names.emplace_back(each.name, each.shape);
   keys.choice("shape", rule.shape, names,
@@ -131,7 +131,7 @@ void declare_sources(KeyTable& sizing, std::deque<SourceRule>& rules) {
                                         [&](const SourceRule& rule) { return rule.name == name; });
         SourceRule& rule = known != rules.end() ? *known : rules.emplace_back();
         rule.name = name;
-        declare_rule(rule, keys);
+        declare_source_rule(rule, keys);
       });
 }
 

@@ -1,3 +1,4 @@
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/termination.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
@@ -90,8 +91,7 @@ study::StudyRecord make_record(const ScalingArguments& arguments, const cases::C
   options.overrides = arguments.overrides;
   options.directory = fs::absolute(input.output.directory).lexically_normal();
   options.ranks = arguments.ranks.empty() ? std::vector<int>{1, 2} : arguments.ranks;
-  std::sort(options.ranks.begin(), options.ranks.end());
-  options.ranks.erase(std::unique(options.ranks.begin(), options.ranks.end()), options.ranks.end());
+  geometry::sort_unique(options.ranks);
   const auto wants = [&](const char* name) {
     return std::find(arguments.series.begin(), arguments.series.end(), name) != arguments.series.end();
   };

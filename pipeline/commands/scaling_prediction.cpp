@@ -1,5 +1,6 @@
 #include "pipeline/commands/scaling_prediction.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/network_probe.hpp"
 #include "pipeline/commands/command.hpp"
@@ -7,7 +8,6 @@
 #include "pipeline/report/text_file.hpp"
 #include "pipeline/study/prediction_files.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
@@ -99,8 +99,7 @@ study::Network network_of(const PredictionArguments& arguments) {
 
 report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks) {
   if (ranks.empty()) ranks = usual_ranks();
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  geometry::sort_unique(ranks);
   const fs::path folder = arguments.run;
   const study::Forecasts forecasts =
       study::forecast_ranks(study::read_costs(folder), arguments.run, ranks, network_of(arguments));

@@ -15,8 +15,8 @@ std::string names_of(const cad::Model& model, const sizing::LiftingElement& elem
   return names;
 }
 
-FoundTrailingEdge describe(const cad::Model& model, const sizing::LiftingElement& element,
-                           const sizing::LevelSizes& sizes) {
+FoundTrailingEdge describe_trailing_edge(const cad::Model& model, const sizing::LiftingElement& element,
+                                         const sizing::LevelSizes& sizes) {
   FoundTrailingEdge found;
   found.faces = names_of(model, element);
   found.is_blunt = element.strip != cad::no_entity;
@@ -43,7 +43,7 @@ LevelFindings describe_level(const cad::Model& model, const sizing::LiftingBodie
   const geometry::Vec3 extent = model.bounds().size();
   findings.far_field = 0.5 * std::max({extent.x, extent.y, extent.z}) / bodies.semispan;
   for (const sizing::LiftingElement& element : bodies.elements)
-    findings.edges.push_back(describe(model, element, sizes));
+    findings.edges.push_back(describe_trailing_edge(model, element, sizes));
   return findings;
 }
 

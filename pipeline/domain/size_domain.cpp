@@ -59,7 +59,7 @@ std::optional<double> target_of(const cases::SizingRequest& request) {
   return request.minimum && request.maximum ? std::nullopt : std::optional(cases::default_target);
 }
 
-std::string describe(const sizing::BoundCost& cost) {
+std::string text_of_cost(const sizing::BoundCost& cost) {
   const std::string what = cost.bound == sizing::of_features
                                ? "features finer than sizing.minimum (bounded by sizing.feature_minimum)"
                                : "sizing." + cost.bound;
@@ -86,7 +86,7 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
   std::string text;
   for (const sizing::BoundCost& cost : costs) {
     if (weight(cost) < telling_cost) break;
-    text += (text.empty() ? "" : ", ") + describe(cost);
+    text += (text.empty() ? "" : ", ") + text_of_cost(cost);
   }
   return text.empty() ? describe_all(costs) : text;
 }
@@ -237,7 +237,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
 }  // namespace
 
 void require_walls_apart(const SizedDomain& sized) {
-  const std::string text = describe(sized.walls.coincident);
+  const std::string text = text_of_cost(sized.walls.coincident);
   if (!text.empty()) throw parallel::CollectiveError(parallel::FailureKind::input, text);
 }
 

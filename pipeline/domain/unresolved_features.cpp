@@ -1,5 +1,7 @@
 #include "pipeline/domain/unresolved_features.hpp"
 
+#include "geometry/place_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -52,9 +54,8 @@ std::string describe(const FeatureReport& report) {
       report.strips.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
   for (std::size_t i = 0; i < std::min(shown_strips, report.strips.size()); ++i) {
     const UnresolvedStrip& strip = report.strips[i];
-    text += fmt::format(" '{}' is {:.3g} wide at ({:.6g}, {:.6g}, {:.6g}), angles from about {:.2g} degrees;",
-                        strip.face, strip.width, strip.place.x, strip.place.y, strip.place.z,
-                        strip.surface_degrees);
+    text += fmt::format(" '{}' is {:.3g} wide at {}, angles from about {:.2g} degrees;", strip.face,
+                        strip.width, geometry::place_text(strip.place), strip.surface_degrees);
   }
   if (report.strips.size() > shown_strips)
     text += fmt::format(" and {} more;", report.strips.size() - shown_strips);

@@ -1,7 +1,7 @@
 #include "pipeline/domain/wall_findings.hpp"
 
 #include "cad/tolerances.hpp"
-#include "pipeline/domain/place_text.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +45,7 @@ std::string describe(const std::vector<UnseenWalls>& unseen) {
       unseen.size());
   for (std::size_t i = 0; i < std::min(shown_walls, unseen.size()); ++i) {
     text += fmt::format("{} on '{}' near {}, for {:.3g} around", i == 0 ? ":" : ";", unseen[i].face,
-                        place(unseen[i].place), unseen[i].size);
+                        geometry::place_text(unseen[i].place), unseen[i].size);
   }
   return text + and_more(unseen.size()) + ". Remedy: smaller sizes there (sizing.surface_maximum)";
 }
@@ -55,11 +55,11 @@ std::string describe(const std::vector<FacesOnOneAnother>& coincident) {
   std::string text;
   for (std::size_t i = 0; i < std::min(shown_walls, coincident.size()); ++i) {
     const FacesOnOneAnother& each = coincident[i];
-    text += fmt::format("{}faces '{}' and '{}' lie on one another over an area of about {:.3g} near {}, {}",
-                        i == 0 ? "" : "; ", each.first, each.second, each.area, place(each.place),
-                        each.apart > exact * std::sqrt(each.area)
-                            ? fmt::format("{:.2g} apart at most", each.apart)
-                            : "exactly");
+    text += fmt::format(
+        "{}faces '{}' and '{}' lie on one another over an area of about {:.3g} near {}, {}",
+        i == 0 ? "" : "; ", each.first, each.second, each.area, geometry::place_text(each.place),
+        each.apart > exact * std::sqrt(each.area) ? fmt::format("{:.2g} apart at most", each.apart)
+                                                  : "exactly");
   }
   return text + and_more(coincident.size()) +
          ". There is no volume between them to mesh. Remedy: remove one of them in the CAD program, or unite "

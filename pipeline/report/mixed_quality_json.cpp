@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json distribution_json(const mesh::MeasureDistribution& of) {
+Json measure_json(const mesh::MeasureDistribution& of) {
   Json json = {{"cells", of.cells}, {"minimum", of.minimum}, {"maximum", of.maximum}, {"mean", of.mean}};
   for (std::size_t i = 0; i < of.percentiles.size(); ++i)
     json[fmt::format("percentile_{:g}", mesh::percentiles_per_mille[i] / 10.0)] = of.percentiles[i];
@@ -41,7 +41,7 @@ Json to_json(const mesh::MixedQuality& quality) {
     for (const mesh::Measure measure : mesh::all_measures) {
       const mesh::MeasureDistribution& of = quality.distribution(shape, measure);
       if (of.cells > 0)
-        json[std::string(mesh::name_of(shape))][std::string(name_of(measure))] = distribution_json(of);
+        json[std::string(mesh::name_of(shape))][std::string(name_of(measure))] = measure_json(of);
     }
   }
   for (const mesh::Measure measure : mesh::all_measures) {

@@ -1,5 +1,7 @@
 #include "pipeline/report/mixed_quality_text.hpp"
 
+#include "geometry/place_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,8 +96,8 @@ std::string worst_text(const mesh::MixedQuality& quality) {
     if (worst.empty()) continue;
     text += fmt::format("{}\n", title_of(measure));
     for (const mesh::WorstCellOfShape& cell : worst) {
-      text += fmt::format("{:>14.6g}  {:<10} {:>13} at ({:.6g}, {:.6g}, {:.6g})\n", cell.value,
-                          mesh::name_of(cell.shape), cell.cell, cell.center.x, cell.center.y, cell.center.z);
+      text += fmt::format("{:>14.6g}  {:<10} {:>13} at {}\n", cell.value, mesh::name_of(cell.shape),
+                          cell.cell, geometry::place_text(cell.center));
     }
   }
   return text;

@@ -57,7 +57,7 @@ TaskLine row_of(std::string_view line) {
   return row;
 }
 
-std::vector<TaskLine> rows_of(std::string_view text) {
+std::vector<TaskLine> task_lines(std::string_view text) {
   std::vector<TaskLine> rows;
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -162,7 +162,7 @@ RunCosts costs_of(const Json& report, std::string_view tasks) {
         fmt::format("the run took '{}' from a checkpoint, whose cost is not on record. Remedy: a run from "
                     "the beginning",
                     report["resumed"].front().get<std::string>()));
-  const std::vector<TaskLine> rows = rows_of(tasks);
+  const std::vector<TaskLine> rows = task_lines(tasks);
   try {
     RunCosts costs;
     costs.ranks = report.at("ranks").get<int>();

@@ -22,7 +22,7 @@ bool is_by_cpu(const Json& row) {
   return text(find(row, "/judged_by")) == "cpu";
 }
 
-std::vector<const Json*> rows_of(const Json& study, const std::string& series) {
+std::vector<const Json*> rows_of_series(const Json& study, const std::string& series) {
   std::vector<const Json*> rows;
   for (const Json& row : find(study, "/rows"))
     if (text(find(row, "/series")) == series && number(find(row, "/ended")) > 0) rows.push_back(&row);
@@ -32,7 +32,7 @@ std::vector<const Json*> rows_of(const Json& study, const std::string& series) {
 ChartLine line_of(const Json& study, const std::string& series, const std::string& key,
                   const std::string& name) {
   ChartLine line{name, {}};
-  for (const Json* row : rows_of(study, series))
+  for (const Json* row : rows_of_series(study, series))
     if (const Json& value = find(*row, "/" + key); value.is_number())
       line.points.emplace_back(number(find(*row, "/ranks")), number(value));
   return line;
@@ -41,7 +41,7 @@ ChartLine line_of(const Json& study, const std::string& series, const std::strin
 ChartLine ideal_line(const Json& study, double constant = 0) {
   ChartLine line{"ideal", {}, true};
   for (const std::string series : {"strong", "weak"}) {
-    for (const Json* row : rows_of(study, series)) {
+    for (const Json* row : rows_of_series(study, series)) {
       const double ranks = number(find(*row, "/ranks"));
       line.points.emplace_back(ranks, constant > 0 ? constant : ranks);
     }
@@ -54,7 +54,7 @@ ChartLine ideal_line(const Json& study, double constant = 0) {
 /// Of the strong series as its smallest number of ranks foretells it; by CPU where the series is judged so.
 ChartLine predicted_line(const Json& study, const std::string& key) {
   ChartLine line{"predicted", {}};
-  const std::vector<const Json*> rows = rows_of(study, "strong");
+  const std::vector<const Json*> rows = rows_of_series(study, "strong");
   const bool by_cpu = std::any_of(rows.begin(), rows.end(), [](const Json* row) { return is_by_cpu(*row); });
   double one = 0;
   for (const Json& row : find(study, "/prediction/rows")) {
@@ -71,7 +71,7 @@ std::string stage_piles(const Json& study) {
   std::vector<std::string> stages;
   std::vector<Pile> piles;
   for (const std::string series : {"serial", "strong", "weak"}) {
-    for (const Json* row : rows_of(study, series)) {
+    for (const Json* row : rows_of_series(study, series)) {
       const char* key = is_by_cpu(*row) ? "/busy_cpu_seconds" : "/wall_seconds";
       Pile pile{fmt::format("{}{}{}", series == "strong" ? "" : fmt::format("{} ", series),
                             number(find(*row, "/ranks")), is_by_cpu(*row) ? "*" : ""),
@@ -182,7 +182,7 @@ std::string prediction_table(const Json& study) {
   Table table(std::move(columns), "scaling.json");
   for (const Json& row : find(study, "/prediction/rows")) {
     std::string wall = "–", busy = "–";
-    for (const Json* measured : rows_of(study, "strong")) {
+    for (const Json* measured : rows_of_series(study, "strong")) {
       if (find(*measured, "/ranks") != find(row, "/ranks")) continue;
       wall = seconds(find(*measured, "/wall_seconds"));
       busy = seconds(find(*measured, "/busy_cpu_seconds"));
@@ -271,7 +271,7 @@ std::string machine_facts(const Json& study) {
 
 std::string headline(const Json& study, const std::string& title) {
   double most_ranks = 0, efficiency = 0, rate = 0;
-  for (const Json* row : rows_of(study, "strong")) {
+  for (const Json* row : rows_of_series(study, "strong")) {
     if (number(find(*row, "/ranks")) < most_ranks) continue;
     most_ranks = number(find(*row, "/ranks"));
     efficiency = number(find(*row, "/efficiency"));

@@ -32,7 +32,7 @@ Json losses_json(const Losses& losses) {
   return json;
 }
 
-Json row_json(const Prediction& prediction) {
+Json prediction_row(const Prediction& prediction) {
   Json json{{"ranks", prediction.ranks},
             {"seconds", prediction.seconds},
             {"busy_cpu_seconds", prediction.busy_seconds},
@@ -107,7 +107,7 @@ Json prediction_json(const Forecasts& forecasts) {
             {"recorded_ranks", forecasts.recorded_ranks}};
   json.update(to_json(forecasts.worthwhile, forecasts.network));
   Json& rows = json["rows"] = Json::array();
-  for (const Prediction& prediction : forecasts.predictions) rows.push_back(row_json(prediction));
+  for (const Prediction& prediction : forecasts.predictions) rows.push_back(prediction_row(prediction));
   return json;
 }
 

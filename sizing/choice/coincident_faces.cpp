@@ -1,4 +1,5 @@
 // Faces of the body that lie on one another: what no size can part.
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/features/facet_parameters.hpp"
@@ -243,14 +244,14 @@ std::vector<CoincidentFaces> merge(std::vector<CoincidentFaces> all) {
   for (CoincidentFaces& each : all) {
     if (each.first > each.second) std::swap(each.first, each.second);
   }
-  std::sort(all.begin(), all.end(), [](const CoincidentFaces& a, const CoincidentFaces& b) {
-    return std::tuple(a.first, a.second, -a.area) < std::tuple(b.first, b.second, -b.area);
-  });
-  all.erase(std::unique(all.begin(), all.end(),
-                        [](const CoincidentFaces& a, const CoincidentFaces& b) {
-                          return a.first == b.first && a.second == b.second;
-                        }),
-            all.end());
+  geometry::sort_unique(
+      all,
+      [](const CoincidentFaces& a, const CoincidentFaces& b) {
+        return std::tuple(a.first, a.second, -a.area) < std::tuple(b.first, b.second, -b.area);
+      },
+      [](const CoincidentFaces& a, const CoincidentFaces& b) {
+        return a.first == b.first && a.second == b.second;
+      });
   std::stable_sort(all.begin(), all.end(),
                    [](const CoincidentFaces& a, const CoincidentFaces& b) { return a.area > b.area; });
   return all;

@@ -1,9 +1,9 @@
 #include "sizing/features/lifting_seeds.hpp"
 
+#include "geometry/angle.hpp"
 #include "sizing/features/segment_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace aeroloom::sizing {
@@ -70,7 +70,7 @@ bool opens_ahead(const cad::Model& model, const std::vector<Pass>& passes, doubl
     into[side] = normalized(cross(normal[side], along));
   }
   const bool is_convex = dot(into[0], normal[1]) > 0 && dot(into[1], normal[0]) > 0;
-  const double opening = std::atan2(norm(cross(into[0], into[1])), dot(into[0], into[1]));
+  const double opening = angle_between(into[0], into[1]);
   return is_convex && opening < largest_opening && -dot(normalized(into[0] + into[1]), flow) > least_cosine;
 }
 

@@ -1,6 +1,7 @@
 #include "sizing/features/narrow_faces.hpp"
 
 #include "cad/model/evaluation/face_width.hpp"
+#include "geometry/angle.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
@@ -107,7 +108,7 @@ double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
     const Vec3 n = model.face_frame(a, model.edge_uv(a, *first, t)).normal;
     const Vec3 m = model.face_frame(b, model.edge_uv(b, *second, t)).normal;
     if (!(norm(n) > 0 && norm(m) > 0)) return half_turn;
-    largest = std::max(largest, std::atan2(norm(cross(n, m)), dot(n, m)) * 180 / std::numbers::pi);
+    largest = std::max(largest, angle_between(n, m) * 180 / std::numbers::pi);
   }
   return largest;
 }

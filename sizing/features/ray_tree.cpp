@@ -1,5 +1,7 @@
 #include "sizing/features/ray_tree.hpp"
 
+#include "geometry/sort_unique.hpp"
+
 #include <limits>
 #include <map>
 #include <numeric>
@@ -219,8 +221,7 @@ void RayTree::find_near(const Triangle& triangle, double within,
           });
     });
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  geometry::sort_unique(found);
 }
 
 }  // namespace aeroloom::sizing

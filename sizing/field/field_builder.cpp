@@ -1,6 +1,7 @@
 #include "sizing/field/field_builder.hpp"
 
 #include "geometry/sort_by_key.hpp"
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/deliver.hpp"
 
@@ -181,9 +182,8 @@ std::vector<SizeSeed> FieldBuilder::seeds_at_sources() const {
 }
 
 void FieldBuilder::keep_smallest(std::vector<PointSize>& sizes) {
-  std::sort(sizes.begin(), sizes.end());
   const auto same_point = [](const PointSize& a, const PointSize& b) { return a.key == b.key; };
-  sizes.erase(std::unique(sizes.begin(), sizes.end(), same_point), sizes.end());
+  geometry::sort_unique(sizes, std::less<>(), same_point);
 }
 
 std::vector<FieldBuilder::PointSize> FieldBuilder::sizes_at_masters(const Octree& octree) const {

@@ -9,7 +9,7 @@
 namespace aeroloom::sizing {
 namespace {
 
-void sort_unique(std::vector<std::uint64_t>& keys) {
+void keep_each_key_once(std::vector<std::uint64_t>& keys) {
   geometry::sort_by_key(keys, [](std::uint64_t key) { return key; });
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
@@ -89,7 +89,7 @@ void SplitCubes::split_around(std::uint64_t parent, int level, std::uint32_t wan
 
 void SplitCubes::balance() {
   for (int level = finest_level - 1; level > 0; --level) {
-    sort_unique(_cells[level]);
+    keep_each_key_once(_cells[level]);
     const auto split_neighbours = [&](std::uint64_t parent, std::uint32_t wanted) {
       split_around(parent, level - 1, wanted);
     };
@@ -102,7 +102,7 @@ void SplitCubes::balance() {
                                                     [](const Request& r) { return r.owner; }))
       _cells[level - 1].push_back(request.cell);
   }
-  sort_unique(_cells[0]);
+  keep_each_key_once(_cells[0]);
 }
 
 std::int64_t SplitCubes::leaf_count() const {

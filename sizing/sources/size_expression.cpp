@@ -1,5 +1,7 @@
 #include "sizing/sources/size_expression.hpp"
 
+#include "geometry/place_text.hpp"
+
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -58,14 +60,14 @@ double SizeExpression::operator()(geometry::Vec3 place) const {
   try {
     size = _parsed->parser.Eval();
   } catch (const mu::ParserError& error) {  // of functions that refuse a value
-    throw std::runtime_error(fmt::format("sizing.expression at ({:.6g}, {:.6g}, {:.6g}): {}", place.x,
-                                         place.y, place.z, error.GetMsg()));
+    throw std::runtime_error(
+        fmt::format("sizing.expression at {}: {}", geometry::place_text(place), error.GetMsg()));
   }
   if (size > 0 && std::isfinite(size)) return size;
   throw std::runtime_error(
-      fmt::format("sizing.expression is {:.6g} at ({:.6g}, {:.6g}, {:.6g}), but a size must be positive and "
-                  "finite in the whole domain, inside of bodies too. Remedy: max(..., a smallest size)",
-                  size, place.x, place.y, place.z));
+      fmt::format("sizing.expression is {:.6g} at {}, but a size must be positive and finite in the whole "
+                  "domain, inside of bodies too. Remedy: max(..., a smallest size)",
+                  size, geometry::place_text(place)));
 }
 
 const std::string& SizeExpression::text() const {

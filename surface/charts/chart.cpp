@@ -1,6 +1,7 @@
 #include "surface/charts/chart.hpp"
 
 #include "geometry/angle.hpp"
+#include "geometry/place_text.hpp"
 #include "surface/charts/conformal_map.hpp"
 #include "surface/charts/cut_curves.hpp"
 #include "surface/charts/plane_cut.hpp"
@@ -167,12 +168,11 @@ private:
   [[noreturn]] void fail(const Support& support) const {
     const geometry::Vec3 at = support.points.front();
     throw SurfaceError(fmt::format(
-        "face {} (patch {}): no chart can be found for its part near ({:.6g}, {:.6g}, {:.6g}), where the "
-        "size is {:.4g}; where the face is rounder than that, ask for a smaller size "
-        "(SizingOptions::minimum, "
+        "face {} (patch {}): no chart can be found for its part near {}, where the size is {:.4g}; where the "
+        "face is rounder than that, ask for a smaller size (SizingOptions::minimum, "
         "SizingOptions::curvature_angle); else it may fold over itself: repair it in the CAD program",
-        _model.face(support.face).name, _model.patches()[_model.face(support.face).patch], at.x, at.y, at.z,
-        _field(at)));
+        _model.face(support.face).name, _model.patches()[_model.face(support.face).patch],
+        geometry::place_text(at), _field(at)));
   }
 
   const cad::Model& _model;

@@ -1,3 +1,4 @@
+#include "geometry/angle.hpp"
 #include "geometry/plane_grid.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/runs.hpp"
@@ -201,7 +202,7 @@ double normal_spread(const Support& support) {
   std::vector<Weighted> angles;
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
     const Vec3 normal = area_vector(support, static_cast<std::int32_t>(t));
-    angles.push_back({std::atan2(norm(cross(mean, normal)), dot(mean, normal)), norm(normal)});
+    angles.push_back({angle_between(mean, normal), norm(normal)});
   }
   return quantile(angles, nearly_all);
 }

@@ -2,6 +2,7 @@
 
 #include "cad/model/facets/corner_parameters.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/place_text.hpp"
 #include "surface/surface_error.hpp"
 
 #include <algorithm>
@@ -68,10 +69,9 @@ void drop_opposite_pairs(Support& support) {
 
 [[noreturn]] void fail(const Model& model, cad::FaceId face, const Coedge& use, Vec3 at) {
   throw SurfaceError(fmt::format(
-      "face {} (patch {}): its triangulation does not follow edge {} near ({:.6g}, {:.6g}, {:.6g}); repair "
-      "this face in "
-      "the CAD program",
-      model.face(face).name, model.patches()[model.face(face).patch], use.edge, at.x, at.y, at.z));
+      "face {} (patch {}): its triangulation does not follow edge {} near {}; repair this face in the CAD "
+      "program",
+      model.face(face).name, model.patches()[model.face(face).patch], use.edge, geometry::place_text(at)));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "surface/charts/support_mesher.hpp"
 
+#include "geometry/place_text.hpp"
 #include "surface/charts/chart.hpp"
 #include "surface/front/front.hpp"
 
@@ -100,10 +101,9 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front:
       if (distance(a, b) > 0) remedy.push_back({0.5 * (a + b), 0.5 * distance(a, b)});
     }
   }
-  std::string where =
-      remedy.empty() ? std::string()
-                     : fmt::format(" near ({:.6g}, {:.6g}, {:.6g}), size {:.4g} there", remedy[0].point.x,
-                                   remedy[0].point.y, remedy[0].point.z, 2 * remedy[0].size);
+  std::string where = remedy.empty() ? std::string()
+                                     : fmt::format(" near {}, size {:.4g} there",
+                                                   geometry::place_text(remedy[0].point), 2 * remedy[0].size);
   return {fmt::format("face '{}' (patch '{}'): its boundary curves cross or touch{}: {}",
                       model.face(face).name, model.patches()[model.face(face).patch], where, error.what()),
           std::move(remedy), std::move(named)};

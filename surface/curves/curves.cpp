@@ -1,6 +1,7 @@
 #include "surface/curves/curves.hpp"
 
 #include "cad/model/evaluation/face_corners.hpp"
+#include "geometry/angle.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "sizing/field/closed_corners.hpp"
@@ -10,7 +11,6 @@
 #include "surface/curves/tip_alignment.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -101,8 +101,7 @@ EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& leng
     if (geometry::norm(step) > 0) {
       const Vec3 now = geometry::normalized(step);
       if (direction) {
-        measure.turning +=
-            std::atan2(geometry::norm(geometry::cross(*direction, now)), geometry::dot(*direction, now));
+        measure.turning += angle_between(*direction, now);
       }
       direction = now;
     }

@@ -1,5 +1,6 @@
 #include "surface/curves/face_loops.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/rendezvous.hpp"
 #include "parallel/communication/schedule.hpp"
@@ -56,9 +57,7 @@ FaceLoops make_loops(std::span<const EdgeRow> rows) {
   FaceLoops loops;
   for (const EdgeRow& row : rows)
     loops.vertex_keys.insert(loops.vertex_keys.end(), {row.keys[0], row.keys[1]});
-  std::sort(loops.vertex_keys.begin(), loops.vertex_keys.end());
-  loops.vertex_keys.erase(std::unique(loops.vertex_keys.begin(), loops.vertex_keys.end()),
-                          loops.vertex_keys.end());
+  geometry::sort_unique(loops.vertex_keys);
   loops.points.resize(loops.vertex_keys.size());
   for (const EdgeRow& row : rows) {
     const std::array<std::int32_t, 2> edge{loops.find(row.keys[0]), loops.find(row.keys[1])};

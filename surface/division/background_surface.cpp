@@ -1,6 +1,7 @@
 #include "surface/division/background_surface.hpp"
 
-#include <cmath>
+#include "geometry/angle.hpp"
+
 #include <numbers>
 
 namespace aeroloom::partition {
@@ -10,7 +11,7 @@ double corner_angle(const BackgroundSurface& surface, geometry::HalfEdge corner)
   const geometry::Vec3 at = surface.points[surface.start(corner)];
   const geometry::Vec3 u = surface.points[surface.end(corner)] - at;
   const geometry::Vec3 v = surface.points[surface.start(geometry::previous_half_edge(corner))] - at;
-  return std::atan2(norm(cross(u, v)), dot(u, v)) * 180 / std::numbers::pi;
+  return angle_between(u, v) * 180 / std::numbers::pi;
 }
 
 }  // namespace

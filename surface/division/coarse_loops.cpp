@@ -1,5 +1,7 @@
 #include "surface/division/coarse_loops.hpp"
 
+#include "geometry/angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -9,10 +11,6 @@ namespace aeroloom::surface {
 namespace {
 
 using geometry::Vec3;
-
-double angle_between(Vec3 a, Vec3 b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
 
 /// The loops as closed sequences of vertices of the subface, in the order of the loop edges. The same vertex
 /// may occur several times where the border touches itself.

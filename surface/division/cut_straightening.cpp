@@ -1,9 +1,9 @@
 #include "surface/division/cut_straightening.hpp"
 
+#include "geometry/angle.hpp"
 #include "surface/remesh/face_remesher.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace aeroloom::surface {
@@ -45,7 +45,7 @@ double FaceRemesher::smallest_border_angle(std::int32_t vertex, const std::vecto
     for (std::size_t j = i + 1; j < _borders.size(); ++j) {
       const Vec3 u = _mesh.points[_borders[i]] - _mesh.points[vertex];
       const Vec3 v = _mesh.points[_borders[j]] - _mesh.points[vertex];
-      smallest = std::min(smallest, std::atan2(norm(cross(u, v)), dot(u, v)));
+      smallest = std::min(smallest, angle_between(u, v));
     }
   }
   return smallest * 180 / std::numbers::pi;

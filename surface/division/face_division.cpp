@@ -1,5 +1,6 @@
 #include "surface/division/face_division.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "surface/charts/cut_curves.hpp"
 #include "surface/charts/support_flips.hpp"
@@ -61,8 +62,7 @@ Subface subface_of_part(Support part, const FaceVertices& known,
   for (const std::int32_t v : part.mesh_vertex) {
     if (v >= 0) used.push_back(v);
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  geometry::sort_unique(used);
   for (const std::int32_t v : used) {
     subface.vertices.points.push_back(known.points[v]);
     subface.vertices.uv.push_back(known.uv[v]);

@@ -1,5 +1,6 @@
 #include "surface/division/repair_parts.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "surface/division/wedges.hpp"
 
 #include <algorithm>
@@ -77,8 +78,7 @@ private:
     for (const std::int32_t t : triangles) {
       for (int i = 0; i < 3; ++i) fans.push_back(_fan_of[3 * t + i]);
     }
-    std::sort(fans.begin(), fans.end());
-    fans.erase(std::unique(fans.begin(), fans.end()), fans.end());
+    geometry::sort_unique(fans);
     double missing = 0;
     for (const std::int32_t fan : fans) {
       visit_wedges(_surface, _fans, _part, fan,

@@ -1,5 +1,6 @@
 #include "surface/tips/needle_remedies.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "surface/curves/sharp_corners.hpp"
 
 #include <algorithm>
@@ -63,8 +64,7 @@ NeedleRemedies find_needle_remedies(const mesh::DistributedMesh& surface, const 
   NeedleRemedies all;
   all.sizes = communicator.all_gather_items<SizeSource>(mine.sizes);
   all.short_legs = communicator.all_gather_items<cad::VertexId>(mine.short_legs);
-  std::sort(all.short_legs.begin(), all.short_legs.end());
-  all.short_legs.erase(std::unique(all.short_legs.begin(), all.short_legs.end()), all.short_legs.end());
+  geometry::sort_unique(all.short_legs);
   return all;
 }
 

@@ -1,6 +1,7 @@
 #include "surface/tips/pointed_tips.hpp"
 
 #include "cad/model/evaluation/face_corners.hpp"
+#include "geometry/angle.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "surface/curves/sharp_corners.hpp"
 
@@ -29,10 +30,6 @@ constexpr double least_around = 4;
 /// The disk that gives way grows by this factor, so often, until it is one. Chosen, not measured.
 constexpr double growth_of_disk = 1.3;
 constexpr int most_disks = 5;
-
-double angle_between(Vec3 a, Vec3 b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
 
 /// The triangles of a support around a point inside of it.
 struct Surroundings {

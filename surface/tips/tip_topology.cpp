@@ -1,6 +1,7 @@
 #include "surface/tips/tip_topology.hpp"
 
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "parallel/communication/collective_error.hpp"
 
@@ -90,8 +91,7 @@ private:
   static std::size_t common(std::map<LocalIndex, std::vector<LocalIndex>>& neighbours) {
     std::vector<std::vector<LocalIndex>> sorted;
     for (auto& [vertex, next] : neighbours) {
-      std::sort(next.begin(), next.end());
-      next.erase(std::unique(next.begin(), next.end()), next.end());
+      geometry::sort_unique(next);
       sorted.push_back(next);
     }
     std::vector<LocalIndex> both;

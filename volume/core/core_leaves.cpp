@@ -1,6 +1,7 @@
 #include "volume/core/core_leaves.hpp"
 
-#include <algorithm>
+#include "geometry/sort_unique.hpp"
+
 #include <utility>
 
 namespace aeroloom::volume {
@@ -199,8 +200,7 @@ void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
     changed = false;
     {
       const ScopedCpu task(ScopedCpu::As::task);
-      std::sort(open.begin(), open.end());
-      open.erase(std::unique(open.begin(), open.end()), open.end());
+      geometry::sort_unique(open);
       for (const std::size_t i : std::exchange(open, {})) {
         around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
         const std::uint8_t before = _core[i];

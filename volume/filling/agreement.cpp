@@ -1,6 +1,7 @@
 #include "volume/filling/agreement.hpp"
 
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/rendezvous.hpp"
 
 #include <algorithm>
@@ -94,10 +95,8 @@ std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {
     }
   }
   for (DisputedPlace& place : places) {
-    std::sort(place.zones.begin(), place.zones.end());
-    place.zones.erase(std::unique(place.zones.begin(), place.zones.end()), place.zones.end());
-    std::sort(place.leaves.begin(), place.leaves.end());
-    place.leaves.erase(std::unique(place.leaves.begin(), place.leaves.end()), place.leaves.end());
+    geometry::sort_unique(place.zones);
+    geometry::sort_unique(place.leaves);
   }
   return places;
 }

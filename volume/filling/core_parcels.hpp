@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/sort_by_key.hpp"
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/observation/timers.hpp"
 #include "volume/filling/core_pieces.hpp"
@@ -83,8 +84,7 @@ private:
           wanted.emplace_back(cell.rank, number);
       }
     }
-    std::sort(wanted.begin(), wanted.end());
-    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    geometry::sort_unique(wanted);
     return wanted;
   }
 

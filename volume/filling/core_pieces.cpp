@@ -1,6 +1,7 @@
 #include "volume/filling/core_pieces.hpp"
 
 #include "geometry/predicates.hpp"
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/piece_room.hpp"
 #include "volume/filling/core_parcels.hpp"
 #include "volume/filling/core_ranges.hpp"
@@ -46,12 +47,12 @@ public:
     for (const NumberedCell& cell : cells) {
       for (int k = 0; k < 4; ++k) note(cell.points[k], cell.shared >> k & 1);
     }
-    std::sort(_others.begin(), _others.end(), [](const Other& a, const Other& b) {
-      return a.number != b.number ? a.number < b.number : a.shared > b.shared;
-    });
-    _others.erase(std::unique(_others.begin(), _others.end(),
-                              [](const Other& a, const Other& b) { return a.number == b.number; }),
-                  _others.end());
+    geometry::sort_unique(
+        _others,
+        [](const Other& a, const Other& b) {
+          return a.number != b.number ? a.number < b.number : a.shared > b.shared;
+        },
+        [](const Other& a, const Other& b) { return a.number == b.number; });
   }
 
   /// Calls add(number, whether other pieces may know it) for each, ascending; it returns what the piece calls
@@ -182,8 +183,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
       });
     }
   }
-  std::sort(added.begin(), added.end());
-  added.erase(std::unique(added.begin(), added.end()), added.end());
+  geometry::sort_unique(added);
   const LocalIndex first_added = piece.vertex_count();
   for (const std::int64_t n : added) naming.add_vertex(n, piece.region, piece);
   const auto local_of = [&](std::int64_t n) {

@@ -1,5 +1,8 @@
 #include "volume/filling/failure_diagnostics.hpp"
 
+#include "geometry/place_text.hpp"
+#include "geometry/sort_unique.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -26,8 +29,7 @@ std::vector<std::int32_t> own_triangles(const ZoneProblem& problem) {
 }
 
 std::string name_faces(std::vector<std::int32_t> faces, const mesh::DistributedMesh& surface) {
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  geometry::sort_unique(faces);
   std::string text = faces.empty() ? "" : "; CAD faces:";
   for (std::size_t i = 0; i < std::min(faces.size(), most_names); ++i)
     text += " '" + surface.faces[faces[i]] + "'";
@@ -51,12 +53,9 @@ struct Soup {
 std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
                                     std::span<const SurfaceTriangle> mine) {
   std::vector<SurfaceTriangle> all = communicator.all_gather_items<SurfaceTriangle>(mine);
-  std::sort(all.begin(), all.end(),
-            [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; });
-  all.erase(
-      std::unique(all.begin(), all.end(),
-                  [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; }),
-      all.end());
+  geometry::sort_unique(
+      all, [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; },
+      [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; });
   return all;
 }
 
@@ -80,9 +79,8 @@ void FailureDiagnostics::note(const ZoneInput& input, const mesh::DistributedMes
   for (std::size_t v = 0; v < problem.points.size(); ++v) {
     if (problem.owners[v] == Owner::mine) box.add(problem.points[v]);
   }
-  item.message = fmt::format(
-      "zone {} between ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, {:.6g}, {:.6g}) cannot be filled: ", input.zone,
-      box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
+  item.message = fmt::format("zone {} between {} and {} cannot be filled: ", input.zone,
+                             geometry::place_text(box.low), geometry::place_text(box.high));
   item.message += item.has_defect
                       ? defect.what + describe_triangles(part, triangles) + "\nThe mesher said: " + reason +
                             "\nUse smaller elements there, so that surfaces close to each other are "
@@ -176,8 +174,8 @@ void refuse_surface(const Contradiction& contradiction, std::span<const SurfaceT
   const Vec3 p = contradiction.place;
   throw VolumeFailure(
       fmt::format(
-          "{}: ({:.6g}, {:.6g}, {:.6g}) is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
-          intersects ? "the surface intersects itself" : "the surface has a gap", p.x, p.y, p.z,
+          "{}: {} is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
+          intersects ? "the surface intersects itself" : "the surface has a gap", geometry::place_text(p),
           name_region(contradiction.seen), name_region(contradiction.elsewhere),
           describe_triangles({soup.points, soup.triangles}, all),
           "Use smaller elements there, so that surfaces close to each other are resolved, or repair the "

@@ -1,5 +1,7 @@
 #include "volume/filling/retry_policy.hpp"
 
+#include "geometry/place_text.hpp"
+#include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "volume/filling/filling_limits.hpp"
@@ -21,12 +23,6 @@ namespace {
 /// Rounds in which leaves are reassigned where zones disagree; after that such zones are merged. Chosen, not
 /// measured.
 constexpr int most_rounds_of_reassignment = 3;
-
-template <class T>
-void keep_each_once(std::vector<T>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 }  // namespace
 
@@ -78,7 +74,7 @@ void RetryPolicy::demote(const std::vector<DemotedLeaf>& demoted, BlockChanges& 
     leaves.push_back(number);
     changed.zones.push_back(zone);
   }
-  keep_each_once(leaves);
+  geometry::sort_unique(leaves);
   _report.left_core += static_cast<std::int64_t>(leaves.size());
   for (const LeafNumber number : leaves) {
     if (!_tree.has(number / 8)) continue;
@@ -168,9 +164,9 @@ std::vector<ZoneIndex> RetryPolicy::those_that_see(Changed changed) {
     around.move_to(b);
     for (const NearZone& near : around.zones()) changed.zones.push_back(near.zone);
   }
-  keep_each_once(changed.zones);
+  geometry::sort_unique(changed.zones);
   changed.zones = _communicator.all_gather_items<ZoneIndex>(changed.zones);
-  keep_each_once(changed.zones);
+  geometry::sort_unique(changed.zones);
   std::erase_if(changed.zones, [&](ZoneIndex z) { return is_gone(z); });
   return std::move(changed.zones);
 }
@@ -237,12 +233,9 @@ std::vector<RetryPolicy::LeafOfPlace> RetryPolicy::leaves_around(std::span<const
     });
   }
   around = _communicator.all_gather_items<LeafOfPlace>(around);
-  std::sort(around.begin(), around.end(), in_order);
-  around.erase(std::unique(around.begin(), around.end(),
-                           [](const LeafOfPlace& a, const LeafOfPlace& b) {
-                             return a.place == b.place && a.leaf == b.leaf;
-                           }),
-               around.end());
+  geometry::sort_unique(around, in_order, [](const LeafOfPlace& a, const LeafOfPlace& b) {
+    return a.place == b.place && a.leaf == b.leaf;
+  });
   return around;
 }
 
@@ -254,8 +247,8 @@ void RetryPolicy::note_places(std::span<const DisputedPlace> places) {
     const DisputedPlace& place = places[next++];
     const Vec3 where = _lattice.frame.to_space(0.5 * (leaf.box.low + leaf.box.high));
     _report.disagreements.push_back({where, place.zones.front(), place.faces, _rounds_of_reassignment});
-    parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around ({:.6g}, {:.6g}, {:.6g})",
-                                      place.faces, place.zones.size(), where.x, where.y, where.z));
+    parallel::log_verbose(fmt::format("volume: {} faces of {} zones differ around {}", place.faces,
+                                      place.zones.size(), geometry::place_text(where)));
   }
 }
 
@@ -275,17 +268,16 @@ void RetryPolicy::merge_those_around(std::span<const DisputedPlace> places, Chan
   for (const DisputedPlace& place : places) zones.push_back(place.zones);
   for (const LeafOfPlace& leaf : leaves_around(places, 2)) zones[leaf.place].push_back(leaf.zone);
   for (std::size_t i = 0; i < places.size(); ++i) {
-    keep_each_once(zones[i]);
+    geometry::sort_unique(zones[i]);
     std::vector<ZoneIndex> left = zones[i];  // another place may have merged some of them
     std::erase_if(left, [&](ZoneIndex z) { return is_gone(z); });
     if (left.size() == zones[i].size() && left.size() < 2) {
       const Vec3 where = _report.disagreements[_report.disagreements.size() - places.size() + i].place;
       throw parallel::CollectiveError(
           parallel::FailureKind::input,
-          fmt::format(
-              "the tetrahedra around ({:.6g}, {:.6g}, {:.6g}) fit together in no way that was tried. Use "
-              "other sizes there, or another piece size (VolumeOptions::piece_tets)",
-              where.x, where.y, where.z));
+          fmt::format("the tetrahedra around {} fit together in no way that was tried. Use other sizes "
+                      "there, or another piece size (VolumeOptions::piece_tets)",
+                      geometry::place_text(where)));
     }
     for (const ZoneIndex z : left) touch_all(z, changed);
     for (const ZoneIndex z : left) {

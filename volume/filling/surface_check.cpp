@@ -1,6 +1,7 @@
 #include "volume/filling/surface_check.hpp"
 
 #include "geometry/predicates.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,8 @@ namespace {
 
 using Indices = std::array<LocalIndex, 3>;
 
-void sort_and_unite(std::vector<std::int32_t>& triangles) {
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-}
-
 SurfaceDefect made(const char* what, std::vector<std::int32_t> triangles) {
-  sort_and_unite(triangles);
+  geometry::sort_unique(triangles);
   return triangles.empty() ? SurfaceDefect{} : SurfaceDefect{what, std::move(triangles)};
 }
 

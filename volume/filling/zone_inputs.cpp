@@ -1,5 +1,6 @@
 #include "volume/filling/zone_inputs.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 
 #include <algorithm>
@@ -138,11 +139,9 @@ public:
         corners.push_back(
             {t.vertices[k], t.points[k], t.dimension[k], t.entity[k], of_zone.leaves[k], of_zone.owners[k]});
     }
-    std::sort(corners.begin(), corners.end(),
-              [](const Corner& a, const Corner& b) { return a.number < b.number; });
-    corners.erase(std::unique(corners.begin(), corners.end(),
-                              [](const Corner& a, const Corner& b) { return a.number == b.number; }),
-                  corners.end());
+    geometry::sort_unique(
+        corners, [](const Corner& a, const Corner& b) { return a.number < b.number; },
+        [](const Corner& a, const Corner& b) { return a.number == b.number; });
     for (const Corner& corner : corners) {
       add_point(mesh::running_key(corner.number), corner.point, corner.leaf, corner.owner);
       _input.dimension.push_back(corner.dimension);

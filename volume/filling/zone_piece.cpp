@@ -1,5 +1,6 @@
 #include "volume/filling/zone_piece.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 
 #include <algorithm>
@@ -151,8 +152,7 @@ ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling) {
   ZoneResult result;
   result.zone = input.zone;
   std::vector<RegionId> regions = filling.owned.regions;
-  std::sort(regions.begin(), regions.end());
-  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  geometry::sort_unique(regions);
   const PieceMaker maker(input, filling);
   for (const RegionId region : regions)
     result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));

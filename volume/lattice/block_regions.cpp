@@ -1,6 +1,7 @@
 #include "volume/lattice/block_regions.hpp"
 
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "volume/lattice/empty_balls.hpp"
 #include "volume/lattice/within_blocks.hpp"
@@ -128,10 +129,7 @@ private:
     return mesh::deliver(communicator, std::move(joints),
                          [&](const Joint& joint) { return _tree.owner(joint.with); });
   }
-  static void keep_each_once(std::vector<Joint>& joints) {
-    std::sort(joints.begin(), joints.end());
-    joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
-  }
+  static void keep_each_once(std::vector<Joint>& joints) { geometry::sort_unique(joints); }
 
   const LatticeTree& _tree;
   geometry::DisjointSets<BlockIndex> _own;  // of this rank's blocks, from the first on
@@ -260,8 +258,7 @@ public:
       RegionId region;
       static constexpr auto fields() { return std::tuple(&Asked::set, &Asked::from, &Asked::region); }
     };
-    std::sort(sets.begin(), sets.end());
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+    geometry::sort_unique(sets);
     std::vector<Asked> asked;
     asked.reserve(sets.size());
     for (const BlockNumber set : sets) asked.push_back({set, communicator.rank(), mesh::no_region});

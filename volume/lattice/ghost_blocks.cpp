@@ -1,5 +1,7 @@
 #include "volume/lattice/ghost_blocks.hpp"
 
+#include "geometry/sort_unique.hpp"
+
 namespace aeroloom::volume {
 
 GhostBlocks::GhostBlocks(const LatticeTree& tree)
@@ -12,8 +14,7 @@ GhostBlocks::GhostBlocks(const LatticeTree& tree)
       if (!is_own(n)) _ghosts.push_back(n);
     });
   }
-  std::sort(_ghosts.begin(), _ghosts.end());
-  _ghosts.erase(std::unique(_ghosts.begin(), _ghosts.end()), _ghosts.end());
+  geometry::sort_unique(_ghosts);
   std::vector<Wanted> asked;
   asked.reserve(_ghosts.size());
   for (const BlockIndex b : _ghosts)

@@ -1,5 +1,6 @@
 #include "volume/lattice/lattice_tree.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "volume/lattice/forest.hpp"
@@ -180,11 +181,9 @@ void LatticeTree::add(std::vector<PackedBlock> blocks) {
   for (BlockIndex b = 0; b < block_count(); ++b) {
     if (is_local(b)) blocks.push_back(packed(b));
   }
-  std::sort(blocks.begin(), blocks.end(),
-            [](const PackedBlock& a, const PackedBlock& b) { return a.number < b.number; });
-  blocks.erase(std::unique(blocks.begin(), blocks.end(),
-                           [](const PackedBlock& a, const PackedBlock& b) { return a.number == b.number; }),
-               blocks.end());
+  geometry::sort_unique(
+      blocks, [](const PackedBlock& a, const PackedBlock& b) { return a.number < b.number; },
+      [](const PackedBlock& a, const PackedBlock& b) { return a.number == b.number; });
   fill(blocks, _first < _last ? number(_first) : 0, _last - _first);
 }
 

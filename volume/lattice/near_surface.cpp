@@ -1,6 +1,7 @@
 #include "volume/lattice/near_surface.hpp"
 
 #include "geometry/predicates.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -15,8 +16,7 @@ NearSurface::NearSurface(std::span<const SurfaceTriangle> triangles) {
   numbers.reserve(3 * triangles.size());
   for (const SurfaceTriangle& t : triangles)
     numbers.insert(numbers.end(), t.vertices.begin(), t.vertices.end());
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  geometry::sort_unique(numbers);
   _points.resize(numbers.size());
   _first_around.assign(numbers.size() + 1, 0);
   for (const SurfaceTriangle& t : triangles) {
@@ -52,8 +52,7 @@ std::vector<std::int32_t> NearSurface::around(std::int32_t triangle) const {
   std::vector<std::int32_t> result;
   for (const auto v : _triangles[triangle])
     result.insert(result.end(), _around.begin() + _first_around[v], _around.begin() + _first_around[v + 1]);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  geometry::sort_unique(result);
   return result;
 }
 

@@ -1,9 +1,9 @@
 #include "volume/lattice/neighbourhood.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/fetch_blocks.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -15,8 +15,7 @@ void ask(const LatticeTree& tree, const GridBox& where, Question question, std::
   if (tree.is_within_own(where)) return;
   std::vector<parallel::Rank> ranks;
   tree.for_each_rank_in(where, [&](parallel::Rank rank) { ranks.push_back(rank); });
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  geometry::sort_unique(ranks);
   for (const parallel::Rank rank : ranks) {
     question.to = rank;
     if (rank != question.from) questions.push_back(question);

@@ -1,5 +1,6 @@
 #include "volume/lattice/surface_near_blocks.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "volume/lattice/boundary_distance.hpp"
 #include "volume/lattice/near_boxes.hpp"
@@ -112,8 +113,7 @@ std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const La
         ranks.clear();
         tree.for_each_rank_in(grid_box(frame, corners_of(piece, t)),
                               [&](parallel::Rank rank) { ranks.push_back(rank); });
-        std::sort(ranks.begin(), ranks.end());
-        ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+        geometry::sort_unique(ranks);
         for (const parallel::Rank rank : ranks)
           outgoing.push_back(
               {describe(piece, t, numbering.vertices[p], numbering.first_cell[p], surface), rank});

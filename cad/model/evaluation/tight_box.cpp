@@ -109,7 +109,7 @@ private:
 };
 
 /// Only edges whose control points lie outside the samples of all can add to these.
-void add_edges(Box& box, const TopTools_IndexedMapOfShape& edges) {
+void add_edge_extremes(Box& box, const TopTools_IndexedMapOfShape& edges) {
   std::vector<std::pair<int, EdgeExtremes>> curved;
   for (int i = 1; i <= edges.Extent(); ++i) {
     const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
@@ -216,7 +216,7 @@ Box tight_box(const std::vector<TopoDS_Shape>& shapes) {
     TopExp::MapShapes(shape, TopAbs_EDGE, edges);
     TopExp::MapShapes(shape, TopAbs_FACE, faces);
   }
-  add_edges(box, edges);
+  add_edge_extremes(box, edges);
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD));
     if (BRepAdaptor_Surface(face, false).GetType() == GeomAbs_Plane) continue;

@@ -1,7 +1,7 @@
 #include "cad/model/facets/facet_refiner.hpp"
+#include "geometry/angle.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <tuple>
 
@@ -195,7 +195,7 @@ void FacetRefiner::flip() {
 }
 
 double FacetRefiner::angle_at(Vec3 apex, Vec3 p, Vec3 q) {
-  return std::atan2(norm(cross(p - apex, q - apex)), dot(p - apex, q - apex));
+  return angle_between(p - apex, q - apex);
 }
 
 bool FacetRefiner::should_flip(std::int32_t t, int i) const {

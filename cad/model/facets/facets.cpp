@@ -9,6 +9,7 @@
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -157,7 +158,7 @@ std::string find_defect(const Facets& facets) {
     if (!std::binary_search(boundary.begin(), boundary.end(),
                             FacetSide(std::minmax(side.first, side.second)))) {
       const Vec3 at = facets.points[side.first];
-      return fmt::format("a hole at ({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
+      return fmt::format("a hole at {}", geometry::place_text(at));
     }
   }
   return {};

@@ -7,7 +7,6 @@
 #include "geometry/angle.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -48,10 +47,6 @@ Vec3 direction_at(const Model& model, const Coedge& use, bool at_start) {
       model.edge_point(use.edge, end + (at_last ? -tolerances::beside_end : tolerances::beside_end) * range);
   const Vec3 outer = model.edge_point(use.edge, end);
   return normalized(at_start ? inner - outer : outer - inner);
-}
-
-double angle_between(Vec3 a, Vec3 b) {
-  return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
 /// The loop cut at its corners; nothing where it has none.

@@ -12,6 +12,7 @@
 #include "cad/model/topology/middle_curves.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -178,8 +179,8 @@ private:
         if (move == 0 || !is_kept(corner.arriving.edge) || !is_kept(corner.leaving.edge)) continue;
         const auto opening = open_corner(_base, corner, away * move);
         if (!opening || opening->width > narrow * move) continue;
-        throw CadError(fmt::format("face '{}' beside it runs out to a point at ({:.6g}, {:.6g}, {:.6g})",
-                                   _base.face(id).name, at.x, at.y, at.z));
+        throw CadError(fmt::format("face '{}' beside it runs out to a point at {}", _base.face(id).name,
+                                   geometry::place_text(at)));
       }
     }
   }
@@ -337,8 +338,8 @@ private:
     for (const auto& [v, visits] : now) {
       if (visits <= std::max(1, allowed[v])) continue;
       const Vec3 at = _places[v];
-      throw CadError(fmt::format("face '{}' would touch itself at ({:.6g}, {:.6g}, {:.6g})",
-                                 _data->faces[id].name, at.x, at.y, at.z));
+      throw CadError(
+          fmt::format("face '{}' would touch itself at {}", _data->faces[id].name, geometry::place_text(at)));
     }
   }
 

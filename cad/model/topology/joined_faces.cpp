@@ -3,6 +3,7 @@
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/sheet_interior.hpp"
 #include "cad/model/topology/sheets.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -143,8 +144,7 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
   }
   for (Edge& edge : data->edges) {
     for (FaceId& face : edge.faces) face = number[face];
-    std::sort(edge.faces.begin(), edge.faces.end());
-    edge.faces.erase(std::unique(edge.faces.begin(), edge.faces.end()), edge.faces.end());
+    geometry::sort_unique(edge.faces);
   }
   data->joined = std::make_shared<const JoinedModel>(std::move(joined));
   return Model(std::move(data));

@@ -1,6 +1,7 @@
 #include "cad/model/topology/middle_curves.hpp"
 
 #include "cad/tolerances.hpp"
+#include "geometry/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,7 @@ std::vector<Joint> inner_joints(const Model& model, const std::vector<BorderEdge
       const double step = tolerances::beside_knot * (breaks.back() - breaks.front());
       const Vec3 before = model.edge_tangent(edge, breaks[b] - step);
       const Vec3 after = model.edge_tangent(edge, breaks[b] + step);
-      if (std::atan2(norm(cross(before, after)), dot(before, after)) < tolerances::kink) continue;
+      if (angle_between(before, after) < tolerances::kink) continue;
       joints.push_back({path.passed_at(i, breaks[b]), no_entity});
     }
   }

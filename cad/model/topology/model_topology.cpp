@@ -2,6 +2,7 @@
 
 #include "cad/model/evaluation/plane_snap.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,8 +89,7 @@ void add_edges(const Maps& maps, Model::Data& data) {
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(evaluator.shape, low, high);
       if (curve.IsNull()) {
         const Vec3 at = data.vertices[edge.first];
-        throw CadError(
-            fmt::format("edge {} at ({:.6g}, {:.6g}, {:.6g}) has no curve", i - 1, at.x, at.y, at.z));
+        throw CadError(fmt::format("edge {} at {} has no curve", i - 1, geometry::place_text(at)));
       }
       evaluator.curve.Load(curve, low, high);
       edge.first_parameter = low, edge.last_parameter = high;

@@ -1,6 +1,7 @@
 #include "pipeline/report/picture/line_items.hpp"
 
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/sort_unique.hpp"
 
 #include <algorithm>
 #include <map>
@@ -21,8 +22,7 @@ std::vector<SurfaceLine> gather_lines(const parallel::Communicator& communicator
   std::vector<GlobalIndex> numbers;
   for (const LineItem& item : items)
     numbers.insert(numbers.end(), item.vertices.begin(), item.vertices.end());
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  geometry::sort_unique(numbers);
   const auto place_of = [&](GlobalIndex number) {
     return static_cast<std::int64_t>(std::lower_bound(numbers.begin(), numbers.end(), number) -
                                      numbers.begin());

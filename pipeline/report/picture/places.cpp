@@ -182,7 +182,7 @@ struct Sharpest {
 
   static constexpr auto fields() { return std::tuple(&Sharpest::angle, &Sharpest::item); }
 };
-bool beats(const Sharpest& a, const Sharpest& b) {
+bool is_sharper(const Sharpest& a, const Sharpest& b) {
   return a.angle != b.angle ? a.angle > b.angle : precedes(a.item, b.item);
 }
 
@@ -192,7 +192,7 @@ std::optional<Place> find_sharpest(const DistributedMesh& surface, const mesh::N
   Sharpest mine;
   for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
     const auto take = [&](double angle, const LineItem& item) {
-      if (const Sharpest here{angle, item}; beats(here, mine)) mine = here;
+      if (const Sharpest here{angle, item}; is_sharper(here, mine)) mine = here;
     };
     for (int i = 0; i < 3; ++i) {
       if (e.turns[i] >= sharp_turn) take(e.turns[i], item_of_edge(e, i, vertices));
@@ -202,7 +202,7 @@ std::optional<Place> find_sharpest(const DistributedMesh& surface, const mesh::N
       take(std::min(curvature.largest * e.size, sharp_turn), item_of_triangle(e, curvature, vertices));
   });
   std::vector<Sharpest> all = communicator.all_gather_items<Sharpest>(std::span<const Sharpest>(&mine, 1));
-  const Sharpest& best = *std::min_element(all.begin(), all.end(), beats);
+  const Sharpest& best = *std::min_element(all.begin(), all.end(), is_sharper);
   if (!(best.angle > 0)) return std::nullopt;
   const Vec3 normal = best.item.normal, along = best.item.along - dot(best.item.along, normal) * normal;
   return Place{best.item.point, normal, normalized(along), best.item.size, false};

@@ -40,7 +40,7 @@ struct Farthest {
     return std::tuple(&Farthest::value, &Farthest::point, &Farthest::direction);
   }
 };
-bool beats(const Farthest& a, const Farthest& b) {
+bool is_farther(const Farthest& a, const Farthest& b) {
   return std::tie(a.value, a.point.x, a.point.y, a.point.z) >
          std::tie(b.value, b.point.x, b.point.y, b.point.z);
 }
@@ -58,7 +58,7 @@ std::vector<Farthest> hull_points(const DistributedMesh& surface) {
       }
       for (int d = 0; d < direction_count; ++d) {
         const Farthest here{dot(directions[d], p), p, d};
-        if (here.value >= mine[d].value && beats(here, mine[d])) mine[d] = here;
+        if (here.value >= mine[d].value && is_farther(here, mine[d])) mine[d] = here;
       }
     }
   }
@@ -66,7 +66,7 @@ std::vector<Farthest> hull_points(const DistributedMesh& surface) {
   for (const Farthest& each : communicator.all_gather_items<Farthest>(mine)) {
     if (best.size() < direction_count) {
       best.push_back(each);
-    } else if (beats(each, best[each.direction])) {
+    } else if (is_farther(each, best[each.direction])) {
       best[each.direction] = each;
     }
   }

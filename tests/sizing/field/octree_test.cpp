@@ -1,5 +1,7 @@
 #include "sizing/field/octree.hpp"
 
+#include "geometry/sort_unique.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -31,8 +33,7 @@ OctreeNodes collect_all(const SplitCubes::Leaves& leaves, const LeafTable& table
 std::vector<std::uint64_t> keys_of(std::span<const GridPoint> points) {
   std::vector<std::uint64_t> keys;
   for (const GridPoint p : points) keys.push_back(morton_key(p));
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  geometry::sort_unique(keys);
   return keys;
 }
 
