@@ -1,5 +1,7 @@
 #include "pipeline/domain/unresolved_features.hpp"
 
+#include "sizing/choice/model_sampler.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
