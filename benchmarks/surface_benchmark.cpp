@@ -11,6 +11,7 @@
 #include "mesh/quality/quality.hpp"
 #include "parallel/communication/environment.hpp"
 #include "parallel/observation/log.hpp"
+#include "parallel/observation/timers.hpp"
 #include "pipeline/domain/load_domain.hpp"
 #include "pipeline/domain/size_domain.hpp"
 #include "surface/surface_mesher.hpp"

@@ -7,13 +7,8 @@ include(CMakePackageConfigHelpers)
 get_property(libraries GLOBAL PROPERTY AEROLOOM_LIBRARIES)
 list(FILTER libraries EXCLUDE REGEX "^aeroloom_pipeline(_commands|_report|_study|$)")
 foreach(library IN LISTS libraries)
-  get_target_property(type ${library} TYPE)
-  if(type STREQUAL INTERFACE_LIBRARY)
-    install(TARGETS ${library} EXPORT AeroloomTargets)
-  else()
-    install(TARGETS ${library} EXPORT AeroloomTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aeroloom)
-  endif()
+  install(TARGETS ${library} EXPORT AeroloomTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aeroloom)
 endforeach()
 install(TARGETS aeroloom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 

@@ -11,6 +11,7 @@
 #include "mesh/quality/tet_quality.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/storage/task_store.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -7,10 +7,12 @@
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/data/piece.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
-#include "parallel/storage/task_store.hpp"
 
 #include <vector>
+
+namespace aeroloom::parallel {
+class TaskStore;
+}
 
 namespace aeroloom::improve {
 

@@ -4,6 +4,7 @@
 #include "layers/good_columns.hpp"
 #include "layers/layer_report.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <cstdint>

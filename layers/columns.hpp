@@ -8,7 +8,6 @@
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 
 #include <array>
 #include <cstdint>

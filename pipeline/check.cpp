@@ -7,6 +7,7 @@
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/domain/face_patches.hpp"
 #include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/sandboxed_cad.hpp"
 #include "pipeline/domain/size_domain.hpp"
 #include "pipeline/forecast.hpp"
 #include "pipeline/report/change_json.hpp"

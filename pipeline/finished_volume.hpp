@@ -3,6 +3,7 @@
 
 #include "cad/model/model.hpp"
 #include "parallel/communication/communicator.hpp"
+#include "parallel/storage/task_store.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/run.hpp"
 

@@ -4,7 +4,7 @@
 #include "io/read_mesh.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/case/case.hpp"
-#include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/sandboxed_cad.hpp"
 #include "pipeline/info_text.hpp"
 #include "pipeline/report/text_file.hpp"
 

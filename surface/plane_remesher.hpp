@@ -5,7 +5,6 @@
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"

@@ -4,12 +4,14 @@
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
-#include "parallel/storage/task_store.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
+
+namespace aeroloom::parallel {
+class TaskStore;
+}
 
 namespace aeroloom::surface {
 

@@ -6,14 +6,16 @@
 
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
-#include "parallel/storage/task_store.hpp"
 #include "sizing/field/size_field.hpp"
 #include "volume/volume_failure.hpp"
 #include "volume/volume_options.hpp"
 #include "volume/volume_report.hpp"
 
 #include <memory>
+
+namespace aeroloom::parallel {
+class TaskStore;
+}
 
 namespace aeroloom::volume {
 

@@ -7,14 +7,14 @@
 #include <exception>
 #include <string>
 
-#include <aeroloom/improve/improver.hpp>
+#include <aeroloom/improve/improve.hpp>
 #include <aeroloom/mesh/data/distributed_mesh.hpp>
 #include <aeroloom/parallel/communication/host.hpp>
 #include <aeroloom/parallel/sandbox/sandbox.hpp>
 #include <aeroloom/pipeline/domain/load_domain.hpp>
-#include <aeroloom/sizing/field/size_field.hpp>
-#include <aeroloom/surface/surface_mesher.hpp>
-#include <aeroloom/volume/volume_mesher.hpp>
+#include <aeroloom/sizing/sizing.hpp>
+#include <aeroloom/surface/surface.hpp>
+#include <aeroloom/volume/volume.hpp>
 
 namespace {
 

@@ -13,8 +13,10 @@
 #include "pipeline/case/patch_rules.hpp"
 #include "pipeline/case/quality_gate.hpp"
 #include "pipeline/case/source_rules.hpp"
-#include "sizing/choice/choose_sizes.hpp"
+#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/given_sizes.hpp"
 #include "sizing/choice/levels.hpp"
+#include "sizing/sources/patch_size.hpp"
 #include "surface/surface_options.hpp"
 #include "volume/volume_options.hpp"
 

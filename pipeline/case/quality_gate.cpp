@@ -1,6 +1,9 @@
 #include "pipeline/case/quality_gate.hpp"
 
 #include "geometry/place_text.hpp"
+#include "improve/attribution/pinned.hpp"
+#include "mesh/quality/cell_measures.hpp"
+#include "mesh/quality/mixed_quality.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,7 @@
 /// The quality that a mesh must have for the run to count as a success.
 #pragma once
 
-#include "improve/attribution/pinned.hpp"
 #include "improve/improve_options.hpp"
-#include "mesh/quality/mixed_quality.hpp"
 #include "mesh/quality/quality.hpp"
 
 #include <array>
@@ -11,6 +9,14 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace aeroloom::attribution {
+struct PinnedReport;
+}
+
+namespace aeroloom::mesh {
+struct MixedQuality;
+}
 
 namespace aeroloom::cases {
 

@@ -2,11 +2,17 @@
 #pragma once
 
 #include "geometry/vec.hpp"
-#include "sizing/sources/size_demands.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace aeroloom::sizing {
+struct SizeRegion;
+struct WakeSize;
+struct WallSize;
+struct EdgeSize;
+}  // namespace aeroloom::sizing
 
 namespace aeroloom::cases {
 

@@ -1,5 +1,7 @@
 #include "pipeline/domain/bounded_faces.hpp"
 
+#include "sizing/choice/model_sampler.hpp"
+
 #include <algorithm>
 #include <map>
 

@@ -1,11 +1,15 @@
 /// Where the smallest size wins over what curvature asks for.
 #pragma once
 
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <string>
 #include <tuple>
 #include <vector>
+
+namespace aeroloom::sizing {
+class ModelSampler;
+}
 
 namespace aeroloom::domain {
 

@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/packer.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <stdexcept>
 #include <string>

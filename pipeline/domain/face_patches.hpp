@@ -1,8 +1,8 @@
 /// The patches that a case makes of the faces of its domain.
 #pragma once
 
+#include "cad/model/model.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "pipeline/case/case.hpp"
 
 namespace aeroloom::domain {

@@ -3,10 +3,13 @@
 
 #include "cad/model/model.hpp"
 #include "sizing/choice/levels.hpp"
-#include "sizing/lifting/lifting.hpp"
 
 #include <string>
 #include <vector>
+
+namespace aeroloom::sizing {
+struct LiftingBodies;
+}
 
 namespace aeroloom::domain {
 

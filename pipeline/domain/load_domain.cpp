@@ -2,10 +2,12 @@
 
 #include "cad/model/step_trace.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 #include "pipeline/domain/domain_bytes.hpp"
+#include "pipeline/domain/sandboxed_cad.hpp"
 
 #include <atomic>
 #include <cstdio>

@@ -6,6 +6,7 @@
 #include "pipeline/domain/level_sizes.hpp"
 #include "sizing/choice/choose_sizes.hpp"
 #include "sizing/features/narrow_faces.hpp"
+#include "sizing/lifting/trailing_edges.hpp"
 
 #include <algorithm>
 #include <cmath>

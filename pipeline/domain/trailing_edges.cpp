@@ -3,6 +3,7 @@
 #include "cad/domain/close_strips.hpp"
 #include "cad/model/topology/closed_edges.hpp"
 #include "sizing/field/closed_corners.hpp"
+#include "sizing/lifting/trailing_edges.hpp"
 
 #include <algorithm>
 #include <cmath>

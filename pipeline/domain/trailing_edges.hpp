@@ -2,7 +2,8 @@
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "sizing/lifting/trailing_edges.hpp"
+#include "geometry/vec.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -10,6 +11,10 @@
 #include <string>
 #include <tuple>
 #include <vector>
+
+namespace aeroloom::sizing {
+struct TrailingEdge;
+}
 
 namespace aeroloom::domain {
 

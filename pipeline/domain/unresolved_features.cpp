@@ -1,6 +1,7 @@
 #include "pipeline/domain/unresolved_features.hpp"
 
 #include "geometry/place_text.hpp"
+#include "sizing/choice/model_sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,16 @@
 /// Features that are finer than the elements which the budget has for them.
 #pragma once
 
+#include "geometry/vec.hpp"
 #include "sizing/choice/feature_share.hpp"
-#include "sizing/choice/model_sampler.hpp"
 
 #include <string>
 #include <tuple>
 #include <vector>
+
+namespace aeroloom::sizing {
+class ModelSampler;
+}
 
 namespace aeroloom::domain {
 

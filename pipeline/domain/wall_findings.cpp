@@ -2,6 +2,7 @@
 
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
+#include "sizing/choice/model_sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

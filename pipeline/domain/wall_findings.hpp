@@ -1,11 +1,18 @@
 /// Findings of the sizing stage about walls that are close to each other.
 #pragma once
 
-#include "sizing/choice/model_sampler.hpp"
+#include "cad/model/model.hpp"
+#include "geometry/vec.hpp"
+#include "sizing/field/size_field.hpp"
 
 #include <string>
 #include <tuple>
 #include <vector>
+
+namespace aeroloom::sizing {
+class ModelSampler;
+struct CoincidentFaces;
+}  // namespace aeroloom::sizing
 
 namespace aeroloom::domain {
 

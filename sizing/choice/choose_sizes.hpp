@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/given_sizes.hpp"
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/size_field.hpp"
 
@@ -10,27 +11,6 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-
-/// Bounds that are given, members of SizingOptions; the others are chosen around them. Lengths in the model's
-/// unit.
-struct GivenSizes {
-  std::optional<double> minimum, maximum;   ///< minimum <= maximum
-  std::optional<double> feature_minimum;    ///< smallest size at short edges, narrow faces, sharp corners
-  std::optional<double> surface_maximum;    ///< largest size on faces that are not far field
-  std::optional<double> curvature_angle;    ///< degrees
-  std::optional<double> chordal_deviation;  ///< of triangles from curved faces
-  std::optional<double> growth;             ///< ratio of neighbouring sizes
-  std::optional<double> proximity;          ///< elements across thin parts and gaps; 0: any
-  std::optional<double> gap_proximity;      ///< across gaps alone
-
-  /// Whether the sizes of features finer than the minimum are given too.
-  bool holds_features() const { return minimum || feature_minimum; }
-};
-
-/// The options with what is given in place of their own; those of their bounds that contradict it follow. A
-/// minimum brings that of features along (SizingOptions). Throws std::invalid_argument where what is given
-/// contradicts itself.
-SizingOptions with_given(const SizingOptions& options, const GivenSizes& given);
 
 /// Sizes with the field they give and the counts that field predicts.
 struct ChosenSizes {
@@ -72,9 +52,8 @@ ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra,
 Prospect prospect_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given);
 
-/// The purpose of a field: to make a mesh, or to tell what mesh that would be. For that alone it is a rough
-/// one (ModelSampler::build_rough_field) where there would be more elements than this.
-enum class FieldFor : bool { mesh, forecast };
+/// The field of a forecast is a rough one (ModelSampler::build_rough_field) where there would be more
+/// elements than this.
 inline constexpr double least_rough = 3e7;
 
 /// The second half. Collective.

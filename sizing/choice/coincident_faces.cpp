@@ -1,6 +1,7 @@
 // Faces of the body that lie on one another: what no size can part.
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/features/facet_parameters.hpp"
 #include "sizing/features/segment_tree.hpp"

@@ -2,6 +2,7 @@
 // too long to sample are refused before that.
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/choice/model_sampler.hpp"
 
 #include <algorithm>

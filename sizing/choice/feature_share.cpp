@@ -1,6 +1,7 @@
 #include "sizing/choice/feature_share.hpp"
 
 #include "parallel/observation/log.hpp"
+#include "sizing/choice/model_sampler.hpp"
 
 #include <algorithm>
 #include <cmath>

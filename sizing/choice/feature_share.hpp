@@ -1,7 +1,6 @@
 /// The cost of features finer than the smallest size, and how fine they may be for a budget.
 #pragma once
 
-#include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <cstdint>
@@ -9,6 +8,8 @@
 #include <tuple>
 
 namespace aeroloom::sizing {
+
+class ModelSampler;
 
 /// Predicted elements over those without features finer than the minimum, at most, where nobody asks for
 /// more.

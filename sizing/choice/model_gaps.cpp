@@ -2,6 +2,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/choice/model_sampler.hpp"
 
 #include <algorithm>

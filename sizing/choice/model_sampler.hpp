@@ -2,7 +2,6 @@
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/features/face_samples.hpp"
 #include "sizing/features/model_sources.hpp"
 #include "sizing/features/proximity.hpp"

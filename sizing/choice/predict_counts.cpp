@@ -1,3 +1,4 @@
+#include "parallel/observation/timers.hpp"
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/field/facet_integral.hpp"

@@ -1,6 +1,7 @@
 // What users ask for at places and on patches, as part of what a sampler finds.
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/sources/formula_sources.hpp"

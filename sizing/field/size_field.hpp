@@ -4,7 +4,6 @@
 #include "cad/model/model.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "parallel/communication/node_array.hpp"
-#include "parallel/observation/timers.hpp"
 #include "parallel/storage/digest.hpp"
 #include "sizing/field/corner_sizes.hpp"
 #include "sizing/field/octree.hpp"

@@ -4,6 +4,7 @@
 #include "geometry/vec.hpp"
 #include "sizing/field/size_field.hpp"
 #include "sizing/field/sources.hpp"
+#include "sizing/sources/patch_size.hpp"
 #include "sizing/sources/size_expression.hpp"
 
 #include <cstdint>
@@ -31,12 +32,6 @@ struct SizeRegion {
   double distance_to(geometry::Vec3 p) const;
   /// The box around it.
   geometry::Box box() const;
-};
-
-/// Elements on the faces of a patch are at most so large.
-struct PatchSize {
-  std::string patch;
-  double size = 0;
 };
 
 /// Elements are at most as large as a formula of the place has them.

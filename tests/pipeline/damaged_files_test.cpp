@@ -1,6 +1,6 @@
 // Damaged files end in a model or in a message, never in a crash, whatever is wrong with them.
 #include "cad/model/model.hpp"
-#include "pipeline/domain/load_domain.hpp"
+#include "pipeline/domain/sandboxed_cad.hpp"
 #include "tests/scoped_fault.hpp"
 
 #include <array>

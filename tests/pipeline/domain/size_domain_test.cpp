@@ -2,6 +2,8 @@
 
 #include "parallel/observation/warnings.hpp"
 #include "pipeline/stage_products.hpp"
+#include "sizing/choice/model_sampler.hpp"
+#include "sizing/lifting/trailing_edges.hpp"
 #include "tests/cad/blunt_shapes.hpp"
 #include "tests/cad/strip_shapes.hpp"
 #include "tests/references.hpp"

@@ -1,4 +1,5 @@
 #include "sizing/choice/choose_sizes.hpp"
+#include "sizing/choice/model_sampler.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/cad/strip_shapes.hpp"
 

@@ -1,5 +1,6 @@
 #include "parallel/communication/collective_error.hpp"
 #include "sizing/choice/choose_sizes.hpp"
+#include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/facet_integral.hpp"
 #include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
