@@ -41,13 +41,13 @@ TEST_F(CaseTest, WallsWakesAndEdgesAreReadAndComeBack) {
 
 /// Keys of a source of every shape.
 const std::vector<std::string> every_shape{
-    "{shape: point, size: 0.5, center: [1, 2, 3]}",
-    "{shape: line, size: 0.5, from: [1, 2, 3], to: [4, 5, 6]}",
-    "{shape: sphere, size: 0.5, center: [1, 2, 3], radius: 7}",
-    "{shape: box, size: 0.5, low: [1, 2, 3], high: [4, 5, 6]}",
-    "{shape: cylinder, size: 0.5, from: [1, 2, 3], to: [4, 5, 6], radius: 7}",
-    "{shape: cone, size: 0.5, from: [1, 2, 3], to: [4, 5, 6], radius: 7, end_radius: 8}",
-    "{shape: wake, size: 0.5, from: [1, 2, 3], to: [4, 5, 6], direction: [9, 0, 0], length: 7, end_size: 8}"};
+    "{shape: point, size: 5, center: [1, 2, 3]}",
+    "{shape: line, size: 5, from: [1, 2, 3], to: [4, 5, 6]}",
+    "{shape: sphere, size: 5, center: [1, 2, 3], radius: 7}",
+    "{shape: box, size: 5, low: [1, 2, 3], high: [4, 5, 6]}",
+    "{shape: cylinder, size: 5, from: [1, 2, 3], to: [4, 5, 6], radius: 7}",
+    "{shape: cone, size: 5, from: [1, 2, 3], to: [4, 5, 6], radius: 7, end_radius: 8}",
+    "{shape: wake, size: 5, from: [1, 2, 3], to: [4, 5, 6], direction: [9, 0, 0], length: 7, end_size: 8}"};
 
 TEST_F(CaseTest, EveryShapeComesBackAndScales) {
   static_assert(std::variant_size_v<sizing::SizeShape> == 7, "every_shape has one of each");
@@ -61,11 +61,10 @@ TEST_F(CaseTest, EveryShapeComesBackAndScales) {
     bool is_direction = false;
     for (const char c : source) {
       is_direction = c == '[' ? larger.ends_with("direction: ") : is_direction && c != ']';
-      const bool scales = c >= '1' && c <= '9' && !is_direction && !larger.ends_with("0.");
+      const bool scales = c >= '1' && c <= '9' && !is_direction;
       larger += scales ? std::to_string(4 * (c - '0')) : std::string(1, c);
     }
-    larger.replace(larger.find("0.5"), 3, "2");
-    Case in_model_unit = read("geometry: {file: a.step}\nsizing:\n" + larger);
+    const Case in_model_unit = read("geometry: {file: a.step}\nsizing:\n" + larger);
     Case scaled = input;
     scaled.sizing = in_model_units(input.sizing);
     scaled.sizing.reference_length.reset();
