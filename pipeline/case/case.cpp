@@ -94,8 +94,10 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   for (const PatchRule& rule : draft.patches)
     check_patterns(keys, "patches." + rule.name + ".faces", rule.faces);
   check_patterns(keys, "geometry.sharpen_faces", draft.result.domain.trailing_edges.faces);
-  for (const SourceRule& rule : draft.sources)
-    check_patterns(keys, "sizing.sources." + rule.name + ".behind", rule.behind);
+  for (const SourceDraft& source : draft.sources) {
+    for (const auto& [key, patterns] : source.patterns)
+      check_patterns(keys, "sizing.sources." + source.name + "." + key, patterns);
+  }
   for (const WallRule& rule : draft.walls)
     check_patterns(keys, "sizing.walls." + rule.name + ".faces", rule.faces);
   for (const EdgeRule& rule : draft.edges)
@@ -112,7 +114,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
   }
   result.patches.assign(draft.patches.begin(), draft.patches.end());
-  result.sizing.sources.assign(draft.sources.begin(), draft.sources.end());
+  result.sizing.sources = rules_of(draft.sources);
   result.sizing.walls.assign(draft.walls.begin(), draft.walls.end());
   result.sizing.edges.assign(draft.edges.begin(), draft.edges.end());
   result.layers.given = result.layers.first || result.layers.reynolds || !draft.layer_rules.empty();
@@ -181,7 +183,7 @@ std::string resolved_yaml(const Case& input) {
   draft.parts.assign(input.domain.parts.begin(), input.domain.parts.end());
   draft.groups.assign(input.groups.rules.begin(), input.groups.rules.end());
   draft.patches.assign(input.patches.begin(), input.patches.end());
-  draft.sources.assign(input.sizing.sources.begin(), input.sizing.sources.end());
+  draft.sources = drafts_of(input.sizing.sources);
   draft.walls.assign(input.sizing.walls.begin(), input.sizing.walls.end());
   draft.edges.assign(input.sizing.edges.begin(), input.sizing.edges.end());
   draft.layer_rules.assign(input.layers.patches.begin(), input.layers.patches.end());

@@ -3,6 +3,7 @@
 
 #include "pipeline/case/case.hpp"
 #include "pipeline/case/key_info.hpp"
+#include "pipeline/case/source_keys.hpp"
 #include "pipeline/case/yaml_reader.hpp"
 
 #include <deque>
@@ -28,7 +29,7 @@ struct CaseDraft {
   std::deque<cad::FacetedBody> parts;
   std::deque<PatchRule> patches;
   std::deque<GroupRule> groups;
-  std::deque<SourceRule> sources;
+  std::deque<SourceDraft> sources;
   std::deque<WallRule> walls;
   std::deque<EdgeRule> edges;
   std::deque<LayerRule> layer_rules;

@@ -25,11 +25,8 @@ SizingRequest in_model_units(const SizingRequest& request) {
     scale(*size, unit);
   for (sizing::PatchSize& patch : result.patch_sizes) patch.size *= unit;
   for (SourceRule& rule : result.sources) {
-    for (std::optional<double>* length :
-         {&rule.radius, &rule.end_radius, &rule.length, &rule.size, &rule.end_size})
-      scale(*length, unit);
-    for (std::optional<geometry::Vec3>* place : {&rule.center, &rule.low, &rule.high, &rule.from, &rule.to})
-      scale(*place, unit);
+    rule.shape = scaled(rule.shape, unit);
+    rule.size *= unit;
   }
   for (WallRule& rule : result.walls) scale(rule.size, unit), scale(rule.distance, unit);
   for (EdgeRule& rule : result.edges) {

@@ -16,22 +16,11 @@ struct EdgeSize;
 
 namespace aeroloom::cases {
 
-enum class SourceShape { point, line, sphere, box, cylinder, cone, wake };
-
-/// A source of sizes as it is written, in the model's unit.
+/// A source of sizes as it is written, or in the model's unit.
 struct SourceRule {
   std::string name;
-  std::optional<SourceShape> shape;
-  std::optional<geometry::Vec3> center;     ///< of a point, sphere
-  std::optional<geometry::Vec3> low, high;  ///< corners of a box
-  std::optional<geometry::Vec3> from, to;   ///< ends of a line, cylinder, cone; of where a wake begins
-  std::optional<double> radius;             ///< of a sphere, cylinder; of a cone at `from`
-  std::optional<double> end_radius;         ///< of a cone at `to`
-  std::vector<std::string> behind;          ///< patterns of faces at whose trailing edges a wake begins
-  std::optional<geometry::Vec3> direction;  ///< of a wake
-  std::optional<double> length;             ///< of a wake
-  std::optional<double> size;               ///< largest size within; of a wake where it begins
-  std::optional<double> end_size;           ///< where a wake ends; left out: as `size`
+  sizing::SizeShape shape;
+  double size = 0;  ///< largest size within; of a wake where it begins
 };
 
 /// A band of small elements off walls as it is written.
@@ -49,10 +38,7 @@ struct EdgeRule {
   std::optional<double> size;
 };
 
-/// The region of a rule that has all that its shape needs, and is no wake.
-sizing::SizeRegion region_of(const SourceRule& rule);
 /// What rules ask for that have all they need.
-sizing::WakeSize wake_of(const SourceRule& rule);
 sizing::WallSize wall_of(const WallRule& rule);
 sizing::EdgeSize edge_of(const EdgeRule& rule);
 

@@ -12,7 +12,9 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -170,11 +172,13 @@ SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& re
 sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
   sizing::SizeDemands demands{{}, request.patch_sizes};
   for (const cases::SourceRule& rule : request.sources) {
-    if (rule.shape == cases::SourceShape::wake) {
-      demands.wakes.push_back(cases::wake_of(rule));
-    } else {
-      demands.regions.push_back(cases::region_of(rule));
-    }
+    const auto add = [&](const auto& shape) {
+      if constexpr (std::is_convertible_v<decltype(shape), sizing::SolidShape>)
+        demands.regions.push_back({rule.name, shape, rule.size});
+      else
+        demands.wakes.push_back({rule.name, shape, rule.size});
+    };
+    std::visit(add, rule.shape);
   }
   for (const cases::WallRule& rule : request.walls) demands.walls.push_back(cases::wall_of(rule));
   for (const cases::EdgeRule& rule : request.edges) demands.edges.push_back(cases::edge_of(rule));

@@ -136,9 +136,11 @@ void ModelSampler::lay_surfaces() {
       lay("sizing.walls." + wall.name, std::move(triangles), wall.distance);
     }
     for (const WakeSize& wake : _demands.wakes) {
-      std::vector<std::array<geometry::Vec3, 2>> segments{{wake.start, wake.end}};
-      if (!wake.faces.empty())
-        segments = trailing_segments(_model, faces_like(_model, wake.faces), wake.direction);
+      const WakeShape& shape = wake.shape;
+      std::vector<std::array<geometry::Vec3, 2>> segments;
+      if (shape.from && shape.to) segments.push_back({*shape.from, *shape.to});
+      if (!shape.behind.empty())
+        segments = trailing_segments(_model, faces_like(_model, shape.behind), normalized(shape.direction));
       lay("sizing.sources." + wake.name, wake_sheet(segments, wake), 0);
     }
     for (const EdgeSize& edge : _demands.edges)

@@ -3,6 +3,7 @@
 #include "sizing/field/field_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -20,6 +21,12 @@ double fraction(double t, std::uint32_t cell, std::uint32_t leaf_edge) {
   const double low = cell & ~(leaf_edge - 1);
   return std::clamp((t - low) / leaf_edge, 0.0, 1.0);
 }
+
+/// Those of the options that are lengths.
+constexpr std::array lengths{&SizingOptions::minimum,          &SizingOptions::maximum,
+                             &SizingOptions::surface_maximum,  &SizingOptions::feature_minimum,
+                             &SizingOptions::strip_minimum,    &SizingOptions::gap_minimum,
+                             &SizingOptions::chordal_deviation};
 
 double blend(double a, double b, double t) {
   return a + t * (b - a);
@@ -62,10 +69,7 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
 
 SizeField SizeField::scaled(double factor) const {
   SizeField result = *this;
-  for (double* bound : {&result._options.minimum, &result._options.maximum, &result._options.surface_maximum,
-                        &result._options.feature_minimum}) {
-    *bound *= factor;
-  }
+  for (double SizingOptions::*length : lengths) result._options.*length *= factor;
   result._factor *= factor;
   return result;
 }

@@ -6,6 +6,7 @@
 #include "sizing/field/sources.hpp"
 #include "sizing/sources/patch_size.hpp"
 #include "sizing/sources/size_expression.hpp"
+#include "sizing/sources/size_shapes.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -17,21 +18,9 @@ namespace aeroloom::sizing {
 
 /// A part of space in which elements are at most so large. Lengths in the model's unit.
 struct SizeRegion {
-  enum class Shape : std::uint8_t {
-    box,      ///< `start` and `end` are opposite corners
-    sphere,   ///< around `start`; with radius 0 a point
-    cylinder  ///< with plane ends at `start` and `end`; with other radii a cone, with radii 0 a line
-  };
   std::string name;
-  Shape shape = Shape::sphere;
-  geometry::Vec3 start, end;
-  double start_radius = 0, end_radius = 0;
+  SolidShape shape;
   double size = 0;
-
-  /// How far a point is from the region; 0 inside.
-  double distance_to(geometry::Vec3 p) const;
-  /// The box around it.
-  geometry::Box box() const;
 };
 
 /// Elements are at most as large as a formula of the place has them.
@@ -49,14 +38,13 @@ struct WallSize {
   double distance = 0;
 };
 
-/// Elements are at most so large on a sheet that a line, or the trailing edges of faces, leave behind.
+/// Elements are at most so large on a wake.
 struct WakeSize {
   std::string name;
-  std::vector<std::string> faces;  ///< patterns of those whose trailing edges it begins at; none: start, end
-  geometry::Vec3 start, end;
-  geometry::Vec3 direction;  ///< unit
-  double length = 0;
-  double size = 0, end_size = 0;  ///< where it begins and where it ends; linear between them
+  WakeShape shape;
+  double size = 0;  ///< where it begins
+
+  double end_size() const { return shape.end_size.value_or(size); }
 };
 
 /// Elements along CAD edges are at most so large.

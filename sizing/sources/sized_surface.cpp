@@ -235,10 +235,10 @@ std::vector<std::array<Vec3, 2>> trailing_segments(const cad::Model& model, cons
 std::vector<SizedTriangle> wake_sheet(const std::vector<std::array<Vec3, 2>>& segments,
                                       const WakeSize& wake) {
   std::vector<SizedTriangle> sheet;
-  const Vec3 way = wake.length * wake.direction;
+  const Vec3 way = wake.shape.length * normalized(wake.shape.direction);
   for (const auto& [a, b] : segments) {
-    sheet.push_back({{a, b, b + way}, {wake.size, wake.size, wake.end_size}});
-    sheet.push_back({{a, b + way, a + way}, {wake.size, wake.end_size, wake.end_size}});
+    sheet.push_back({{a, b, b + way}, {wake.size, wake.size, wake.end_size()}});
+    sheet.push_back({{a, b + way, a + way}, {wake.size, wake.end_size(), wake.end_size()}});
   }
   return sheet;
 }
@@ -270,7 +270,8 @@ std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSi
 
 void require_faces(const cad::Model& model, const SizeDemands& demands) {
   for (const WallSize& wall : demands.walls) require_like(model, "sizing.walls." + wall.name, wall.faces);
-  for (const WakeSize& wake : demands.wakes) require_like(model, "sizing.sources." + wake.name, wake.faces);
+  for (const WakeSize& wake : demands.wakes)
+    require_like(model, "sizing.sources." + wake.name, wake.shape.behind);
   for (const EdgeSize& edge : demands.edges) require_like(model, "sizing.edges." + edge.name, edge.between);
 }
 

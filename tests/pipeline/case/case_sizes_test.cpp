@@ -2,6 +2,11 @@
 #include "sizing/sources/size_demands.hpp"
 #include "tests/pipeline/case/case_fixture.hpp"
 
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
 namespace aeroloom::cases {
 namespace {
 
@@ -26,12 +31,46 @@ TEST_F(CaseTest, WallsWakesAndEdgesAreReadAndComeBack) {
   const SizingRequest sizing = in_model_units(again.sizing);
   EXPECT_EQ(sizing.minimum, 2);
   EXPECT_EQ(sizing.patch_sizes[0].size, 1);
-  const sizing::WakeSize wake = wake_of(sizing.sources[0]);
-  EXPECT_EQ(wake.direction.x, 1);
+  const auto& wake = std::get<sizing::WakeShape>(sizing.sources[0].shape);
+  EXPECT_EQ(wake.direction.x, 2);
   EXPECT_EQ(wake.length, 12);
-  EXPECT_EQ(wake.end_size, 1);
+  EXPECT_EQ(wake.end_size, std::nullopt);
+  EXPECT_EQ(sizing.sources[0].size, 1);
   EXPECT_EQ(wall_of(sizing.walls[0]).distance, 8);
   EXPECT_EQ(edge_of(sizing.edges[0]).within->low.x, -12);
+}
+
+/// Keys of a source of every shape.
+const std::vector<std::string> every_shape{
+    "{shape: point, size: 5, center: [1, 2, 3]}",
+    "{shape: line, size: 5, from: [1, 2, 3], to: [4, 5, 6]}",
+    "{shape: sphere, size: 5, center: [1, 2, 3], radius: 7}",
+    "{shape: box, size: 5, low: [1, 2, 3], high: [4, 5, 6]}",
+    "{shape: cylinder, size: 5, from: [1, 2, 3], to: [4, 5, 6], radius: 7}",
+    "{shape: cone, size: 5, from: [1, 2, 3], to: [4, 5, 6], radius: 7, end_radius: 8}",
+    "{shape: wake, size: 5, from: [1, 2, 3], to: [4, 5, 6], direction: [9, 0, 0], length: 7, end_size: 8}"};
+
+TEST_F(CaseTest, EveryShapeComesBackAndScales) {
+  static_assert(std::variant_size_v<sizing::SizeShape> == 7, "every_shape has one of each");
+  for (std::size_t i = 0; i < every_shape.size(); ++i) {
+    const std::string source = "  sources: {a: " + every_shape[i] + "}\n";
+    const Case input = read("geometry: {file: a.step}\nsizing:\n  reference_length: 4\n" + source);
+    EXPECT_EQ(input.sizing.sources[0].shape.index(), i);
+    EXPECT_EQ(resolved_yaml(case_of_resolved(resolved_yaml(input))), resolved_yaml(input));
+    // In the model's unit it is what a case with lengths four times as large says; a direction has none.
+    std::string larger;
+    bool is_direction = false;
+    for (const char c : source) {
+      is_direction = c == '[' ? larger.ends_with("direction: ") : is_direction && c != ']';
+      const bool scales = c >= '1' && c <= '9' && !is_direction;
+      larger += scales ? std::to_string(4 * (c - '0')) : std::string(1, c);
+    }
+    const Case in_model_unit = read("geometry: {file: a.step}\nsizing:\n" + larger);
+    Case scaled = input;
+    scaled.sizing = in_model_units(input.sizing);
+    scaled.sizing.reference_length.reset();
+    EXPECT_EQ(resolved_yaml(scaled), resolved_yaml(in_model_unit)) << source;
+  }
 }
 
 TEST_F(CaseTest, WallsWakesAndEdgesHaveWhatTheyNeed) {

@@ -354,9 +354,9 @@ TEST_F(CaseTest, SourcesComeBack) {
       "    spot: {shape: point, center: [0, 1, 0], size: 0.2}\n"
       "patches: {wing: {size: 0.05}}\n");
   ASSERT_EQ(input.sizing.sources.size(), 2u);
-  const sizing::SizeRegion wake = region_of(input.sizing.sources[0]);
-  EXPECT_EQ(wake.name, "wake");
-  EXPECT_EQ(wake.end.y, 5.5);
+  EXPECT_EQ(input.sizing.sources[0].name, "wake");
+  const auto& wake = std::get<sizing::ConeShape>(input.sizing.sources[0].shape);
+  EXPECT_EQ(wake.to.y, 5.5);
   EXPECT_EQ(wake.end_radius, 2);
   ASSERT_EQ(input.sizing.patch_sizes.size(), 1u);
   EXPECT_EQ(input.sizing.patch_sizes[0].patch, "wing");
@@ -364,7 +364,7 @@ TEST_F(CaseTest, SourcesComeBack) {
   ASSERT_EQ(again.sizing.sources.size(), 2u);
   EXPECT_EQ(again.sizing.sources[1].name, "spot");
   EXPECT_EQ(again.sizing.sources[1].size, 0.2);
-  EXPECT_EQ(region_of(again.sizing.sources[0]).end.z, -6);
+  EXPECT_EQ(std::get<sizing::ConeShape>(again.sizing.sources[0].shape).to.z, -6);
   EXPECT_EQ(again.sizing.patch_sizes[0].size, 0.05);
 }
 

@@ -37,14 +37,21 @@ TEST(SizedSurface, NearestOfTriangleIsThatOfManyOfItsPoints) {
 }
 
 TEST(SizedSurface, AWakeHasItsSizesAlongItsLength) {
-  const WakeSize wake{"wake", {}, {0, 0, 0}, {0, 4, 0}, {1, 0, 0}, 10, 0.5, 1.5};
-  const SizedSurface sheet("wake", wake_sheet({{wake.start, wake.end}}, wake), 0);
+  const Vec3 from{0, 0, 0}, to{0, 4, 0};
+  const WakeSize wake{"wake", {{}, from, to, {2, 0, 0}, 10, 1.5}, 0.5};
+  const SizedSurface sheet("wake", wake_sheet({{from, to}}, wake), 0);
   EXPECT_NEAR(sheet.ask({2, 1, 0}, 1e-3, 1).size, 0.7, 1e-3);
   EXPECT_NEAR(sheet.ask({8, 3, 0}, 1e-3, 2).size, 2.6, 1e-3);
   EXPECT_EQ(sheet.ask({8, 3, 0.1}, 1e-3, 1).size, no_size);
   EXPECT_EQ(sheet.ask({11, 3, 0}, 0.5, 1).size, no_size);
   // A large cube may hold any of its sizes.
   EXPECT_NEAR(sheet.ask({8, 3, 0}, 8, 1).least, 0.5, 1e-12);
+}
+
+TEST(SizedSurface, AWakeWithoutAnEndSizeHasOneSize) {
+  const WakeSize wake{"wake", {{}, Vec3{0, 0, 0}, Vec3{0, 4, 0}, {1, 0, 0}, 10, {}}, 0.5};
+  for (const SizedTriangle& triangle : wake_sheet({{Vec3{0, 0, 0}, Vec3{0, 4, 0}}}, wake))
+    EXPECT_EQ(triangle.sizes, (std::array{0.5, 0.5, 0.5}));
 }
 
 TEST(SizedSurface, ABandEndsAtItsDistance) {
