@@ -58,14 +58,14 @@ NewLattice make_lattice(const VolumeInput& input) {
     const ScopedCpu task(ScopedCpu::As::task);
     lattice->radii = search_radii_of_blocks(*lattice, lattice->tree.first(), lattice->tree.last());
   }
-  std::vector<SurfaceTriangle> near = add_those_near(communicator, lattice->frame, lattice->tree,
-                                                     lattice->radii, std::move(lattice->triangles));
+  std::vector<SurfaceTriangle> near =
+      add_those_near(lattice->frame, lattice->tree, lattice->radii, std::move(lattice->triangles));
   std::unique_ptr<const NearSurface> surface;
   {
     const ScopedCpu task(ScopedCpu::As::task);
     surface = std::make_unique<NearSurface>(near);
   }
-  BlockRegions regions = find_block_regions(communicator, *lattice, near, *surface);
+  BlockRegions regions = find_block_regions(*lattice, near, *surface);
   if (regions.contradiction) refuse_surface(*regions.contradiction, near, *surface, input.surface);
   lattice->regions = std::move(regions.of_block);
   const ScopedCpu task(ScopedCpu::As::task);
@@ -89,13 +89,13 @@ std::int64_t piece_tets_of(double tetrahedra, const VolumeOptions& options) {
 }
 
 /// Planes between zones of equal load.
-ZoneCuts cut_zones(const Communicator& communicator, const Lattice& lattice, std::span<const Load> loads,
-                   const VolumeOptions& options) {
+ZoneCuts cut_zones(const Lattice& lattice, std::span<const Load> loads, const VolumeOptions& options) {
+  const Communicator& communicator = lattice.tree.communicator();
   const Load all = communicator.sum(std::accumulate(loads.begin(), loads.end(), Load{0}));
   const double tetrahedra = tetrahedra_of(all);
   const ZoneIndex count = wanted_zones(tetrahedra, piece_tets_of(tetrahedra, options));
   const std::vector<CoarseCell> cells =
-      coarsen(communicator, lattice.tree, loads, all / (ZoneCuts::cells_per_zone * count));
+      coarsen(lattice.tree, loads, all / (ZoneCuts::cells_per_zone * count));
   const ScopedCpu repeated(ScopedCpu::As::repeated);
   return {cells, count};
 }
@@ -111,13 +111,14 @@ double expected_tetrahedra(const Communicator& communicator, const Shell& shell)
                          static_cast<double>(communicator.sum(shell.local.core_cells())));
 }
 
-Shell make_shell(const Communicator& communicator, const Lattice& lattice,
-                 std::unique_ptr<const NearSurface> surface, const VolumeOptions& options) {
-  LocalShell local = make_local_shell(communicator, lattice, std::move(surface),
-                                      std::vector<BlockChange>(lattice.tree.block_count()));
+Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
+                 const VolumeOptions& options) {
+  const Communicator& communicator = lattice.tree.communicator();
+  LocalShell local =
+      make_local_shell(lattice, std::move(surface), std::vector<BlockChange>(lattice.tree.block_count()));
   const std::vector<Load> loads = loads_of_blocks(lattice, local);
-  ZoneCuts cuts = cut_zones(communicator, lattice, loads, options);
-  std::vector<GridCube> ghosts = fetch_cut_ghosts(communicator, lattice, cuts, widest_halo(options));
+  ZoneCuts cuts = cut_zones(lattice, loads, options);
+  std::vector<GridCube> ghosts = fetch_cut_ghosts(lattice, cuts, widest_halo(options));
   Shell shell{std::move(local), Zones(lattice.tree, std::move(cuts), std::move(ghosts)), {}};
   std::vector<Load> of_zones(shell.zones.count(), 0);
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
@@ -129,15 +130,14 @@ Shell make_shell(const Communicator& communicator, const Lattice& lattice,
 }
 
 /// Who fills which zone at first.
-ZonePlan plan_all_zones(const Communicator& communicator, const Lattice& lattice, const Shell& shell,
-                        double halo) {
+ZonePlan plan_all_zones(const Lattice& lattice, const Shell& shell, double halo) {
   std::vector<ZoneIndex> all(shell.zones.count());
   std::iota(all.begin(), all.end(), 0);
-  return plan_zones(communicator, lattice, shell, all, std::vector<double>(all.size(), halo));
+  return plan_zones(lattice, shell, all, std::vector<double>(all.size(), halo));
 }
 
-DecompositionReport report_of(const Communicator& communicator, const Lattice& lattice, const Shell& shell,
-                              const ZonePlan& plan) {
+DecompositionReport report_of(const Lattice& lattice, const Shell& shell, const ZonePlan& plan) {
+  const Communicator& communicator = lattice.tree.communicator();
   DecompositionReport report;
   report.blocks = lattice.tree.total();
   report.lattice_points = communicator.sum(shell.local.lattice_points);
@@ -166,11 +166,10 @@ const DecompositionReport& Decomposition::report() const {
 }
 
 Decomposition decompose(const VolumeInput& input) {
-  const Communicator& communicator = input.surface.communicator;
   auto [lattice, surface] = make_lattice(input);
-  Shell shell = make_shell(communicator, *lattice, std::move(surface), input.options);
-  ZonePlan plan = plan_all_zones(communicator, *lattice, shell, input.options.halo);
-  const DecompositionReport report = report_of(communicator, *lattice, shell, plan);
+  Shell shell = make_shell(*lattice, std::move(surface), input.options);
+  ZonePlan plan = plan_all_zones(*lattice, shell, input.options.halo);
+  const DecompositionReport report = report_of(*lattice, shell, plan);
   return Decomposition(std::make_unique<Decomposition::Data>(
       Decomposition::Data{std::move(lattice), std::move(shell), std::move(plan), report}));
 }

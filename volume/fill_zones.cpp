@@ -40,7 +40,7 @@ public:
       const std::vector<ZoneIndex> pending = change_failed_or_disputed();
       if (pending.empty()) return assemble();
       _budget.spend(pending.size(), _report.rounds, _input.options.halo);
-      fill(plan_zones(_communicator, _lattice, _shell, pending, _retries.widths()));
+      fill(plan_zones(_lattice, _shell, pending, _retries.widths()));
     }
   }
 
@@ -62,7 +62,7 @@ private:
                                 "tetrahedra");
     std::int64_t waves = 0, made = 0;
     for (const SendPlan& batch : plan.batches) {
-      std::vector<ZoneInput> inputs = gather_zone_inputs(_communicator, _lattice, _shell, batch);
+      std::vector<ZoneInput> inputs = gather_zone_inputs(_lattice, _shell, batch);
       parallel::agree(_communicator, [&] {
         for (std::size_t i = 0; i < inputs.size(); inputs[i++] = {}) {
           made += fill_one(inputs[i]);
@@ -152,7 +152,7 @@ private:
 
   mesh::DistributedMesh assemble() {
     _report.load_error_90 = load_error();
-    CoreMesh core = make_core(_communicator, _lattice, _shell, _results);
+    CoreMesh core = make_core(_lattice, _shell, _results);
     _report.tetrahedra = core.tetrahedra;
     _report.core_tetrahedra = _communicator.sum(core.tetrahedra);
     for (const auto& [zone, result] : _results) {

@@ -42,8 +42,7 @@ TEST(SquaresLocal, are_covered_whatever_points_stand_on_their_edges) {
 
 /// The shell of the same lattice once blocks have changed.
 LocalShell remade(const Problem& problem, const Lattice& lattice, std::vector<BlockChange> changes) {
-  return make_local_shell(problem.communicator, lattice, gather_near_surface(problem.communicator, lattice),
-                          std::move(changes));
+  return make_local_shell(lattice, gather_near_surface(lattice), std::move(changes));
 }
 
 /// Leaves and blocks leave the core by chance: it has holes and stairs, and is one leaf thick in places.
@@ -65,8 +64,7 @@ void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
   EXPECT_LT(problem.communicator.sum(data.shell.local.core_cells()), data.report.core_tetrahedra);
   std::vector<ZoneIndex> all(data.shell.zones.count());
   std::iota(all.begin(), all.end(), 0);
-  data.plan = plan_zones(problem.communicator, lattice, data.shell, all,
-                         std::vector(all.size(), problem.options.halo));
+  data.plan = plan_zones(lattice, data.shell, all, std::vector(all.size(), problem.options.halo));
 }
 
 VolumeOptions in_zones_of(std::int64_t tets) {

@@ -74,14 +74,13 @@ struct Surroundings {
   Surroundings(const Problem& problem, GrownLattice& lattice)
       : triangles(deliver(problem, lattice)),
         surface(triangles),
-        found(find_block_regions(problem.communicator, lattice, triangles, surface)) {
+        found(find_block_regions(lattice, triangles, surface)) {
     lattice.regions = found.of_block;
   }
 
   static std::vector<SurfaceTriangle> deliver(const Problem& problem, GrownLattice& lattice) {
     lattice.radii = search_radii_of_blocks(lattice, lattice.tree.first(), lattice.tree.last());
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, lattice.radii,
-                          lattice.triangles);
+    return add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   }
 
   std::vector<SurfaceTriangle> triangles;
@@ -92,8 +91,7 @@ struct Surroundings {
 /// Zones of a lattice on one rank, of equal load.
 inline Zones cut_into_zones(const LatticeTree& tree, std::span<const Load> loads, ZoneIndex count) {
   const Load all = std::accumulate(loads.begin(), loads.end(), Load{0});
-  const std::vector<CoarseCell> cells =
-      coarsen(parallel::Communicator::self(), tree, loads, all / (ZoneCuts::cells_per_zone * count));
+  const std::vector<CoarseCell> cells = coarsen(tree, loads, all / (ZoneCuts::cells_per_zone * count));
   return {tree, ZoneCuts(cells, count)};
 }
 

@@ -33,7 +33,7 @@ struct Shared {
   std::vector<SurfaceTriangle> deliver(double radius) {
     const SearchRadii radii{
         std::vector<BlockSearchRadii>(lattice.tree.last() - lattice.tree.first(), {radius, radius}), 0};
-    return add_those_near(problem.communicator, lattice.frame, lattice.tree, radii, lattice.triangles);
+    return add_those_near(lattice.frame, lattice.tree, radii, lattice.triangles);
   }
 
   surfaces::Surface surface;

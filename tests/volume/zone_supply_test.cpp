@@ -55,14 +55,13 @@ struct Divided {
     all.resize(shell.zones.count());
     std::iota(all.begin(), all.end(), 0);
     widths.assign(all.size(), problem.options.halo);
-    plan = plan_zones(communicator, lattice, shell, all, widths);
+    plan = plan_zones(lattice, shell, all, widths);
   }
 
   std::vector<ZoneInput> gather_all() {
     std::vector<ZoneInput> inputs;
     for (const SendPlan& batch : plan.batches) {
-      for (ZoneInput& input : gather_zone_inputs(problem.communicator, lattice, shell, batch))
-        inputs.push_back(std::move(input));
+      for (ZoneInput& input : gather_zone_inputs(lattice, shell, batch)) inputs.push_back(std::move(input));
     }
     return inputs;
   }
@@ -162,7 +161,7 @@ TEST(PlanZones, plans_what_it_is_asked_for) {
   const std::vector<ZoneIndex> some{2, 5};
   std::vector<double> widths = divided.widths;
   widths[5] *= 1.5;
-  const ZonePlan plan = plan_zones(world, divided.lattice, divided.shell, some, widths);
+  const ZonePlan plan = plan_zones(divided.lattice, divided.shell, some, widths);
   ASSERT_EQ(plan.loads.size(), 2u);
   EXPECT_EQ(plan.loads[0].zone, 2);
   EXPECT_EQ(plan.loads[1].zone, 5);

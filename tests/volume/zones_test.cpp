@@ -102,7 +102,7 @@ TEST(Coarsen, finds_the_largest_cubes_below_a_load) {
   const Load all = std::accumulate(loads.begin(), loads.end(), Load{0}), most = all / 100;
   std::uint64_t after = 0;
   Load sum = 0;
-  for (const CoarseCell& cell : coarsen(Communicator::self(), lattice.tree, loads, most)) {
+  for (const CoarseCell& cell : coarsen(lattice.tree, loads, most)) {
     EXPECT_GE(cell.key, after);
     after = cell.key + (1ULL << 3 * (sizing::finest_level - cell.level));
     const int shift = 3 * (sizing::finest_level - cell.level + 1);

@@ -76,8 +76,9 @@ void find_shell(const LatticeTree& tree, const BlockPoints& points, LocalShell& 
 
 }  // namespace
 
-LocalShell make_local_shell(const parallel::Communicator& communicator, const Lattice& lattice,
-                            std::unique_ptr<const NearSurface> surface, std::vector<BlockChange> changes) {
+LocalShell make_local_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
+                            std::vector<BlockChange> changes) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   using parallel::ScopedCpu;
   BlockPoints points;
   parallel::agree(communicator, [&] {
@@ -86,7 +87,7 @@ LocalShell make_local_shell(const parallel::Communicator& communicator, const La
         make_points(lattice, changes, lattice.tree.first(), lattice.tree.last(), *surface, lattice.radii);
     surface.reset();
   });
-  CoreLeaves core(communicator, lattice.tree, changes, points);
+  CoreLeaves core(lattice.tree, changes, points);
   const ScopedCpu task(ScopedCpu::As::task);
   const auto count = static_cast<std::int64_t>(points.points.size());
   LocalShell shell{

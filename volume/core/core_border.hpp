@@ -45,7 +45,7 @@ struct LocalShell {
 
 /// Makes the points of this rank's blocks, and tells core from shell. `surface` has the triangles within the
 /// search radii, and is let go once there are points. Collective.
-LocalShell make_local_shell(const parallel::Communicator& communicator, const Lattice& lattice,
-                            std::unique_ptr<const NearSurface> surface, std::vector<BlockChange> changes);
+LocalShell make_local_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
+                            std::vector<BlockChange> changes);
 
 }  // namespace aeroloom::volume

@@ -8,9 +8,9 @@ namespace aeroloom::volume {
 using mesh::RegionId;
 using parallel::ScopedCpu;
 
-CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const LatticeTree& tree,
-                       std::span<const BlockChange> changes, const BlockPoints& points)
-    : _ghosts(communicator, tree), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
+CoreLeaves::CoreLeaves(const LatticeTree& tree, std::span<const BlockChange> changes,
+                       const BlockPoints& points)
+    : _ghosts(tree), _core(_ghosts.count(), 0), _present(_ghosts.count()) {
   {
     const ScopedCpu task(ScopedCpu::As::task);
     for (std::size_t i = 0; i < _ghosts.own_count(); ++i) {
@@ -25,18 +25,18 @@ CoreLeaves::CoreLeaves(const parallel::Communicator& communicator, const Lattice
       if (is_one) _present[i].region = region;
     }
   }
-  _ghosts.update(communicator, _present);
+  _ghosts.update(_present);
   {
     const ScopedCpu task(ScopedCpu::As::task);
     choose(tree, changes, points);
   }
-  _ghosts.update(communicator, _core);
-  shrink_until_stable(communicator, tree);
+  _ghosts.update(_core);
+  shrink_until_stable(tree);
   {
     const ScopedCpu task(ScopedCpu::As::task);
     claim(tree);
   }
-  _ghosts.update(communicator, _claims);
+  _ghosts.update(_claims);
   _regions.reserve(_ghosts.own_count());
   for (std::size_t i = 0; i < _ghosts.own_count(); ++i) _regions.push_back(_present[i].region);
   std::vector<Present>().swap(_present);
@@ -173,7 +173,8 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
   return found;
 }
 
-void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree) {
+void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
+  const parallel::Communicator& communicator = tree.communicator();
   LeafSurroundings around(tree);
   std::vector<std::size_t> open;  // own blocks that leaves may have to leave
   _beside_shell.assign(_ghosts.own_count(), 0);
@@ -216,7 +217,7 @@ void CoreLeaves::shrink_until_stable(const parallel::Communicator& communicator,
     if (!changed || communicator.size() == 1) continue;
     const std::vector<std::uint8_t> before(_core.begin() + static_cast<std::ptrdiff_t>(_ghosts.own_count()),
                                            _core.end());
-    _ghosts.update(communicator, _core);
+    _ghosts.update(_core);
     const ScopedCpu task(ScopedCpu::As::task);
     for (std::size_t g = 0; g < before.size(); ++g) {
       if (before[g] != _core[_ghosts.own_count() + g]) open_beside(_ghosts.ghost(g));

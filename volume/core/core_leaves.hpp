@@ -28,8 +28,7 @@ namespace aeroloom::volume {
 class CoreLeaves {
 public:
   /// `points` are all those of this rank's blocks, `changes` those of all blocks. Collective.
-  CoreLeaves(const parallel::Communicator& communicator, const LatticeTree& tree,
-             std::span<const BlockChange> changes, const BlockPoints& points);
+  CoreLeaves(const LatticeTree& tree, std::span<const BlockChange> changes, const BlockPoints& points);
 
   /// The core leaves of a block, a bit each.
   std::uint8_t of(BlockIndex b) const { return _core[_ghosts.place(b)]; }
@@ -59,7 +58,7 @@ private:
   void choose(const LatticeTree& tree, std::span<const BlockChange> changes, const BlockPoints& points);
   bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
   bool is_beside_shell(const LeafSurroundings& around) const;
-  void shrink_until_stable(const parallel::Communicator& communicator, const LatticeTree& tree);
+  void shrink_until_stable(const LatticeTree& tree);
   void claim(const LatticeTree& tree);
   bool leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const;
 

@@ -237,14 +237,13 @@ std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
 /// Makes and schedules.
 class CoreMaker {
 public:
-  CoreMaker(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
-            std::map<ZoneIndex, ZoneResult>& results)
-      : _communicator(communicator),
+  CoreMaker(const Lattice& lattice, const Shell& shell, std::map<ZoneIndex, ZoneResult>& results)
+      : _communicator(lattice.tree.communicator()),
         _lattice(lattice),
         _shell(shell),
         _results(results),
         _naming(lattice, shell.local.changes),
-        _ranges(communicator, lattice.tree, shell),
+        _ranges(lattice.tree, shell),
         _cells(lattice.tree, shell.local.core, shell.local.squares) {}
 
   CoreMesh run() {
@@ -391,9 +390,8 @@ private:
 
 }  // namespace
 
-CoreMesh make_core(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
-                   std::map<ZoneIndex, ZoneResult>& results) {
-  return CoreMaker(communicator, lattice, shell, results).run();
+CoreMesh make_core(const Lattice& lattice, const Shell& shell, std::map<ZoneIndex, ZoneResult>& results) {
+  return CoreMaker(lattice, shell, results).run();
 }
 
 }  // namespace aeroloom::volume

@@ -22,7 +22,6 @@ struct CoreMesh {
 
 /// Adds to the zones' results what is theirs; a zone without piece in a region gets one. Collective. Throws
 /// std::logic_error where a tetrahedron is flat or inverted.
-CoreMesh make_core(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
-                   std::map<ZoneIndex, ZoneResult>& results);
+CoreMesh make_core(const Lattice& lattice, const Shell& shell, std::map<ZoneIndex, ZoneResult>& results);
 
 }  // namespace aeroloom::volume

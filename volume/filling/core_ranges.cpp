@@ -7,30 +7,30 @@
 
 namespace aeroloom::volume {
 
-CoreRanges::CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree,
-                       const Shell& shell)
+CoreRanges::CoreRanges(const LatticeTree& tree, const Shell& shell)
     : _tree(tree), _core(shell.local.core), _range(_core.ghosts().count(), -1), _deep(shell.local.deep) {
   const GhostBlocks& ghosts = _core.ghosts();
   const std::vector<std::uint16_t>& weights = shell.local.inner_cells;
   const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
-  const std::vector<std::int64_t> all = communicator.all_gather_items<std::int64_t>(std::array{mine});
+  const std::vector<std::int64_t> all = tree.communicator().all_gather_items<std::int64_t>(std::array{mine});
   const std::int64_t total = std::accumulate(all.begin(), all.end(), std::int64_t{0});
-  std::int64_t before = std::accumulate(all.begin(), all.begin() + communicator.rank(), std::int64_t{0});
+  std::int64_t before =
+      std::accumulate(all.begin(), all.begin() + tree.communicator().rank(), std::int64_t{0});
   _count = wanted_zones(static_cast<double>(total), shell.core_piece_tets);
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (total > 0) _range[i] = static_cast<std::int32_t>(std::min(before, total - 1) * _count / total);
     before += weights[i];
   }
   _deep.resize(ghosts.count(), 0);
-  ghosts.update(communicator, _range);
-  ghosts.update(communicator, _deep);
+  ghosts.update(_range);
+  ghosts.update(_deep);
   _inner.assign(ghosts.count(), 0);
   {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     find_inner();
   }
-  ghosts.update(communicator, _inner);
-  find_ranks(communicator);
+  ghosts.update(_inner);
+  find_ranks(tree.communicator());
 }
 
 std::uint8_t CoreRanges::shared_of(BlockIndex b, const CoreCell& cell) const {

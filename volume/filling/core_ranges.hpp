@@ -14,7 +14,7 @@ namespace aeroloom::volume {
 class CoreRanges {
 public:
   /// Refers to `tree` and `shell`. Collective.
-  CoreRanges(const parallel::Communicator& communicator, const LatticeTree& tree, const Shell& shell);
+  CoreRanges(const LatticeTree& tree, const Shell& shell);
 
   /// The range of one of this rank's blocks; -1 where there is no core at all.
   std::int32_t of(BlockIndex own) const { return _range[_core.ghosts().place(own)]; }

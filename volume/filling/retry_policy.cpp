@@ -123,8 +123,7 @@ bool RetryPolicy::escalate(const ZoneFailure& failure, const FailureDiagnostics&
 
 /// Makes the points anew, and notes blocks whose core is another than before. Collective.
 void RetryPolicy::make_points(BlockChanges changes, Changed& changed) {
-  LocalShell made = make_local_shell(_communicator, _lattice, gather_near_surface(_communicator, _lattice),
-                                     std::move(changes));
+  LocalShell made = make_local_shell(_lattice, gather_near_surface(_lattice), std::move(changes));
   for (const BlockIndex b : made.core.blocks_unlike(_shell.local.core)) changed.blocks[b - _tree.first()] = 1;
   _shell.local = std::move(made);
 }

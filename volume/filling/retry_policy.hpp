@@ -16,9 +16,8 @@ namespace aeroloom::volume {
 /// from.
 class RetryPolicy {
 public:
-  RetryPolicy(const parallel::Communicator& communicator, const VolumeOptions& options,
-              const Lattice& lattice, Shell& shell, VolumeReport& report)
-      : _communicator(communicator),
+  RetryPolicy(const VolumeOptions& options, const Lattice& lattice, Shell& shell, VolumeReport& report)
+      : _communicator(lattice.tree.communicator()),
         _options(options),
         _lattice(lattice),
         _tree(lattice.tree),

@@ -238,8 +238,8 @@ std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
 
 }  // namespace
 
-std::vector<ZoneInput> gather_zone_inputs(const parallel::Communicator& communicator, const Lattice& lattice,
-                                          const Shell& shell, const SendPlan& plan) {
+std::vector<ZoneInput> gather_zone_inputs(const Lattice& lattice, const Shell& shell, const SendPlan& plan) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   Cargo cargo;
   {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);

@@ -48,7 +48,6 @@ struct SendPlan {
 
 /// Sends what zones know to the ranks that fill them: points, triangles, and the triangles of the core's
 /// border at its points. Returns the zones of this rank, by number. Collective.
-std::vector<ZoneInput> gather_zone_inputs(const parallel::Communicator& communicator, const Lattice& lattice,
-                                          const Shell& shell, const SendPlan& plan);
+std::vector<ZoneInput> gather_zone_inputs(const Lattice& lattice, const Shell& shell, const SendPlan& plan);
 
 }  // namespace aeroloom::volume

@@ -141,8 +141,9 @@ void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments
 
 }  // namespace
 
-ZonePlan plan_zones(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
-                    std::span<const ZoneIndex> zones, std::span<const double> widths) {
+ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
+                    std::span<const double> widths) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   SendPlan mine;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);

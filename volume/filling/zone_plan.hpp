@@ -30,7 +30,7 @@ struct ZonePlan {
 
 /// Finds what zones know of this rank's blocks, `widths[zone]` being that of their halo, and deals zones out,
 /// largest first, in batches of a few for each rank. Collective.
-ZonePlan plan_zones(const parallel::Communicator& communicator, const Lattice& lattice, const Shell& shell,
-                    std::span<const ZoneIndex> zones, std::span<const double> widths);
+ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
+                    std::span<const double> widths);
 
 }  // namespace aeroloom::volume

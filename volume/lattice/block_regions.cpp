@@ -251,8 +251,9 @@ std::optional<Contradiction> lowest_of(const parallel::Communicator& communicato
 /// The regions of sets, told by the ranks that have their first blocks, in their order. Collective.
 class RegionsOfSets {
 public:
-  RegionsOfSets(const parallel::Communicator& communicator, const LatticeTree& tree,
-                std::vector<BlockNumber> sets, const std::vector<Witness>& witnesses) {
+  RegionsOfSets(const LatticeTree& tree, std::vector<BlockNumber> sets,
+                const std::vector<Witness>& witnesses) {
+    const parallel::Communicator& communicator = tree.communicator();
     struct Asked {
       BlockNumber set;
       parallel::Rank from;
@@ -282,8 +283,9 @@ private:
 
 }  // namespace
 
-BlockRegions find_block_regions(const parallel::Communicator& communicator, const Lattice& lattice,
-                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface) {
+BlockRegions find_block_regions(const Lattice& lattice, std::span<const SurfaceTriangle> triangles,
+                                const NearSurface& surface) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   const LatticeTree& tree = lattice.tree;
   const SurfaceTable& table = lattice.table;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
@@ -299,7 +301,7 @@ BlockRegions find_block_regions(const parallel::Communicator& communicator, cons
   std::vector<BlockNumber> of_blocks;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b)
     of_blocks.push_back(table.is_met(b) ? 0 : sets.set_of(tree.number(b)));
-  const RegionsOfSets regions(communicator, tree, of_blocks, witnesses);
+  const RegionsOfSets regions(tree, of_blocks, witnesses);
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     if (!table.is_met(b)) found.of_block[b - tree.first()] = regions.of(of_blocks[b - tree.first()]);
   }

@@ -38,7 +38,7 @@ struct BlockRegions {
 /// meets are looked at, each by the rank that has that block. What is found does not depend on who has which.
 /// `surface` has the
 /// triangles near this rank's blocks. Collective.
-BlockRegions find_block_regions(const parallel::Communicator& communicator, const Lattice& lattice,
-                                std::span<const SurfaceTriangle> triangles, const NearSurface& surface);
+BlockRegions find_block_regions(const Lattice& lattice, std::span<const SurfaceTriangle> triangles,
+                                const NearSurface& surface);
 
 }  // namespace aeroloom::volume

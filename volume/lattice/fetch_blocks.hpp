@@ -17,8 +17,9 @@ namespace aeroloom::volume {
 /// Answers what other ranks ask, and returns what they answer. add_answers(questions of a rank, add) calls
 /// add(b) for blocks of this rank. Collective.
 template <class AddAnswers>
-std::vector<GhostBlock> fetch_blocks(const parallel::Communicator& communicator, const Lattice& lattice,
-                                     std::vector<Question> questions, const AddAnswers& add_answers) {
+std::vector<GhostBlock> fetch_blocks(const Lattice& lattice, std::vector<Question> questions,
+                                     const AddAnswers& add_answers) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   struct Parcel {
     GhostBlock block;
     parallel::Rank to;

@@ -2,9 +2,9 @@
 
 namespace aeroloom::volume {
 
-GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree)
-    : _first(tree.first()), _last(tree.last()) {
-  if (communicator.size() == 1) return;
+GhostBlocks::GhostBlocks(const LatticeTree& tree)
+    : _communicator(tree.communicator()), _first(tree.first()), _last(tree.last()) {
+  if (tree.communicator().size() == 1) return;
   for (BlockIndex b = _first; b < _last; ++b) {
     const GridBox around = GridBox::of(tree.cube(b)).dilated(0.5);
     if (tree.is_within_own(around)) continue;
@@ -17,8 +17,8 @@ GhostBlocks::GhostBlocks(const parallel::Communicator& communicator, const Latti
   std::vector<Wanted> asked;
   asked.reserve(_ghosts.size());
   for (const BlockIndex b : _ghosts)
-    asked.push_back({tree.number(b), static_cast<std::int32_t>(place(b)), communicator.rank()});
-  _wanted = mesh::deliver(communicator, std::move(asked),
+    asked.push_back({tree.number(b), static_cast<std::int32_t>(place(b)), tree.communicator().rank()});
+  _wanted = mesh::deliver(tree.communicator(), std::move(asked),
                           [&](const Wanted& wanted) { return tree.owner(wanted.block); });
   for (Wanted& wanted : _wanted) wanted.block = tree.index(wanted.block) - _first;
 }

@@ -16,7 +16,7 @@ namespace aeroloom::volume {
 class GhostBlocks {
 public:
   /// Collective.
-  GhostBlocks(const parallel::Communicator& communicator, const LatticeTree& tree);
+  explicit GhostBlocks(const LatticeTree& tree);
 
   std::size_t own_count() const { return static_cast<std::size_t>(_last - _first); }
   std::size_t count() const { return own_count() + _ghosts.size(); }
@@ -32,8 +32,8 @@ public:
 
   /// Brings the values of the ghosts from their owners. Collective.
   template <parallel::Flat T>
-  void update(const parallel::Communicator& communicator, std::vector<T>& values) const {
-    if (communicator.size() == 1) return;
+  void update(std::vector<T>& values) const {
+    if (_communicator.size() == 1) return;
     struct Parcel {
       T value;
       Wanted wanted;
@@ -43,7 +43,7 @@ public:
     parcels.reserve(_wanted.size());
     for (const Wanted& wanted : _wanted) parcels.push_back({values[wanted.block], wanted});
     for (const Parcel& parcel :
-         mesh::deliver(communicator, std::move(parcels), [](const Parcel& p) { return p.wanted.rank; }))
+         mesh::deliver(_communicator, std::move(parcels), [](const Parcel& p) { return p.wanted.rank; }))
       values[parcel.wanted.place] = parcel.value;
   }
 
@@ -56,6 +56,7 @@ private:
     static constexpr auto fields() { return std::tuple(&Wanted::block, &Wanted::place, &Wanted::rank); }
   };
 
+  parallel::Communicator _communicator;
   BlockIndex _first, _last;
   std::vector<BlockIndex> _ghosts;  // ascending
   std::vector<Wanted> _wanted;

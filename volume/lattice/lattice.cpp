@@ -55,17 +55,17 @@ Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
                   input.numbering.vertex_count,
                   {},
                   {}};
-  std::vector<GhostBlock> ghosts = fetch_ghosts(communicator, lattice);
-  const std::vector<GhostBlock> finer = fetch_finer_ghosts(communicator, lattice);
+  std::vector<GhostBlock> ghosts = fetch_ghosts(lattice);
+  const std::vector<GhostBlock> finer = fetch_finer_ghosts(lattice);
   ghosts.insert(ghosts.end(), finer.begin(), finer.end());
   if (communicator.size() > 1) add_ghosts(std::move(ghosts), lattice.tree, lattice.table);
   return lattice;
 }
 
-std::unique_ptr<const NearSurface> gather_near_surface(const parallel::Communicator& communicator,
-                                                       const Lattice& lattice) {
+std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   const std::vector<SurfaceTriangle> near =
-      add_those_near(communicator, lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
+      add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   std::unique_ptr<const NearSurface> surface;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);

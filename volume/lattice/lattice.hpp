@@ -54,7 +54,6 @@ struct Lattice {
 Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box);
 
 /// The surface near this rank's blocks, as their points need it: search radii wide. Collective.
-std::unique_ptr<const NearSurface> gather_near_surface(const parallel::Communicator& communicator,
-                                                       const Lattice& lattice);
+std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice);
 
 }  // namespace aeroloom::volume

@@ -93,7 +93,8 @@ std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, cons
 
 LatticeTree::LatticeTree(const parallel::Communicator& communicator, const LatticeFrame& frame,
                          const sizing::SizeField& field, const geometry::Box& box,
-                         const std::vector<std::uint64_t>& triangle_keys) {
+                         const std::vector<std::uint64_t>& triangle_keys)
+    : _communicator(communicator) {
   std::vector<PackedBlock> mine;
   {
     forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box));

@@ -56,6 +56,7 @@ public:
               const std::vector<std::uint64_t>& triangle_keys = {});
   static constexpr double coarsest_edge = 1.53;
 
+  const parallel::Communicator& communicator() const { return _communicator; }
   /// With the cubes in between.
   BlockIndex block_count() const { return static_cast<BlockIndex>(_blocks.keys.size()); }
   /// This rank's: from first() to before last().
@@ -189,6 +190,7 @@ private:
   /// Of this rank are `own` blocks, numbered from `first` on.
   void fill(const std::vector<PackedBlock>& blocks, BlockNumber first, BlockIndex own);
 
+  parallel::Communicator _communicator;
   std::vector<BlockNumber> _firsts;  // per rank, and the end
   std::vector<std::uint64_t> _keys;  // per rank: where its blocks begin, those of one without any the next's
   BlockIndex _first = 0, _last = 0;

@@ -27,7 +27,8 @@ std::vector<Question> take_questions(const Communicator& communicator, std::vect
   return mesh::deliver(communicator, std::move(questions), [](const Question& q) { return q.to; });
 }
 
-std::vector<GhostBlock> fetch_ghosts(const Communicator& communicator, const Lattice& lattice) {
+std::vector<GhostBlock> fetch_ghosts(const Lattice& lattice) {
+  const Communicator& communicator = lattice.tree.communicator();
   const LatticeTree& tree = lattice.tree;
   if (communicator.size() == 1) return {};
   const ScopedCpu task(ScopedCpu::As::task);
@@ -44,22 +45,22 @@ std::vector<GhostBlock> fetch_ghosts(const Communicator& communicator, const Lat
       ask_for({0.5 * (cell.low + cell.high), 0.5 * (cell.low + cell.high)});
     }
   }
-  return fetch_blocks(
-      communicator, lattice, std::move(questions), [&](std::span<const Question> asked, const auto& add) {
-        const BoxesByLevel boxes(asked);
-        tree.any_block_in(
-            GridBox::of(GridCube{}),
-            [&](BlockIndex b) {
-              if (boxes.any_from(0, GridBox::of(tree.cube(b)))) add(b);
-              return false;
-            },
-            [&](BlockIndex first, BlockIndex last, const GridCube& cube) {
-              return last <= tree.first() || first >= tree.last() || !boxes.any_from(0, GridBox::of(cube));
-            });
-      });
+  return fetch_blocks(lattice, std::move(questions), [&](std::span<const Question> asked, const auto& add) {
+    const BoxesByLevel boxes(asked);
+    tree.any_block_in(
+        GridBox::of(GridCube{}),
+        [&](BlockIndex b) {
+          if (boxes.any_from(0, GridBox::of(tree.cube(b)))) add(b);
+          return false;
+        },
+        [&](BlockIndex first, BlockIndex last, const GridCube& cube) {
+          return last <= tree.first() || first >= tree.last() || !boxes.any_from(0, GridBox::of(cube));
+        });
+  });
 }
 
-std::vector<GhostBlock> fetch_finer_ghosts(const Communicator& communicator, const Lattice& lattice) {
+std::vector<GhostBlock> fetch_finer_ghosts(const Lattice& lattice) {
+  const Communicator& communicator = lattice.tree.communicator();
   const LatticeTree& tree = lattice.tree;
   const SurfaceTable& table = lattice.table;
   if (communicator.size() == 1) return {};
@@ -71,23 +72,21 @@ std::vector<GhostBlock> fetch_finer_ghosts(const Communicator& communicator, con
       ask(tree, box, {box, 0, 0, tree.level(b), 0, communicator.rank()}, questions);
     }
   }
-  return fetch_blocks(communicator, lattice, std::move(questions),
-                      [&](std::span<const Question> asked, const auto& add) {
-                        for (const Question& question : asked) {
-                          tree.any_block_in(
-                              question.box,
-                              [&](BlockIndex b) {
-                                if (!table.is_met(b) || tree.level(b) < far_finer_level(question.level))
-                                  return false;
-                                add(b);
-                                return true;
-                              },
-                              [&](BlockIndex first, BlockIndex last, const GridCube&) {
-                                return last <= tree.first() || first >= tree.last() ||
-                                       !table.any_met(first, last, far_finer_level(question.level));
-                              });
-                        }
-                      });
+  return fetch_blocks(lattice, std::move(questions), [&](std::span<const Question> asked, const auto& add) {
+    for (const Question& question : asked) {
+      tree.any_block_in(
+          question.box,
+          [&](BlockIndex b) {
+            if (!table.is_met(b) || tree.level(b) < far_finer_level(question.level)) return false;
+            add(b);
+            return true;
+          },
+          [&](BlockIndex first, BlockIndex last, const GridCube&) {
+            return last <= tree.first() || first >= tree.last() ||
+                   !table.any_met(first, last, far_finer_level(question.level));
+          });
+    }
+  });
 }
 
 }  // namespace aeroloom::volume

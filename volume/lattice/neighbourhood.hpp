@@ -46,9 +46,8 @@ struct GhostBlock {
 };
 
 /// All blocks that touch this rank's, or hold corners of its triangles. Collective.
-std::vector<GhostBlock> fetch_ghosts(const parallel::Communicator& communicator, const Lattice& lattice);
+std::vector<GhostBlock> fetch_ghosts(const Lattice& lattice);
 /// Where there are far finer blocks on the surface (see looks_of_block), one of them. Collective.
-std::vector<GhostBlock> fetch_finer_ghosts(const parallel::Communicator& communicator,
-                                           const Lattice& lattice);
+std::vector<GhostBlock> fetch_finer_ghosts(const Lattice& lattice);
 
 }  // namespace aeroloom::volume

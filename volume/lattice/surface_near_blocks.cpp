@@ -158,9 +158,9 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
   return table;
 }
 
-std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
-                                            const LatticeFrame& frame, const LatticeTree& tree,
+std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const LatticeTree& tree,
                                             const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
+  const parallel::Communicator& communicator = tree.communicator();
   if (communicator.size() == 1) return own;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   std::vector<Question> questions;

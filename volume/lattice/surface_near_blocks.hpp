@@ -82,8 +82,7 @@ struct SearchRadii {
 
 /// With those that other ranks have and that come within the search radii of this rank's blocks. By number,
 /// each once. Collective.
-std::vector<SurfaceTriangle> add_those_near(const parallel::Communicator& communicator,
-                                            const LatticeFrame& frame, const LatticeTree& tree,
+std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const LatticeTree& tree,
                                             const SearchRadii& radii, std::vector<SurfaceTriangle> own);
 
 }  // namespace aeroloom::volume

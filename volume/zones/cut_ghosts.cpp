@@ -9,8 +9,8 @@
 
 namespace aeroloom::volume {
 
-std::vector<GridCube> fetch_cut_ghosts(const parallel::Communicator& communicator, const Lattice& lattice,
-                                       const ZoneCuts& cuts, double width) {
+std::vector<GridCube> fetch_cut_ghosts(const Lattice& lattice, const ZoneCuts& cuts, double width) {
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   const LatticeTree& tree = lattice.tree;
   if (communicator.size() == 1) return {};
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
@@ -19,8 +19,8 @@ std::vector<GridCube> fetch_cut_ghosts(const parallel::Communicator& communicato
     const GridBox box = GridBox::of(tree.cube(b)).dilated(ZonesAround::search_radius(lattice, b, width));
     ask(tree, box, {box, 0, 0, tree.level(b), 0, communicator.rank()}, questions);
   }
-  const std::vector<GhostBlock> ghosts = fetch_blocks(
-      communicator, lattice, std::move(questions), [&](std::span<const Question> asked, const auto& add) {
+  const std::vector<GhostBlock> ghosts =
+      fetch_blocks(lattice, std::move(questions), [&](std::span<const Question> asked, const auto& add) {
         const BoxesByLevel boxes(asked);
         const auto is_wanted = [&](const GridCube& cube) {
           return cuts.zone_of_all(cube) == no_zone &&

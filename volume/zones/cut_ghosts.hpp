@@ -12,7 +12,6 @@ namespace aeroloom::volume {
 
 /// The cubes of blocks across the borders of zones that halos of a width are told by (ZonesAround).
 /// Collective.
-std::vector<GridCube> fetch_cut_ghosts(const parallel::Communicator& communicator, const Lattice& lattice,
-                                       const ZoneCuts& cuts, double width);
+std::vector<GridCube> fetch_cut_ghosts(const Lattice& lattice, const ZoneCuts& cuts, double width);
 
 }  // namespace aeroloom::volume

@@ -6,8 +6,8 @@
 
 namespace aeroloom::volume {
 
-std::vector<CoarseCell> coarsen(const parallel::Communicator& communicator, const LatticeTree& tree,
-                                std::span<const Load> loads, Load most) {
+std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> loads, Load most) {
+  const parallel::Communicator& communicator = tree.communicator();
   const BlockIndex first = tree.first(), last = tree.last();
   std::vector<CoarseCell> cells, open{{0, 0, 0, 0, 0}};
   while (!open.empty()) {

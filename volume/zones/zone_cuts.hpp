@@ -53,8 +53,7 @@ struct CoarseCell {
 /// The largest cubes whose loads are at most `most`, and blocks with more, along the curve, without those
 /// that have no load. `loads` are those of this rank's blocks. The same on any number of
 /// ranks. Collective.
-std::vector<CoarseCell> coarsen(const parallel::Communicator& communicator, const LatticeTree& tree,
-                                std::span<const Load> loads, Load most);
+std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> loads, Load most);
 
 /// Planes that cut space into zones. The same on every rank: a plane for each zone.
 class ZoneCuts {
