@@ -17,8 +17,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["geometry", "front", "cad", "mesh", "cavities", "sizing", "partition", "surface", "volume", "improve", "io",
-           "foreign"]
+FOLDERS = ["geometry", "cad", "mesh", "sizing", "surface", "layers", "volume", "improve", "io"]
 
 # What is looked for in a line of code, what takes its place, and what the mistake is called.
 MISTAKES = [

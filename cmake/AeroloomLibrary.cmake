@@ -71,11 +71,11 @@ endfunction()
 
 # aeroloom_test(<room>_test[.<part>] FILES ... RANKS 1 2 3 [ALSO_ON ranks file ...] [TIMEOUT seconds]
 #   [REFERENCES] [FAST])
-# adds the sources <file>_test.cpp to a test program and registers what they define once per rank count, as
-# <room>.<part>.n<ranks>. What a test needs stands in the test: suites named `...Local` run on one rank alone, and tests that
-# begin with NEEDS_SEVERAL_RANKS() (tests/several_ranks.hpp) on more. ALSO_ON: these of the files are worth one more count.
-# REFERENCES: tests on more ranks compare with what the entry on one has kept (tests/references.hpp), which runs before them.
-# FAST: labelled `fast`, on one and three ranks.
+# adds the sources <file>_test.cpp, which lie in the folder or a sub-folder, to a test program, and registers what they define
+# once per rank count, as <room>.<part>.n<ranks>. What a test needs stands in the test: suites named `...Local` run on one rank
+# alone, and tests that begin with NEEDS_SEVERAL_RANKS() (tests/several_ranks.hpp) on more. ALSO_ON: these of the files are worth
+# one more count. REFERENCES: tests on more ranks compare with what the entry on one has kept (tests/references.hpp), which runs
+# before them. FAST: labelled `fast`, on one and three ranks.
 function(aeroloom_test name)
   cmake_parse_arguments(ARG "FAST;REFERENCES" "TIMEOUT" "FILES;RANKS;ALSO_ON" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -91,8 +91,14 @@ function(aeroloom_test name)
     message(FATAL_ERROR "${name} is FAST, but its program ${program} is not: sanitizers would look for it in vain")
   endif()
   list(TRANSFORM ARG_FILES APPEND _test)
-  list(TRANSFORM ARG_FILES APPEND .cpp OUTPUT_VARIABLE sources)
-  target_sources(${program} PRIVATE ${sources})
+  foreach(file IN LISTS ARG_FILES)
+    file(GLOB source CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file}.cpp ${CMAKE_CURRENT_SOURCE_DIR}/*/${file}.cpp)
+    list(LENGTH source found)
+    if(NOT found EQUAL 1)
+      message(FATAL_ERROR "${name}: ${file}.cpp is there ${found} times")
+    endif()
+    target_sources(${program} PRIVATE ${source})
+  endforeach()
   set(also_on 0)
   if(ARG_ALSO_ON)
     list(POP_FRONT ARG_ALSO_ON also_on)
