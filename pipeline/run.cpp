@@ -158,12 +158,7 @@ private:
     _record.face_names.clear();
     for (cad::FaceId f = 0; f < sized.model.face_count(); ++f)
       _record.face_names.push_back(sized.model.face(f).name);
-    _record.joined_faces = sized.joined.changes;
-    _record.trailing_edges = sized.edges;
-    _record.features = sized.features;
-    _record.bounded_faces = sized.bounded;
-    _record.walls = sized.walls;
-    _record.forecast = sized.counts;
+    _record.findings = sized.findings;
     log_sizing(_record);
     if (_communicator.is_root()) warn_of_sizes(_record);
   }
@@ -172,12 +167,12 @@ private:
 
   FinishedSurface find_or_build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::surface, "surface")) {
-      const cad::Changes joined_before = sized.joined.changes;
-      const bool closed_before = domain::has_closed(sized.edges);
+      const cad::Changes joined_before = sized.findings.joined.changes;
+      const bool closed_before = domain::has_closed(sized.findings.edges);
       if (std::optional<surface::SurfaceMesh> known =
               unpack_surface(_communicator, std::move(*found), domain, sized)) {
-        if (sized.joined.changes.size() != joined_before.size() ||
-            domain::has_closed(sized.edges) != closed_before)
+        if (sized.findings.joined.changes.size() != joined_before.size() ||
+            domain::has_closed(sized.findings.edges) != closed_before)
           note_sizes(sized);
         parallel::add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
         return finish_surface(sized.model, std::move(*known));
@@ -185,11 +180,11 @@ private:
       _record.resumed.pop_back();
       parallel::log_info("checkpoint: that surface is of other sizes: done anew");
     }
-    const std::size_t joined_before = sized.joined.groups.size();
-    const bool closed_before = domain::has_closed(sized.edges);
+    const std::size_t joined_before = sized.findings.joined.groups.size();
+    const bool closed_before = domain::has_closed(sized.findings.edges);
     surface::SurfaceMesh made = build_surface_or_advise(domain, sized);
-    const bool sizes_are_other =
-        sized.joined.groups.size() != joined_before || domain::has_closed(sized.edges) != closed_before;
+    const bool sizes_are_other = sized.findings.joined.groups.size() != joined_before ||
+                                 domain::has_closed(sized.findings.edges) != closed_before;
     FinishedSurface finished = finish_surface(sized.model, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
       return pack_surface(_communicator,
@@ -217,7 +212,8 @@ private:
   /// The surface of the sized domain. Where joined faces or closed edges cannot be meshed, that of the model
   /// as it was, and `sized` becomes its.
   surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
-    if (sized.joined.groups.empty() && !domain::has_closed(sized.edges)) return build_surface(sized);
+    if (sized.findings.joined.groups.empty() && !domain::has_closed(sized.findings.edges))
+      return build_surface(sized);
     try {
       return build_surface(sized);
     } catch (const parallel::CollectiveError& error) {

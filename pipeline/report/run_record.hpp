@@ -11,10 +11,7 @@
 #include "mesh/quality/quality.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
-#include "pipeline/domain/bounded_faces.hpp"
-#include "pipeline/domain/trailing_edges.hpp"
-#include "pipeline/domain/unresolved_features.hpp"
-#include "pipeline/domain/wall_findings.hpp"
+#include "pipeline/domain/sizing_findings.hpp"
 #include "pipeline/report/picture.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/surface_mesher.hpp"
@@ -77,13 +74,8 @@ struct RunRecord {
   std::vector<std::string> face_names;                   ///< by face id
   std::map<std::string, mesh::PatchType> type_of_patch;  ///< by its name
   std::vector<mesh::PatchType> patch_types;              ///< by patch of the model
-  domain::TrailingEdgeReport trailing_edges;             ///< what became of blunt ones
-  cad::Changes joined_faces;                             ///< narrow faces that vanished in their neighbours
   sizing::SizingOptions sizes;
-  std::optional<domain::FeatureReport> features;
-  std::vector<domain::NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
-  sizing::PredictedCounts forecast;               ///< what the size field predicts
-  domain::WallFindings walls;                     ///< what was found of walls close to each other
+  domain::SizingFindings findings;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
   std::optional<LayerRecord> layers;  ///< where the case asks for some
