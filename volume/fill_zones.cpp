@@ -30,7 +30,7 @@ public:
         _lattice(lattice),
         _shell(shell),
         _report(report),
-        _retries(input.surface.communicator, input.options, lattice, shell, report),
+        _retries(input.options, lattice, shell, report),
         _budget(shell.zones.count()) {}
 
   mesh::DistributedMesh run(ZonePlan plan) {
