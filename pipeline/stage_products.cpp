@@ -126,10 +126,9 @@ std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator&
       record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)};
 }
 
-CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
-                            const volume::DecompositionReport& decomposition,
-                            const volume::VolumeReport& volume, const improve::ImproveReport& improve) {
-  return {to_wire(VolumeRecord{decomposition, volume, improve, mesh}), draft_pieces(mesh)};
+CheckpointDraft pack_volume(const VolumeProduct& product) {
+  return {to_wire(VolumeRecord{product.decomposition, product.volume, product.improve, product.mesh}),
+          draft_pieces(product.mesh)};
 }
 
 VolumeProduct unpack_volume(const parallel::Communicator& communicator, CheckpointContent content) {
