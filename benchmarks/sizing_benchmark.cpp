@@ -51,7 +51,7 @@ void run(const Communicator& communicator, const char* file) {
       "sizing_serial=%.3f sizing_other=%.3f leaves=%lld tetrahedra=%.6g hash=%016llx\n",
       file, communicator.size(), stages[0].cpu_seconds_max, sizing.wall_seconds, sizing.cpu_seconds_max,
       sizing.cpu_seconds_mean, sizing.serial_seconds, sizing.other_seconds,
-      static_cast<long long>(sized.field.leaf_count()), sized.counts.tetrahedra,
+      static_cast<long long>(sized.field.leaf_count()), sized.findings.counts.tetrahedra,
       static_cast<unsigned long long>(hash_field(sized.field)));
 }
 

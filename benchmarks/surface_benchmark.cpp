@@ -278,7 +278,7 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
       shape.good_edges / shape.edges, shape.count[1], shape.mean_ratio[1], shape.mean_ratio[0],
       shape.worst_mean_ratio[1], shape.worst_mean_ratio[0], shape.smallest_angle[1],
       surface.report.cut_angles.size(), sharp, sharpest, decomposition.cut_edges, decomposition.imbalance,
-      bins[0], bins[1], bins[2], bins[3], bins[4], bins[5], sized.joined.changes.size(),
+      bins[0], bins[1], bins[2], bins[3], bins[4], bins[5], sized.findings.joined.changes.size(),
       surface.report.sharp_corners.size(), apart.least, static_cast<long long>(apart.below_20),
       static_cast<long long>(apart.below_10), static_cast<long long>(forced.below_10),
       static_cast<long long>(forced.below_5), forced.least, static_cast<long long>(others.below_10),

@@ -50,7 +50,7 @@ study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicat
                       {"ranks", communicator.size()},
                       {"stages", report::stages_json(clock.summarise(communicator))}};
   if (!communicator.is_root()) return {};
-  return predicted_ranks(study::costs_of(measured, tasks), forecast.counts, forecast.layers, input);
+  return predicted_ranks(study::costs_of(measured, tasks), forecast.findings.counts, forecast.layers, input);
 }
 
 /// The clock has the stage `geometry`.
@@ -64,19 +64,15 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cases
                           sizing::FieldFor::forecast);
   parallel::log_verbose(fmt::format("sizing: {:.2f} s of CPU", parallel::cpu_seconds() - begin));
   forecast.sizes = sized.sizes;
-  forecast.joined = sized.joined.changes;
-  forecast.features = sized.features;
-  forecast.edges = sized.edges;
-  forecast.bounded = sized.bounded;
-  forecast.walls = sized.walls;
-  forecast.counts = sized.counts;
+  forecast.findings = sized.findings;
   forecast.found = sized.found;
   if (sized.level)
-    forecast.levels = forecast_levels(*sized.level, sized.counts, input.sizing, communicator.size());
+    forecast.levels = forecast_levels(*sized.level, sized.findings.counts, input.sizing, communicator.size());
   clock.end();
-  const double triangles = forecast.counts.triangles, tetrahedra = forecast.counts.tetrahedra;
-  forecast.seconds = predicted_seconds(forecast.counts);
-  forecast.bytes = predicted_bytes(forecast.counts, communicator.size());
+  const double triangles = forecast.findings.counts.triangles,
+               tetrahedra = forecast.findings.counts.tetrahedra;
+  forecast.seconds = predicted_seconds(forecast.findings.counts);
+  forecast.bytes = predicted_bytes(forecast.findings.counts, communicator.size());
   parallel::agree(communicator, [&] {
     if (!communicator.is_root() || !input.layers.given) return;
     forecast.layers = forecast_layers(sized.model, patches.types, input, sized.field);
@@ -153,20 +149,21 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
 }
 
 std::string describe_forecast(const RunForecast& forecast, int ranks) {
+  const domain::SizingFindings& findings = forecast.findings;
   std::string text;
-  for (const domain::JudgedEdge& edge : forecast.edges)
+  for (const domain::JudgedEdge& edge : findings.edges)
     if (edge.fate != domain::EdgeFate::kept) text += "      " + edge.what + "\n";
-  for (const std::string& line : shown_changes(forecast.joined, "check.json: forecast.joined_faces"))
+  for (const std::string& line : shown_changes(findings.joined.changes, "check.json: forecast.joined_faces"))
     text += "a run joins: " + line + "\n";
-  const std::string features = forecast.features ? describe(*forecast.features) : std::string();
+  const std::string features = findings.features ? describe(*findings.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
-  const std::string share = forecast.features ? domain::describe_share(*forecast.features) : std::string();
+  const std::string share = findings.features ? domain::describe_share(*findings.features) : std::string();
   if (!share.empty()) text += "features: " + share + "\n";
-  const std::string bounded = describe(forecast.bounded, forecast.sizes);
+  const std::string bounded = describe(findings.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
-  const std::string unseen = describe(forecast.walls.unseen);
+  const std::string unseen = describe(findings.walls.unseen);
   if (!unseen.empty()) text += "gaps: " + unseen + "\n";
-  const std::string coincident = describe(forecast.walls.coincident);
+  const std::string coincident = describe(findings.walls.coincident);
   if (forecast.found) text += describe(*forecast.found);
   return text +
          fmt::format(
@@ -178,8 +175,8 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
              "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
              "{}{}\n",
              forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
-             forecast.layers ? describe(*forecast.layers) : "", forecast.counts.triangles,
-             forecast.counts.tetrahedra, forecast.seconds, forecast.bytes / parallel::gibibyte,
+             forecast.layers ? describe(*forecast.layers) : "", findings.counts.triangles,
+             findings.counts.tetrahedra, forecast.seconds, forecast.bytes / parallel::gibibyte,
              forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
              forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / parallel::gibibyte, ranks,
              forecast.piece_triangles, forecast.piece_tets, describe(forecast.levels),
@@ -187,7 +184,7 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
 }
 
 bool is_meshable(const CheckRecord& record) {
-  return record.diagnosis.domain.has_value() && record.forecast.walls.coincident.empty();
+  return record.diagnosis.domain.has_value() && record.forecast.findings.walls.coincident.empty();
 }
 
 Json read_json(const cases::Case& input, const cad::Diagnosis& found) {
@@ -240,10 +237,11 @@ Json domain_json(const cases::Case& input, const cad::Domain& domain,
 }
 
 Json forecast_json(const RunForecast& forecast) {
+  const domain::SizingFindings& findings = forecast.findings;
   return {{"minimum", forecast.sizes.minimum},
           {"maximum", forecast.sizes.maximum},
-          {"triangles", forecast.counts.triangles},
-          {"tetrahedra", forecast.counts.tetrahedra},
+          {"triangles", findings.counts.triangles},
+          {"tetrahedra", findings.counts.tetrahedra},
           {"seconds_on_one_core", forecast.seconds},
           {"bytes", forecast.bytes},
           {"layers", forecast.layers ? to_json(*forecast.layers) : Json()},
@@ -252,11 +250,11 @@ Json forecast_json(const RunForecast& forecast) {
           {"scaling", study::to_json(forecast.worthwhile, {})},
           {"piece_triangles", forecast.piece_triangles},
           {"piece_tets", forecast.piece_tets},
-          {"features", forecast.features ? report::to_json(*forecast.features) : Json()},
-          {"bounded_by_minimum", report::to_json(forecast.bounded)},
-          {"trailing_edges", report::to_json(forecast.edges)},
-          {"walls", report::to_json(forecast.walls)},
-          {"joined_faces", report::to_json(forecast.joined)}};
+          {"features", findings.features ? report::to_json(*findings.features) : Json()},
+          {"bounded_by_minimum", report::to_json(findings.bounded)},
+          {"trailing_edges", report::to_json(findings.edges)},
+          {"walls", report::to_json(findings.walls)},
+          {"joined_faces", report::to_json(findings.joined.changes)}};
 }
 
 Json record_json(const cases::Case& input, const CheckRecord& record) {
@@ -340,7 +338,8 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
       parallel::log_warning(fmt::format("check.json is not written: {}", error.what()));
     }
   });
-  return meshable && record.forecast.walls.coincident.empty() ? report::ExitCode::ok : report::ExitCode::cad;
+  return meshable && record.forecast.findings.walls.coincident.empty() ? report::ExitCode::ok
+                                                                       : report::ExitCode::cad;
 }
 
 }  // namespace aeroloom::pipeline

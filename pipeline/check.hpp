@@ -4,10 +4,8 @@
 #include "cad/repair/diagnosis.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "pipeline/case/case.hpp"
-#include "pipeline/domain/bounded_faces.hpp"
-#include "pipeline/domain/trailing_edges.hpp"
-#include "pipeline/domain/unresolved_features.hpp"
-#include "pipeline/domain/wall_findings.hpp"
+#include "pipeline/domain/level_findings.hpp"
+#include "pipeline/domain/sizing_findings.hpp"
 #include "pipeline/layer_forecast.hpp"
 #include "pipeline/level_forecast.hpp"
 #include "pipeline/report/exit_code.hpp"
@@ -31,12 +29,7 @@ struct FaceContact {
 /// The predicted cost of a run, by the constants in docs/usage.md.
 struct RunForecast {
   sizing::SizingOptions sizes;
-  std::optional<domain::FeatureReport> features;
-  domain::WallFindings walls;               ///< what was found of walls close to each other
-  std::vector<domain::NamedBound> bounded;  ///< faces on which the smallest size wins over curvature
-  cad::Changes joined;                      ///< narrow faces that would vanish in their neighbours
-  domain::TrailingEdgeReport edges;         ///< what would become of blunt trailing edges
-  sizing::PredictedCounts counts;
+  domain::SizingFindings findings;
   std::optional<LayerForecast> layers;               ///< where the case asks for them; on rank 0
   double seconds = 0;                                ///< of one core, with layers
   double bytes = 0;                                  ///< of memory, all ranks together, with layers

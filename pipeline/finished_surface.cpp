@@ -74,24 +74,19 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 }  // namespace
 
-void inspect_surface(const cad::Model& model, const std::string& what, const mesh::NumberedMesh& surface,
-                     report::RunRecord& record) {
+void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(surface.mesh, surface.numbering));
   record.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
-  record.face_table = table_of_faces(model, surface.mesh);
-  // A patch whose faces were all closed is gone from the model, and those after it have other numbers.
-  record.patch_types.clear();
-  for (const std::string& patch : model.patches())
-    record.patch_types.push_back(record.type_of_patch.at(patch));
-  record.patches = table_of_patches(model, record.face_table, record.patch_types);
+  record.face_table = table_of_faces(surface.model, surface.mesh);
+  record.patches = table_of_patches(surface.model, record.face_table, surface.patch_types);
 }
 
-void adopt_boundary(const cad::Model& model, const mesh::DistributedMesh& volume,
-                    const mesh::Numbering& numbering, FinishedSurface& surface, report::RunRecord& record) {
+void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                    FinishedSurface& surface, report::RunRecord& record) {
   surface.mesh = mesh::boundary_mesh(volume, numbering);
   surface.numbering = mesh::number_mesh(surface.mesh);
-  inspect_surface(model, "the improved surface mesh", surface, record);
+  inspect_surface("the improved surface mesh", surface, record);
 }
 
 }  // namespace aeroloom::pipeline

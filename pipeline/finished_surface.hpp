@@ -8,21 +8,25 @@
 #include "sizing/field/size_field.hpp"
 
 #include <string>
+#include <vector>
 
 namespace aeroloom::pipeline {
 
-/// The finished surface with its sizes.
+/// The finished surface with its sizes, and the model that it is of.
 struct FinishedSurface : mesh::NumberedMesh {
   sizing::SizeField field;
+  surface::SurfaceReport report;
+  cad::Model model;
+  std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
+  bool bounds_volume = true;  ///< false where layers end on planes: the volume has other triangles there
 };
 
 /// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
 /// require_valid().
-void inspect_surface(const cad::Model& model, const std::string& what, const mesh::NumberedMesh& surface,
-                     report::RunRecord& record);
+void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record);
 
 /// The surface follows a volume whose boundary was improved. Collective.
-void adopt_boundary(const cad::Model& model, const mesh::DistributedMesh& volume,
-                    const mesh::Numbering& numbering, FinishedSurface& surface, report::RunRecord& record);
+void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                    FinishedSurface& surface, report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

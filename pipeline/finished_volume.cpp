@@ -58,23 +58,27 @@ void require_valid(const std::string& what, const mesh::ValidityReport& report) 
   throw std::runtime_error(text);
 }
 
-void improve_volume(const cases::Case& input, const improve::MeshSource& source,
-                    mesh::DistributedMesh& volume, report::RunRecord& record, parallel::TaskStore* tasks) {
-  if (!input.improve.enabled) return;
+improve::ImproveReport improve_volume(const cases::Case& input, const improve::MeshSource& source,
+                                      mesh::DistributedMesh& volume, report::RunRecord& record,
+                                      parallel::TaskStore* tasks) {
+  if (!input.improve.enabled) return {};
   improve::ImproveOptions options = input.improve;
   options.percentiles = cases::percentile_targets(input.gate);
-  record.improve = improve::improve_mesh(volume, options, source, tasks);
+  improve::ImproveReport report = improve::improve_mesh(volume, options, source, tasks);
+  record.improve = report;
   log_improve(record);
+  return report;
 }
 
-void inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
-                    const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                    report::RunRecord& record) {
+mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
+                                const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
+                                report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, numbering, surface);
   require_valid("the volume mesh", validity);
   record.mesh_volume = validity.volume;
-  record.counts = mesh::count_mesh(volume, numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(volume, numbering);
+  record.counts = counts;
   record.regions_filled = table_of_regions(volume, validity.region_volumes);
   mesh::CellsOutside suspects;
   if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
@@ -82,6 +86,7 @@ void inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volum
   if (input.gate.asks_for_cells()) record.cells = measure_cells(volume, numbering);
   if (input.improve.enabled) list_pinned(input, volume, numbering, suspects, record);
   record.hash = mesh::hash_mesh(volume, numbering);
+  return counts;
 }
 
 std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume) {

@@ -16,16 +16,17 @@ namespace aeroloom::pipeline {
 /// with the violations.
 void require_valid(const std::string& what, const mesh::ValidityReport& report);
 
-/// Improves the mesh as the case asks for; `tasks` as in improve::improve_mesh. Collective.
-void improve_volume(const cases::Case& input, const improve::MeshSource& source,
-                    mesh::DistributedMesh& volume, report::RunRecord& record,
-                    parallel::TaskStore* tasks = nullptr);
+/// Improves the mesh as the case asks for, and puts on record what it returns; `tasks` as in
+/// improve::improve_mesh. Collective.
+improve::ImproveReport improve_volume(const cases::Case& input, const improve::MeshSource& source,
+                                      mesh::DistributedMesh& volume, report::RunRecord& record,
+                                      parallel::TaskStore* tasks = nullptr);
 
 /// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
-/// on record; `surface` may be null. Collective. Throws as require_valid().
-void inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
-                    const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                    report::RunRecord& record);
+/// on record; `surface` may be null. Returns the counts. Collective. Throws as require_valid().
+mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
+                                const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
+                                report::RunRecord& record);
 
 /// Adds the volumes of the regions of the model, for comparison.
 void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);

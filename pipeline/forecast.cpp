@@ -144,7 +144,8 @@ void require_memory(const parallel::Communicator& communicator, const domain::Si
   const int ranks = communicator.size();
   const auto ranks_here = static_cast<int>(
       communicator.maximum(std::int64_t{parallel::find_node_shape(communicator).ranks_here}));
-  Elements elements{sized.counts.tetrahedra, 0, bytes_per_tetrahedron * sized.counts.tetrahedra};
+  Elements elements{sized.findings.counts.tetrahedra, 0,
+                    bytes_per_tetrahedron * sized.findings.counts.tetrahedra};
   if (input.layers.given) {
     double cells = 0, bytes = 0;
     parallel::agree(communicator, [&] {

@@ -87,21 +87,21 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 
 }  // namespace
 
-LayeredSurface build_layers(const cases::Case& input, const cad::Model& model, FinishedSurface& surface,
-                            report::RunRecord& record) {
+LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record) {
   const parallel::Communicator communicator = surface.mesh.communicator;
-  surface.mesh.patch_types = record.patch_types;
+  surface.mesh.patch_types = surface.patch_types;
   const layers::LayerOptions options =
-      cases::layer_options(input.layers, input.sizing, surface.mesh.patches, record.patch_types);
+      cases::layer_options(input.layers, input.sizing, surface.mesh.patches, surface.patch_types);
   const surface::PlanesToRemesh planes{faces_of_planes(surface.mesh, options), input.surface};
+  surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
       mesh::split_pieces(surface.mesh, layers::wall_piece_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
-    surface::PlaneConflicts conflicts = surface::remesh_planes(model, surface.field, planes, front);
+    surface::PlaneConflicts conflicts = surface::remesh_planes(surface.model, surface.field, planes, front);
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
-  record.layers.emplace(report::LayerRecord{options, std::move(made.report), !planes.faces.empty()});
+  record.layers.emplace(report::LayerRecord{options, std::move(made.report)});
   log_layers(record);
   const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
   sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
@@ -111,7 +111,7 @@ LayeredSurface build_layers(const cases::Case& input, const cad::Model& model, F
 }
 
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
-                   mesh::DistributedMesh& volume, report::RunRecord& record) {
+                   mesh::DistributedMesh& volume) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   layers::append_layers(surface, layered.columns, layered.front,

@@ -1,7 +1,6 @@
 /// Boundary layers in a run: between the surface and the volume, which fills what is behind their front.
 #pragma once
 
-#include "cad/model/model.hpp"
 #include "layers/layer_cells.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/run.hpp"
@@ -17,11 +16,10 @@ struct LayeredSurface {
 
 /// Columns on the walls of the surface; planes that layers end on are meshed again. Collective. Throws
 /// std::invalid_argument for layers of patches that there are not.
-LayeredSurface build_layers(const cases::Case& input, const cad::Model& model, FinishedSurface& surface,
-                            report::RunRecord& record);
+LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record);
 
 /// Puts the layers before the tetrahedra behind their front. Collective.
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
-                   mesh::DistributedMesh& volume, report::RunRecord& record);
+                   mesh::DistributedMesh& volume);
 
 }  // namespace aeroloom::pipeline

@@ -18,6 +18,7 @@
 #include "pipeline/volume_stages.hpp"
 #include "pipeline/write_outputs.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -30,35 +31,71 @@ namespace {
 
 using parallel::Communicator;
 
+/// Whether the model of the sizes is simpler than that of the domain.
+bool is_simplified(const domain::SizedDomain& sized) {
+  return !sized.findings.joined.groups.empty() || domain::has_closed(sized.findings.edges);
+}
+
+/// The types of patches of a model that has some of those of the domain: a patch whose faces were all closed
+/// is gone, and those after it have other numbers.
+std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
+                                      const cases::TypedPatches& domain) {
+  const std::vector<std::string>& names = domain.model.patches();
+  std::vector<mesh::PatchType> types;
+  for (const std::string& patch : patches) {
+    const auto found = std::find(names.begin(), names.end(), patch);
+    types.push_back(domain.types.at(static_cast<std::size_t>(found - names.begin())));
+  }
+  return types;
+}
+
+/// The finished volume.
+struct InspectedVolume {
+  mesh::DistributedMesh mesh;
+  mesh::Numbering numbering;
+  mesh::MeshCounts counts = {};
+};
+
 /// The stages of one run. What a stage has made is taken from the checkpoint of an earlier run where there is
-/// one, else made and kept; later stages cannot tell which.
+/// one, else made and kept; later stages cannot tell which. The record is written, never read, but for the
+/// quality gate, which judges it.
 class CaseRun {
 public:
   CaseRun(const Communicator& communicator, const cases::Case& input, report::RunRecord& record)
       : _communicator(communicator), _input(input), _record(record) {}
 
   void run() {
-    const cad::Model domain = stage("geometry", report::ExitCode::cad, [&] { return load_geometry(); });
-    domain::SizedDomain sized = stage("sizing", report::ExitCode::cad, [&] {
-      domain::SizedDomain found = find_or_build_sizes(domain);
-      domain::require_walls_apart(found);
-      require_memory(_communicator, found, types_of(found.model.patches()), _input);
-      return found;
-    });
+    using report::ExitCode;
+    const cases::TypedPatches domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
+    domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return size(domain); });
     FinishedSurface surface =
-        stage("surface", report::ExitCode::surface, [&] { return find_or_build_surface(domain, sized); });
-    const report::PictureSource pictured{surface.mesh, surface.numbering, _record.patch_types, _record.unit};
-    mesh::DistributedMesh volume =
-        report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures,
-                                         [&] { return find_or_build_volume(sized.model, surface); });
-    const mesh::Numbering numbering =
-        stage("inspect", report::ExitCode::volume, [&] { return inspect(sized.model, volume, surface); });
-    volume.patch_types = _record.patch_types;
-    stage("output", report::ExitCode::files, [&] {
-      write(volume, numbering, surface);
-      if (_input.output.pictures)
-        _record.pictures = report::pictures_or_warning(_communicator, &volume, pictured);
-    });
+        stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, std::move(sized)); });
+    const report::PictureSource pictured{surface.mesh, surface.numbering, surface.patch_types,
+                                         domain.model.unit_name()};
+    VolumeProduct volume =
+        report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures, [&] {
+          VolumeStages stages(_communicator, _input, _record, *_checkpoints);
+          std::optional<LayeredSurface> layered;
+          if (_input.layers.given)
+            layered =
+                stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface, _record); });
+          const VolumeBoundary boundary = layered ? VolumeBoundary{layered->front, layered->field}
+                                                  : VolumeBoundary{surface, surface.field};
+          VolumeStart start =
+              stage("decompose", ExitCode::volume, [&] { return stages.decompose(boundary); });
+          VolumeProduct filled =
+              stage("volume", ExitCode::volume, [&] { return stages.fill(boundary, start); });
+          VolumeProduct improved = stage("improve", ExitCode::volume, [&] {
+            return stages.improve(surface.model, boundary, start, std::move(filled));
+          });
+          if (layered)
+            stage("layers", ExitCode::volume,
+                  [&] { append_layers(_input, surface, *layered, improved.mesh); });
+          return improved;
+        });
+    const InspectedVolume finished =
+        stage("inspect", ExitCode::volume, [&] { return inspect(std::move(volume), surface); });
+    stage("output", ExitCode::files, [&] { write(finished, surface, pictured); });
     require_quality(_input, _record);
   }
 
@@ -76,7 +113,7 @@ private:
 
   // --- geometry
 
-  cad::Model load_geometry() {
+  cases::TypedPatches load_geometry() {
     _identity = identify_run(_communicator, _input);
     if (_identity.is_known) {
       _record.input_hash = _identity.digest.text();
@@ -90,18 +127,10 @@ private:
                                      _record.input_hash));
     }
     cases::TypedPatches patches = domain::find_patches(_communicator, find_or_load_domain(), _input);
-    for (std::size_t p = 0; p < patches.types.size(); ++p)
-      _record.type_of_patch[patches.model.patches()[p]] = patches.types[p];
     if (_communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     describe(patches.model);
-    return std::move(patches.model);
-  }
-
-  std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches) const {
-    std::vector<mesh::PatchType> types;
-    for (const std::string& patch : patches) types.push_back(_record.type_of_patch.at(patch));
-    return types;
+    return patches;
   }
 
   cad::Model find_or_load_domain() {
@@ -114,10 +143,12 @@ private:
       if (_communicator.is_root()) _record.domain = std::move(domain->report);
       return std::move(domain->model);
     }
-    cad::Model model = domain::load_domain(_communicator, _input.domain, _record.domain);
+    cad::DomainReport found;
+    cad::Model model = domain::load_domain(_communicator, _input.domain, found);
+    _record.domain = found;
     require_same_file(_communicator, _identity, _input);
     _checkpoints->keep(SavedStage::geometry, [&] {
-      return _communicator.is_root() ? pack_domain_product({model, _record.domain}) : io::CheckpointDraft();
+      return _communicator.is_root() ? pack_domain_product({model, found}) : io::CheckpointDraft();
     });
     return model;
   }
@@ -133,6 +164,13 @@ private:
   }
 
   // --- sizes, and the model they are for
+
+  domain::SizedDomain size(const cases::TypedPatches& domain) {
+    domain::SizedDomain sized = find_or_build_sizes(domain.model);
+    domain::require_walls_apart(sized);
+    require_memory(_communicator, sized, types_of(sized.model.patches(), domain), _input);
+    return sized;
+  }
 
   domain::SizedDomain find_or_build_sizes(const cad::Model& domain) {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::sizing, "sizing")) {
@@ -158,52 +196,53 @@ private:
     _record.face_names.clear();
     for (cad::FaceId f = 0; f < sized.model.face_count(); ++f)
       _record.face_names.push_back(sized.model.face(f).name);
-    _record.joined_faces = sized.joined.changes;
-    _record.trailing_edges = sized.edges;
-    _record.features = sized.features;
-    _record.bounded_faces = sized.bounded;
-    _record.walls = sized.walls;
-    _record.forecast = sized.counts;
+    _record.findings = sized.findings;
     log_sizing(_record);
     if (_communicator.is_root()) warn_of_sizes(_record);
   }
 
   // --- surface
 
-  FinishedSurface find_or_build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
-    if (std::optional<io::CheckpointContent> found = find(SavedStage::surface, "surface")) {
-      const cad::Changes joined_before = sized.joined.changes;
-      const bool closed_before = domain::has_closed(sized.edges);
-      if (std::optional<surface::SurfaceMesh> known =
-              unpack_surface(_communicator, std::move(*found), domain, sized)) {
-        if (sized.joined.changes.size() != joined_before.size() ||
-            domain::has_closed(sized.edges) != closed_before)
-          note_sizes(sized);
-        parallel::add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
-        return finish_surface(sized.model, std::move(*known));
-      }
-      _record.resumed.pop_back();
-      parallel::log_info("checkpoint: that surface is of other sizes: done anew");
+  /// `sized` may become that of the model as it was, with the surface.
+  FinishedSurface find_or_build_surface(const cases::TypedPatches& domain, domain::SizedDomain sized) {
+    const bool simplified = is_simplified(sized);
+    if (std::optional<surface::SurfaceMesh> known = find_surface(domain.model, sized)) {
+      if (is_simplified(sized) != simplified) note_sizes(sized);
+      parallel::add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
+      return finish_surface(domain, sized.model, std::move(*known));
     }
-    const std::size_t joined_before = sized.joined.groups.size();
-    const bool closed_before = domain::has_closed(sized.edges);
-    surface::SurfaceMesh made = build_surface_or_advise(domain, sized);
-    const bool sizes_are_other =
-        sized.joined.groups.size() != joined_before || domain::has_closed(sized.edges) != closed_before;
-    FinishedSurface finished = finish_surface(sized.model, std::move(made));
+    surface::SurfaceMesh made = build_surface_or_advise(domain.model, sized);
+    FinishedSurface finished = finish_surface(domain, sized.model, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
-      return pack_surface(_communicator,
-                          {finished.mesh, finished.field, _record.surface, sized, sizes_are_other});
+      return pack_surface(_communicator, {finished.mesh, finished.field, finished.report, sized,
+                                          is_simplified(sized) != simplified});
     });
     return finished;
   }
 
+  std::optional<surface::SurfaceMesh> find_surface(const cad::Model& domain, domain::SizedDomain& sized) {
+    std::optional<io::CheckpointContent> found = _checkpoints->find(SavedStage::surface);
+    if (!found) return std::nullopt;
+    std::optional<surface::SurfaceMesh> known =
+        unpack_surface(_communicator, std::move(*found), domain, sized);
+    if (known)
+      _record.resumed.emplace_back("surface");
+    else
+      parallel::log_info("checkpoint: that surface is of other sizes: done anew");
+    return known;
+  }
+
   /// Numbers it, checks it, tells of it.
-  FinishedSurface finish_surface(const cad::Model& model, surface::SurfaceMesh surface) {
-    _record.surface = std::move(surface.report);
+  FinishedSurface finish_surface(const cases::TypedPatches& domain, const cad::Model& model,
+                                 surface::SurfaceMesh surface) {
+    _record.surface = surface.report;
     mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-    FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)}, std::move(surface.field)};
-    inspect_surface(model, "the surface mesh", finished, _record);
+    FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)},
+                             std::move(surface.field),
+                             std::move(surface.report),
+                             model,
+                             types_of(model.patches(), domain)};
+    inspect_surface("the surface mesh", finished, _record);
     log_surface(_record);
     if (_communicator.is_root()) log_needles(_record);
     return finished;
@@ -217,7 +256,7 @@ private:
   /// The surface of the sized domain. Where joined faces or closed edges cannot be meshed, that of the model
   /// as it was, and `sized` becomes its.
   surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
-    if (sized.joined.groups.empty() && !domain::has_closed(sized.edges)) return build_surface(sized);
+    if (!is_simplified(sized)) return build_surface(sized);
     try {
       return build_surface(sized);
     } catch (const parallel::CollectiveError& error) {
@@ -249,56 +288,45 @@ private:
     }
   }
 
-  // --- volume
-
-  /// The volume within the surface; where the case asks for layers, behind their front, and they before it.
-  mesh::DistributedMesh find_or_build_volume(const cad::Model& model, FinishedSurface& surface) {
-    VolumeStages stages(_communicator, _input, _record, *_checkpoints);
-    if (!_input.layers.given) return stages.find_or_build(model, {surface, surface.field});
-    const LayeredSurface layered = stage("layers", report::ExitCode::surface,
-                                         [&] { return build_layers(_input, model, surface, _record); });
-    mesh::DistributedMesh volume = stages.find_or_build(model, {layered.front, layered.field});
-    stage("layers", report::ExitCode::volume,
-          [&] { append_layers(_input, surface, layered, volume, _record); });
-    return volume;
-  }
-
   // --- the finished mesh
 
-  mesh::Numbering inspect(const cad::Model& model, const mesh::DistributedMesh& volume,
-                          FinishedSurface& surface) {
-    mesh::Numbering numbering = mesh::number_mesh(volume);
-    if (_record.improve.changed_triangles > 0) adopt_boundary(model, volume, numbering, surface, _record);
-    const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
-    inspect_volume(_input, volume, numbering, is_of_surface ? &surface.mesh : nullptr, _record);
-    add_cad_volumes(model, _record.regions_filled);
+  InspectedVolume inspect(VolumeProduct volume, FinishedSurface& surface) {
+    mesh::Numbering numbering = mesh::number_mesh(volume.mesh);
+    InspectedVolume finished{std::move(volume.mesh), std::move(numbering)};
+    if (volume.improve.changed_triangles > 0)
+      adopt_boundary(finished.mesh, finished.numbering, surface, _record);
+    finished.counts = inspect_volume(_input, finished.mesh, finished.numbering,
+                                     surface.bounds_volume ? &surface.mesh : nullptr, _record);
+    add_cad_volumes(surface.model, _record.regions_filled);
     const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-    _record.conformity = attribution::measure_conformity(volume, surface.field);
-    return numbering;
+    _record.conformity = attribution::measure_conformity(finished.mesh, surface.field);
+    finished.mesh.patch_types = surface.patch_types;
+    return finished;
   }
 
-  void write(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-             const FinishedSurface& surface) {
-    const bool is_of_surface = !_record.layers || !_record.layers->end_on_planes;
-    const SurfaceView view{surface.mesh, surface.numbering, is_of_surface};
+  void write(const InspectedVolume& volume, const FinishedSurface& surface,
+             const report::PictureSource& pictured) {
+    const SurfaceView view{surface.mesh, surface.numbering, surface.bounds_volume};
     {
       const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-      write_outputs(volume, numbering, &view, _input.output);
+      write_outputs(volume.mesh, volume.numbering, &view, _input.output);
     }
-    if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files();
+    if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files(volume.counts.cells);
     if (_communicator.is_root()) {
       warn_of_units(_record, _input.output);
       if (const std::string coarse = coarse_region(_input.gate, _record); !coarse.empty())
         parallel::log_warning("quality gate: " + coarse);
     }
+    if (_input.output.pictures)
+      _record.pictures = report::pictures_or_warning(_communicator, &volume.mesh, pictured);
   }
 
   /// Puts files on record as tasks that cost equally much, what all ranks have spent on them together.
   /// Collective.
-  void note_files() {
+  void note_files(mesh::GlobalIndex cells) {
     const double seconds = _communicator.sum(_record.clock.costs().back().task_cpu_seconds);
-    const std::int64_t of_file = io::cells_per_vtk_file(_record.counts.cells);
-    const std::int64_t files = (_record.counts.cells + of_file - 1) / of_file;
+    const std::int64_t of_file = io::cells_per_vtk_file(cells);
+    const std::int64_t files = (cells + of_file - 1) / of_file;
     for (std::int64_t i = 0; _communicator.is_root() && i < files; ++i)
       parallel::note_task({.kind = parallel::TaskKind::file,
                            .number = i,

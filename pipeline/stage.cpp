@@ -1,6 +1,12 @@
 #include "pipeline/stage.hpp"
 
+#include "parallel/observation/memory_limit.hpp"
+#include "parallel/sandbox/sandbox.hpp"
+
+#include <exception>
 #include <mutex>
+#include <new>
+#include <stdexcept>
 #include <string>
 
 namespace aeroloom::pipeline {
@@ -17,7 +23,8 @@ Stage& stage_under_way() {
 
 }  // namespace
 
-void set_current_stage(const std::string& name) {
+OpenStage::OpenStage(parallel::StageClock& clock, const std::string& name) : _clock(clock) {
+  clock.begin(name);
   const std::lock_guard guard(stage_under_way().mutex);
   stage_under_way().name = name;
 }
@@ -25,6 +32,26 @@ void set_current_stage(const std::string& name) {
 std::string current_stage() {
   const std::lock_guard guard(stage_under_way().mutex);
   return stage_under_way().name;
+}
+
+void fail_stage(const std::string& name, report::ExitCode code) {
+  using report::ExitCode, report::StageFailure;
+  try {
+    throw;
+  } catch (const parallel::CollectiveError& error) {
+    throw StageFailure(name, code_of(error, code), error.what());
+  } catch (const std::bad_alloc&) {
+    parallel::give_up_without_memory();
+    throw StageFailure(name, ExitCode::resources, parallel::out_of_memory_text());
+  } catch (const parallel::SandboxInterrupted& error) {
+    throw StageFailure(name, ExitCode::resources, error.what());
+  } catch (const std::invalid_argument& error) {
+    throw StageFailure(name, ExitCode::usage, error.what());
+  } catch (const std::logic_error& error) {
+    throw StageFailure(name, ExitCode::bug, error.what());
+  } catch (const std::exception& error) {
+    throw StageFailure(name, code, error.what());
+  }
 }
 
 report::ExitCode code_of(const parallel::CollectiveError& error, report::ExitCode of_stage) {

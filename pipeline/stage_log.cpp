@@ -28,29 +28,32 @@ void log_geometry(const cad::Model& model, const report::RunRecord& record) {
 }
 
 void log_sizing(const report::RunRecord& record) {
-  for (const domain::JudgedEdge& edge : record.trailing_edges)
+  const domain::SizingFindings& findings = record.findings;
+  for (const domain::JudgedEdge& edge : findings.edges)
     if (edge.fate != domain::EdgeFate::kept) log_info("sizing: " + edge.what);
-  for (const std::string& line : shown_changes(record.joined_faces, "report.json: sizing.joined_faces"))
+  for (const std::string& line : shown_changes(findings.joined.changes, "report.json: sizing.joined_faces"))
     log_info("sizing: " + line);
   log_info(
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
                   record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
                   record.sizes.growth, record.size_field_leaves));
-  if (record.features) {
-    if (const std::string text = domain::describe_share(*record.features); !text.empty())
+  if (findings.features) {
+    if (const std::string text = domain::describe_share(*findings.features); !text.empty())
       log_info("sizing: " + text);
   }
-  const std::string bounds = describe(record.bounded_faces, record.sizes);
-  if (!bounds.empty() && !domain::is_much_of_body(record.bounded_faces)) log_info("sizing: " + bounds);
+  const std::string bounds = describe(findings.bounded, record.sizes);
+  if (!bounds.empty() && !domain::is_much_of_body(findings.bounded)) log_info("sizing: " + bounds);
 }
 
 void warn_of_sizes(const report::RunRecord& record) {
-  if (const std::string text = describe(record.walls.unseen); !text.empty())
+  const domain::SizingFindings& findings = record.findings;
+  if (const std::string text = describe(findings.walls.unseen); !text.empty())
     parallel::log_warning("sizing: " + text);
-  if (const std::string text = record.features ? describe(*record.features) : std::string(); !text.empty())
+  if (const std::string text = findings.features ? describe(*findings.features) : std::string();
+      !text.empty())
     parallel::log_warning("sizing: " + text);
-  if (domain::is_much_of_body(record.bounded_faces))
-    parallel::log_warning("sizing: " + describe(record.bounded_faces, record.sizes));
+  if (domain::is_much_of_body(findings.bounded))
+    parallel::log_warning("sizing: " + describe(findings.bounded, record.sizes));
 }
 
 void warn_of_units(const report::RunRecord& record, const cases::OutputOptions& output) {
@@ -148,7 +151,8 @@ void log_decompose(const report::RunRecord& record) {
 
 void warn_of_count(const report::RunRecord& record) {
   constexpr double telling = 1.5;  // more than forecasts err by (docs/bounds.md)
-  const double expected = record.decomposition.expected_tetrahedra, forecast = record.forecast.tetrahedra;
+  const double expected = record.decomposition.expected_tetrahedra,
+               forecast = record.findings.counts.tetrahedra;
   if (expected < telling * forecast) return;
   parallel::log_warning(fmt::format(
       "decompose: about {:.2g} tetrahedra are to be made, {:.2g} times the {:.2g} that the sizes forecast{}. "

@@ -35,17 +35,10 @@ mesh::DistributedMesh make_mesh(const parallel::Communicator& communicator, mesh
 struct SizesRecord {
   sizing::SizingOptions sizes;
   Bytes field;
-  domain::JoinedFaces joined;
-  sizing::PredictedCounts counts;
-  std::optional<domain::FeatureReport> features;
-  std::vector<domain::NamedBound> bounded;
-  domain::TrailingEdgeReport edges;
-  domain::WallFindings walls;
+  domain::SizingFindings findings;
 
   static constexpr auto fields() {
-    return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::joined, &SizesRecord::counts,
-                      &SizesRecord::features, &SizesRecord::bounded, &SizesRecord::edges,
-                      &SizesRecord::walls);
+    return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::findings);
   }
 };
 
@@ -81,9 +74,9 @@ parallel::Digest digest_of(const domain::SizedDomain& sized) {
   const parallel::Digest field = sized.field.digest();
   parallel::Digester digester;
   digester.value(field.low).value(field.high);
-  for (const std::vector<cad::FaceId>& group : sized.joined.groups)
+  for (const std::vector<cad::FaceId>& group : sized.findings.joined.groups)
     digester.items(std::span<const cad::FaceId>(group));
-  for (const domain::JudgedEdge& edge : sized.edges)
+  for (const domain::JudgedEdge& edge : sized.findings.edges)
     if (edge.fate == domain::EdgeFate::closed) digester.value(edge.face);
   return digester.result();
 }
@@ -99,25 +92,17 @@ cad::Domain unpack_domain_product(CheckpointContent content) {
 }
 
 CheckpointDraft pack_sizes(const domain::SizedDomain& sized) {
-  return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.joined, sized.counts, sized.features,
-                              sized.bounded, sized.edges, sized.walls}),
-          {}};
+  return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.findings}), {}};
 }
 
 domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, CheckpointContent content,
                                  const cad::Model& domain) {
   auto record = from_wire<SizesRecord>(content.common);
-  domain::SizedDomain sized{domain::close_again(domain, record.edges),
-                            record.sizes,
-                            sizing::SizeField::unpack(communicator, record.field),
-                            std::move(record.joined),
-                            record.counts,
-                            std::move(record.features),
-                            std::move(record.bounded),
-                            std::move(record.edges),
-                            std::move(record.walls)};
-  if (!sized.joined.groups.empty()) sized.model = cad::join_faces(sized.model, sized.joined.groups);
-  return sized;
+  cad::Model model = domain::close_again(domain, record.findings.edges);
+  sizing::SizeField field = sizing::SizeField::unpack(communicator, record.field);
+  const std::vector<std::vector<cad::FaceId>>& groups = record.findings.joined.groups;
+  if (!groups.empty()) model = cad::join_faces(model, groups);
+  return {std::move(model), record.sizes, std::move(field), std::move(record.findings)};
 }
 
 // The common part of rank 0 counts: others pack none of what each node holds once.
@@ -141,10 +126,9 @@ std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator&
       record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)};
 }
 
-CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
-                            const volume::DecompositionReport& decomposition,
-                            const volume::VolumeReport& volume, const improve::ImproveReport& improve) {
-  return {to_wire(VolumeRecord{decomposition, volume, improve, mesh}), draft_pieces(mesh)};
+CheckpointDraft pack_volume(const VolumeProduct& product) {
+  return {to_wire(VolumeRecord{product.decomposition, product.volume, product.improve, product.mesh}),
+          draft_pieces(product.mesh)};
 }
 
 VolumeProduct unpack_volume(const parallel::Communicator& communicator, CheckpointContent content) {

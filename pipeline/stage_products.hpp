@@ -46,9 +46,7 @@ struct VolumeProduct {
   volume::VolumeReport volume;
   improve::ImproveReport improve;  ///< as it is before improvement
 };
-io::CheckpointDraft pack_volume(const mesh::DistributedMesh& mesh,
-                                const volume::DecompositionReport& decomposition,
-                                const volume::VolumeReport& volume, const improve::ImproveReport& improve);
+io::CheckpointDraft pack_volume(const VolumeProduct& product);
 VolumeProduct unpack_volume(const parallel::Communicator& communicator, io::CheckpointContent content);
 
 }  // namespace aeroloom::pipeline

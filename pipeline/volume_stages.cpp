@@ -4,9 +4,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/forecast.hpp"
-#include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
-#include "pipeline/stage_products.hpp"
 
 #include <optional>
 #include <string>
@@ -34,61 +32,68 @@ namespace {
 
 }  // namespace
 
-mesh::DistributedMesh VolumeStages::find_or_build(const cad::Model& model, const VolumeBoundary& boundary) {
-  constexpr report::ExitCode code = report::ExitCode::volume;
-  std::optional<io::CheckpointContent> improved, filled;
-  run_stage(_record, "decompose", code, [&] {
-    const auto find = [&](SavedStage saved, const char* name) {
-      std::optional<io::CheckpointContent> content = _checkpoints.find(saved);
-      if (content) _record.resumed.emplace_back(name);
-      return content;
-    };
-    if (_input.improve.enabled) improved = find(SavedStage::improve, "improve");
-    if (!improved) filled = find(SavedStage::volume, "volume");
-  });
-  if (improved) {
-    run_stage(_record, "volume", code, [] {});
-    _record.resumed.insert(_record.resumed.end() - 1, "volume");
-    return run_stage(_record, "improve", code, [&] {
-      mesh::DistributedMesh volume = adopt(std::move(*improved));
-      log_improve(_record);
-      return volume;
-    });
+VolumeStart VolumeStages::decompose(const VolumeBoundary& boundary) {
+  VolumeStart start;
+  if (_input.improve.enabled) start.improved = _checkpoints.find(SavedStage::improve);
+  if (!start.improved) start.filled = _checkpoints.find(SavedStage::volume);
+  if (start.improved || start.filled) return start;
+  start.zones = volume::decompose(input_of(boundary));
+  _record.decomposition = start.zones->report();
+  log_decompose(_record);
+  if (_communicator.is_root()) warn_of_count(_record);
+  return start;
+}
+
+VolumeProduct VolumeStages::fill(const VolumeBoundary& boundary, VolumeStart& start) {
+  if (start.improved) {
+    _record.resumed.emplace_back("volume");
+    return {};
   }
-  mesh::DistributedMesh volume =
-      filled ? run_stage(_record, "volume", code, [&] { return adopt(std::move(*filled)); })
-             : build(boundary);
-  run_stage(_record, "improve", code, [&] { improve(model, boundary, volume); });
-  return volume;
+  if (start.filled) return adopt(*std::exchange(start.filled, std::nullopt), "volume");
+  VolumeProduct product;
+  product.decomposition = start.zones->report();
+  try {
+    product.mesh = fill_zones(boundary, *std::exchange(start.zones, std::nullopt), product.volume);
+  } catch (...) {
+    _record.volume = std::move(product.volume);  // what was tried is told of a run that fails, too
+    throw;
+  }
+  _record.volume = product.volume;
+  log_volume(_record);
+  keep(SavedStage::volume, product);
+  return product;
 }
 
-mesh::DistributedMesh VolumeStages::build(const VolumeBoundary& boundary) {
-  constexpr report::ExitCode code = report::ExitCode::volume;
-  volume::Decomposition decomposition =
-      run_stage(_record, "decompose", code, [&] { return decompose(boundary); });
-  return run_stage(_record, "volume", code, [&] {
-    mesh::DistributedMesh volume = fill(boundary, std::move(decomposition));
-    log_volume(_record);
-    keep(SavedStage::volume, volume);
-    return volume;
-  });
+VolumeProduct VolumeStages::improve(const cad::Model& model, const VolumeBoundary& boundary,
+                                    VolumeStart& start, VolumeProduct filled) {
+  if (start.improved) {
+    VolumeProduct improved = adopt(*std::exchange(start.improved, std::nullopt), "improve");
+    log_improve(_record);
+    return improved;
+  }
+  if (!_input.improve.enabled) return filled;
+  cad::PointLocator locator(model);
+  filled.improve = improve_volume(_input, {&locator, &boundary.field}, filled.mesh, _record,
+                                  _checkpoints.tasks(SavedStage::improve));
+  keep(SavedStage::improve, filled);
+  return filled;
 }
 
-mesh::DistributedMesh VolumeStages::adopt(io::CheckpointContent content) {
+VolumeProduct VolumeStages::adopt(io::CheckpointContent content, const char* stage) {
+  _record.resumed.emplace_back(stage);
   VolumeProduct product;
   parallel::agree(_communicator, [&] { product = unpack_volume(_communicator, std::move(content)); });
   _record.decomposition = product.decomposition;
-  _record.volume = std::move(product.volume);
+  _record.volume = product.volume;
   _record.improve = product.improve;
   parallel::add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
   log_decompose(_record);
   log_volume(_record);
-  return std::move(product.mesh);
+  return product;
 }
 
-void VolumeStages::keep(SavedStage saved, const mesh::DistributedMesh& volume) {
-  _checkpoints.keep(
-      saved, [&] { return pack_volume(volume, _record.decomposition, _record.volume, _record.improve); });
+void VolumeStages::keep(SavedStage saved, const VolumeProduct& product) {
+  _checkpoints.keep(saved, [&] { return pack_volume(product); });
 }
 
 volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
@@ -96,30 +101,13 @@ volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
           _checkpoints.tasks(SavedStage::volume)};
 }
 
-volume::Decomposition VolumeStages::decompose(const VolumeBoundary& boundary) {
-  volume::Decomposition decomposition = volume::decompose(input_of(boundary));
-  _record.decomposition = decomposition.report();
-  log_decompose(_record);
-  if (_communicator.is_root()) warn_of_count(_record);
-  return decomposition;
-}
-
-mesh::DistributedMesh VolumeStages::fill(const VolumeBoundary& boundary,
-                                         volume::Decomposition decomposition) {
+mesh::DistributedMesh VolumeStages::fill_zones(const VolumeBoundary& boundary, volume::Decomposition zones,
+                                               volume::VolumeReport& report) {
   try {
-    return volume::fill_zones(input_of(boundary), std::move(decomposition), _record.volume);
+    return volume::fill_zones(input_of(boundary), std::move(zones), report);
   } catch (const volume::VolumeFailure& failure) {
     point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
   }
-}
-
-void VolumeStages::improve(const cad::Model& model, const VolumeBoundary& boundary,
-                           mesh::DistributedMesh& volume) {
-  if (!_input.improve.enabled) return;
-  cad::PointLocator locator(model);
-  improve_volume(_input, {&locator, &boundary.field}, volume, _record,
-                 _checkpoints.tasks(SavedStage::improve));
-  keep(SavedStage::improve, volume);
 }
 
 }  // namespace aeroloom::pipeline

@@ -5,6 +5,10 @@
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/run.hpp"
+#include "pipeline/stage_products.hpp"
+#include "volume/volume_mesher.hpp"
+
+#include <optional>
 
 namespace aeroloom::pipeline {
 
@@ -14,25 +18,34 @@ struct VolumeBoundary {
   const sizing::SizeField& field;
 };
 
-/// Decomposition, filling and improvement of one run: each taken from the checkpoint of an earlier run where
-/// there is one, else made and kept. All of it is collective.
+/// What the stages of the volume begin with: zones to fill, or what an earlier run has made of them. One of
+/// the three is there; the stage that takes it leaves it empty.
+struct VolumeStart {
+  std::optional<volume::Decomposition> zones = {};
+  std::optional<io::CheckpointContent> filled = {}, improved = {};
+};
+
+/// Decomposition, filling and improvement of one run, in this order: each taken from the checkpoint of an
+/// earlier run where there is one, else made and kept. All of it is collective.
 class VolumeStages {
 public:
   VolumeStages(const parallel::Communicator& communicator, const cases::Case& input,
                report::RunRecord& record, Checkpoints& checkpoints)
       : _communicator(communicator), _input(input), _record(record), _checkpoints(checkpoints) {}
 
+  VolumeStart decompose(const VolumeBoundary& boundary);
+  /// Nothing where an earlier run has the improved volume.
+  VolumeProduct fill(const VolumeBoundary& boundary, VolumeStart& start);
   /// Improved, where the case asks for that.
-  mesh::DistributedMesh find_or_build(const cad::Model& model, const VolumeBoundary& boundary);
+  VolumeProduct improve(const cad::Model& model, const VolumeBoundary& boundary, VolumeStart& start,
+                        VolumeProduct filled);
 
 private:
-  mesh::DistributedMesh build(const VolumeBoundary& boundary);
-  mesh::DistributedMesh adopt(io::CheckpointContent content);
-  void keep(SavedStage saved, const mesh::DistributedMesh& volume);
+  VolumeProduct adopt(io::CheckpointContent content, const char* stage);
+  void keep(SavedStage saved, const VolumeProduct& product);
   volume::VolumeInput input_of(const VolumeBoundary& boundary);
-  volume::Decomposition decompose(const VolumeBoundary& boundary);
-  mesh::DistributedMesh fill(const VolumeBoundary& boundary, volume::Decomposition decomposition);
-  void improve(const cad::Model& model, const VolumeBoundary& boundary, mesh::DistributedMesh& volume);
+  mesh::DistributedMesh fill_zones(const VolumeBoundary& boundary, volume::Decomposition zones,
+                                   volume::VolumeReport& report);
 
   const parallel::Communicator& _communicator;
   const cases::Case& _input;

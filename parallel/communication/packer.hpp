@@ -126,6 +126,184 @@ T from_wire(std::span<const std::byte> bytes) {
   return item;
 }
 
-}  // namespace aeroloom::parallel
+// Bodies of the templates.
 
-#include "parallel/communication/packer_items.hpp"
+template <Flat T>
+void Packer::value(const T& item) {
+  write_item(item, extend(wire_size<T>));
+}
+
+template <Flat T>
+void Packer::array(std::span<const T> items) {
+  count(items.size());
+  if constexpr (is_exact<T>) {
+    append(std::as_bytes(items));
+  } else {
+    write_items(items, extend(items.size() * wire_size<T>));
+  }
+}
+
+template <Flat T>
+T Unpacker::value() {
+  T item;
+  read_item(advance(wire_size<T>), item);
+  return item;
+}
+
+template <Flat T>
+std::vector<T> Unpacker::array() {
+  std::vector<T> items(count(wire_size<T>));
+  read_items(advance(items.size() * wire_size<T>), std::span<T>(items));
+  return items;
+}
+
+/// How a type that is not flat travels: `least` bytes at the fewest.
+template <class T>
+struct Wire;
+
+template <class T>
+inline constexpr std::size_t least_wire_size = Wire<std::remove_cvref_t<T>>::least;
+
+template <Flat T>
+struct Wire<T> {
+  static constexpr std::size_t least = wire_size<T>;
+  static void pack(Packer& packer, const T& item) { packer.value(item); }
+  static void unpack(Unpacker& unpacker, T& item) { item = unpacker.value<T>(); }
+};
+
+template <>
+struct Wire<std::string> {
+  static constexpr std::size_t least = sizeof(std::uint64_t);
+  static void pack(Packer& packer, const std::string& text) { packer.text(text); }
+  static void unpack(Unpacker& unpacker, std::string& text) { text = unpacker.text(); }
+};
+
+template <class T, std::size_t Extent>
+struct Wire<std::span<T, Extent>> {
+  static constexpr std::size_t least = sizeof(std::uint64_t);
+  static void pack(Packer& packer, std::span<T> items) {
+    if constexpr (Flat<std::remove_const_t<T>>) {
+      packer.array(std::span<const std::remove_const_t<T>>(items));
+    } else {
+      packer.count(items.size());
+      for (const T& item : items) parallel::pack(packer, item);
+    }
+  }
+};
+
+template <class T>
+struct Wire<std::vector<T>> {
+  static constexpr std::size_t least = sizeof(std::uint64_t);
+  static void pack(Packer& packer, const std::vector<T>& items) {
+    Wire<std::span<const T>>::pack(packer, items);
+  }
+  static void unpack(Unpacker& unpacker, std::vector<T>& items) {
+    if constexpr (Flat<T>) {
+      items = unpacker.array<T>();
+    } else {
+      items = std::vector<T>(unpacker.count(least_wire_size<T>));
+      for (T& item : items) unpack_into(unpacker, item);
+    }
+  }
+};
+
+template <class Key, class Value>
+struct Wire<std::map<Key, Value>> {
+  static constexpr std::size_t least = sizeof(std::uint64_t);
+  static void pack(Packer& packer, const std::map<Key, Value>& items) {
+    packer.count(items.size());
+    for (const auto& item : items) parallel::pack(packer, item);
+  }
+  static void unpack(Unpacker& unpacker, std::map<Key, Value>& items) {
+    items.clear();
+    for (auto n = unpacker.count(least_wire_size<Key> + least_wire_size<Value>); n > 0; --n)
+      items.insert(items.end(), parallel::unpack<std::pair<Key, Value>>(unpacker));
+  }
+};
+
+template <class T>
+struct Wire<std::optional<T>> {
+  static constexpr std::size_t least = 1;
+  static void pack(Packer& packer, const std::optional<T>& item) {
+    packer.value(item.has_value());
+    if (item) parallel::pack(packer, *item);
+  }
+  static void unpack(Unpacker& unpacker, std::optional<T>& item) {
+    item.reset();
+    if (unpacker.value<std::uint8_t>() != 0) item = parallel::unpack<T>(unpacker);
+  }
+};
+
+template <class T, std::size_t N>
+requires(!Flat<T>) struct Wire<std::array<T, N>> {
+  static constexpr std::size_t least = N * least_wire_size<T>;
+  static void pack(Packer& packer, const std::array<T, N>& items) {
+    for (const T& item : items) parallel::pack(packer, item);
+  }
+  static void unpack(Unpacker& unpacker, std::array<T, N>& items) {
+    for (T& item : items) unpack_into(unpacker, item);
+  }
+};
+
+template <class... T>
+struct Wire<std::tuple<T...>> {
+  static constexpr std::size_t least = (least_wire_size<T> + ... + 0);
+  static void pack(Packer& packer, const std::tuple<T...>& items) {
+    std::apply([&](const auto&... each) { (parallel::pack(packer, each), ...); }, items);
+  }
+  static void unpack(Unpacker& unpacker, std::tuple<T...>& items) {
+    std::apply([&](auto&... each) { (unpack_into(unpacker, each), ...); }, items);
+  }
+};
+
+template <class First, class Second>
+struct Wire<std::pair<First, Second>> {
+  static constexpr std::size_t least = least_wire_size<First> + least_wire_size<Second>;
+  static void pack(Packer& packer, const std::pair<First, Second>& items) {
+    parallel::pack(packer, items.first);
+    parallel::pack(packer, items.second);
+  }
+  static void unpack(Unpacker& unpacker, std::pair<First, Second>& items) {
+    unpack_into(unpacker, items.first);
+    unpack_into(unpacker, items.second);
+  }
+};
+
+template <HasFields T>
+requires(!Flat<T>) struct Wire<T> {
+  static constexpr std::size_t least = []<class... M, class... C>(std::type_identity<std::tuple<M C::*...>>) {
+    return (least_wire_size<M> + ... + 0);
+  }(std::type_identity<decltype(T::fields())>());
+  static void pack(Packer& packer, const T& item) {
+    for_each_field(item, [&](const auto& field) { parallel::pack(packer, field); });
+  }
+  static void unpack(Unpacker& unpacker, T& item) {
+    for_each_field(item, [&](auto& field) { unpack_into(unpacker, field); });
+  }
+};
+
+template <class T>
+void pack(Packer& packer, const T& item) {
+  Wire<T>::pack(packer, item);
+}
+
+template <class T>
+void hand_over(Packer& packer, T& item) {
+  if constexpr (Flat<T>) {
+    pack(packer, item);
+  } else if constexpr (HasFields<T>) {
+    for_each_field(item, [&](auto& field) { hand_over(packer, field); });
+  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+    std::apply([&](auto&... each) { (hand_over(packer, each), ...); }, item);
+  } else {
+    pack(packer, item);
+    item = T();
+  }
+}
+
+template <class T>
+void unpack_into(Unpacker& unpacker, T& item) {
+  Wire<T>::unpack(unpacker, item);
+}
+
+}  // namespace aeroloom::parallel

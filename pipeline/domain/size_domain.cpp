@@ -141,32 +141,18 @@ SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& re
                    JoinedFaces joined, sizing::FieldFor purpose) {
   if (!trial.prospect) {
     sizing::ChosenSizes applied = sizing::apply_sizes(sampler, trial.sizes, purpose);
-    return {sampler.model(),
-            trial.sizes,
-            std::move(applied.field),
-            std::move(joined),
-            applied.counts,
-            {},
-            report_bounded_faces(sampler, trial.sizes),
-            {},
-            {}};
+    SizingFindings findings{std::move(joined), applied.counts};
+    findings.bounded = report_bounded_faces(sampler, trial.sizes);
+    return {sampler.model(), trial.sizes, std::move(applied.field), std::move(findings)};
   }
   const double target = *target_of(request);
   sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request, purpose);
   tell_missed_target(sampler, chosen, request, target);
-  std::optional<FeatureReport> features;
+  SizingFindings findings{std::move(joined), chosen.counts};
   if (!request.holds_features())
-    features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
-  std::vector<NamedBound> bounded = report_bounded_faces(sampler, chosen.options);
-  return {sampler.model(),
-          chosen.options,
-          std::move(chosen.field),
-          std::move(joined),
-          chosen.counts,
-          std::move(features),
-          std::move(bounded),
-          {},
-          {}};
+    findings.features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
+  findings.bounded = report_bounded_faces(sampler, chosen.options);
+  return {sampler.model(), chosen.options, std::move(chosen.field), std::move(findings)};
 }
 
 sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
@@ -232,9 +218,9 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   SizedDomain sized = closed ? size_domain_near(communicator, *closed, request,
                                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, aim)
                              : finish(*sampler, request, trial, std::move(what), aim.purpose);
-  if (!closed) sized.walls = report_walls(model, coincident, *sampler, sized.field);
+  if (!closed) sized.findings.walls = report_walls(model, coincident, *sampler, sized.field);
   judge_again(report, sized.sizes);
-  sized.edges = std::move(report);
+  sized.findings.edges = std::move(report);
   if (of_level) sized.level = of_level->level, sized.found = std::move(of_level->found);
   return sized;
 }
@@ -242,7 +228,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
 }  // namespace
 
 void require_walls_apart(const SizedDomain& sized) {
-  const std::string text = text_of_cost(sized.walls.coincident);
+  const std::string text = describe(sized.findings.walls.coincident);
   if (!text.empty()) throw parallel::CollectiveError(parallel::FailureKind::input, text);
 }
 

@@ -2,31 +2,17 @@
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "cad/repair/change.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "pipeline/case/case.hpp"
-#include "pipeline/domain/bounded_faces.hpp"
 #include "pipeline/domain/level_findings.hpp"
-#include "pipeline/domain/trailing_edges.hpp"
-#include "pipeline/domain/unresolved_features.hpp"
-#include "pipeline/domain/wall_findings.hpp"
+#include "pipeline/domain/sizing_findings.hpp"
 #include "sizing/choice/given_sizes.hpp"
 #include "sizing/choice/levels.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <optional>
-#include <tuple>
-#include <vector>
 
 namespace aeroloom::domain {
-
-/// Narrow faces that were joined with neighbours.
-struct JoinedFaces {
-  std::vector<std::vector<cad::FaceId>> groups;  ///< for cad::join_faces
-  cad::Changes changes;                          ///< one for each face that vanished
-
-  static constexpr auto fields() { return std::tuple(&JoinedFaces::groups, &JoinedFaces::changes); }
-};
 
 /// Simplifications that a model may undergo so that it needs no small elements.
 struct Simplification {
@@ -43,12 +29,7 @@ struct SizedDomain {
                      ///< neighbours, if wanted
   sizing::SizingOptions sizes;
   sizing::SizeField field;
-  JoinedFaces joined;
-  sizing::PredictedCounts counts;           ///< that the field predicts
-  std::optional<FeatureReport> features;    ///< where sizes at features were chosen
-  std::vector<NamedBound> bounded;          ///< faces on which the minimum wins over curvature
-  TrailingEdgeReport edges = {};            ///< where that was looked at
-  WallFindings walls;                       ///< what was found of walls close to each other
+  SizingFindings findings;
   std::optional<sizing::Level> level = {};  ///< whose sizes these are
   std::optional<LevelFindings> found = {};  ///< by that level
 };

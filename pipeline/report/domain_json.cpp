@@ -21,9 +21,10 @@ Json geometry_json(const RunRecord& record) {
 }
 
 Json sizing_json(const RunRecord& record) {
-  return {{"features", record.features ? to_json(*record.features) : Json()},
-          {"bounded_by_minimum", to_json(record.bounded_faces)},
-          {"walls", to_json(record.walls)},
+  const domain::SizingFindings& findings = record.findings;
+  return {{"features", findings.features ? to_json(*findings.features) : Json()},
+          {"bounded_by_minimum", to_json(findings.bounded)},
+          {"walls", to_json(findings.walls)},
           {"minimum", record.sizes.minimum},
           {"feature_minimum", sizing::smallest_feature_size(record.sizes)},
           {"strip_minimum", sizing::smallest_strip_size(record.sizes)},
@@ -33,8 +34,8 @@ Json sizing_json(const RunRecord& record) {
           {"curvature_angle", record.sizes.curvature_angle},
           {"chordal_deviation", record.sizes.chordal_deviation},
           {"growth", record.sizes.growth},
-          {"trailing_edges", to_json(record.trailing_edges)},
-          {"joined_faces", to_json(record.joined_faces)},
+          {"trailing_edges", to_json(findings.edges)},
+          {"joined_faces", to_json(findings.joined.changes)},
           {"octree_leaves", record.size_field_leaves}};
 }
 

@@ -11,16 +11,12 @@
 #include "mesh/quality/quality.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
-#include "pipeline/domain/bounded_faces.hpp"
-#include "pipeline/domain/trailing_edges.hpp"
-#include "pipeline/domain/unresolved_features.hpp"
-#include "pipeline/domain/wall_findings.hpp"
+#include "pipeline/domain/sizing_findings.hpp"
 #include "pipeline/report/picture.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/surface_mesher.hpp"
 #include "volume/volume_mesher.hpp"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -60,11 +56,11 @@ struct RegionRow {
 struct LayerRecord {
   layers::LayerOptions asked;
   layers::LayerReport report;
-  bool end_on_planes = false;  ///< whose triangles are other ones than those of the surface mesh, then
 };
 
-/// Everything a run has found out, filled stage by stage; what a report is written from. The same on every
-/// rank except `domain` and `pictures`, which rank 0 alone holds.
+/// Everything a run has found out: each stage puts its findings there, and the report is written from it. No
+/// stage takes from it what another has put there. The same on every rank except `domain` and `pictures`,
+/// which rank 0 alone holds.
 struct RunRecord {
   std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
   std::int64_t input_bytes = 0;      ///< of that file
@@ -74,16 +70,9 @@ struct RunRecord {
   double unit_in_metres = 0;
   geometry::Box bounds;
   std::int32_t regions = 0, faces = 0, edges = 0;
-  std::vector<std::string> face_names;                   ///< by face id
-  std::map<std::string, mesh::PatchType> type_of_patch;  ///< by its name
-  std::vector<mesh::PatchType> patch_types;              ///< by patch of the model
-  domain::TrailingEdgeReport trailing_edges;             ///< what became of blunt ones
-  cad::Changes joined_faces;                             ///< narrow faces that vanished in their neighbours
+  std::vector<std::string> face_names;  ///< by face id
   sizing::SizingOptions sizes;
-  std::optional<domain::FeatureReport> features;
-  std::vector<domain::NamedBound> bounded_faces;  ///< on which the smallest size wins over curvature
-  sizing::PredictedCounts forecast;               ///< what the size field predicts
-  domain::WallFindings walls;                     ///< what was found of walls close to each other
+  domain::SizingFindings findings;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
   std::optional<LayerRecord> layers;  ///< where the case asks for some

@@ -40,7 +40,7 @@ bool has(const std::string& text, const std::string& word) {
 
 TEST_F(StageLog, WarnsWhereMoreTetrahedraComeThanWereForecast) {
   report::RunRecord record;
-  record.forecast.tetrahedra = 1e6;
+  record.findings.counts.tetrahedra = 1e6;
   record.decomposition.expected_tetrahedra = 1.4e6;
   EXPECT_EQ(said_by([&] { warn_of_count(record); }).warnings, "");
   record.decomposition.expected_tetrahedra = 3e6;

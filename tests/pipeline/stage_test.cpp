@@ -1,6 +1,8 @@
 // How what goes wrong in a stage ends the program: by its kind, else by its stage.
 #include "pipeline/stage.hpp"
 
+#include "parallel/sandbox/sandbox.hpp"
+
 #include <filesystem>
 #include <functional>
 #include <ios>

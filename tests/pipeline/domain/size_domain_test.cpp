@@ -33,13 +33,13 @@ TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
   const SizedDomain joined = size(model, 0.1, cases::NarrowFaces::join);
   EXPECT_EQ(joined.model.face_count(), model.face_count() - 1);
-  ASSERT_EQ(joined.joined.changes.size(), 1u);
-  EXPECT_TRUE(joined.joined.changes[0].where);
-  EXPECT_NE(joined.joined.changes[0].what.find("joined with"), std::string::npos);
-  EXPECT_LT(joined.joined.changes[0].how_much, 1e-6);
+  ASSERT_EQ(joined.findings.joined.changes.size(), 1u);
+  EXPECT_TRUE(joined.findings.joined.changes[0].where);
+  EXPECT_NE(joined.findings.joined.changes[0].what.find("joined with"), std::string::npos);
+  EXPECT_LT(joined.findings.joined.changes[0].how_much, 1e-6);
   const SizedDomain kept = size(model, 0.1, cases::NarrowFaces::keep);
   EXPECT_EQ(kept.model.face_count(), model.face_count());
-  EXPECT_TRUE(kept.joined.changes.empty());
+  EXPECT_TRUE(kept.findings.joined.changes.empty());
   // Half-way up, where the strip's ends are far away, its width asks for nothing any more.
   EXPECT_GT(joined.field({1, 0, 0.75}), 2 * kept.field({1, 0, 0.75}));
 }
@@ -56,7 +56,7 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   request.target_tetrahedra = 20'000;
   const auto world = parallel::Communicator::world();
   const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
-  ASSERT_EQ(sized.joined.changes.size(), 1u);
+  ASSERT_EQ(sized.findings.joined.changes.size(), 1u);
   const sizing::ModelSampler sampler(world, sized.model, 0, sizing::Fields::one);
   const double predicted = sampler.predict(sized.field).tetrahedra;
   EXPECT_GT(predicted, 14'000);
@@ -90,8 +90,8 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
     const parallel::Warnings warnings = parallel::take_warnings(world);
-    const double share = sized.features ? sized.features->share.share : 1;
-    const double error = std::log(sized.counts.tetrahedra / share / 30'000);
+    const double share = sized.findings.features ? sized.findings.features->share.share : 1;
+    const double error = std::log(sized.findings.counts.tetrahedra / share / 30'000);
     met += std::abs(error) < std::log(1.25);
     if (std::abs(error) > std::log(1.25)) {
       EXPECT_GT(error, 0) << chosen;
@@ -111,9 +111,10 @@ TEST(SizeDomain, ChoosesTheSameOnAnyNumberOfRanks) {
     for (const unsigned chosen : {0u, 21u, 42u, 63u}) {
       const SizedDomain sized =
           size_domain(communicator, model, target_beside(chosen), {cases::NarrowFaces::join});
-      text += fmt::format("{:a} {:a} {:a} {:a} {:a} {}\n", sized.counts.tetrahedra, sized.counts.triangles,
-                          sized.sizes.minimum, sized.sizes.surface_maximum,
-                          sized.features ? sized.features->share.share : 1, sized.field.leaf_count());
+      text += fmt::format("{:a} {:a} {:a} {:a} {:a} {}\n", sized.findings.counts.tetrahedra,
+                          sized.findings.counts.triangles, sized.sizes.minimum, sized.sizes.surface_maximum,
+                          sized.findings.features ? sized.findings.features->share.share : 1,
+                          sized.field.leaf_count());
     }
     return text;
   });
@@ -130,7 +131,7 @@ TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
   request.minimum = 0.01;
   const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
   const parallel::Warnings warnings = parallel::take_warnings(world);
-  EXPECT_GT(sized.counts.tetrahedra, 2000);
+  EXPECT_GT(sized.findings.counts.tetrahedra, 2000);
   if (!world.is_root()) return;
   ASSERT_EQ(warnings.kept.size(), 1u);
   EXPECT_NE(warnings.kept[0].message.find("sizing.curvature_angle makes it"), std::string::npos)
@@ -160,23 +161,25 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
     return size_domain(parallel::Communicator::world(), model, request, {cases::NarrowFaces::join});
   };
   const SizedDomain small = size_within(2);
-  ASSERT_TRUE(small.features);
-  ASSERT_EQ(small.features->strips.size(), 3u) << "the blunt end, and the sides beside it";
-  EXPECT_NEAR(small.features->strips[0].width, 0.0005, 1e-6);
-  EXPECT_NEAR(small.features->strips[0].place.x, 1, 1e-9);
-  const double aspect = small.features->share.aspect;
+  ASSERT_TRUE(small.findings.features);
+  ASSERT_EQ(small.findings.features->strips.size(), 3u) << "the blunt end, and the sides beside it";
+  EXPECT_NEAR(small.findings.features->strips[0].width, 0.0005, 1e-6);
+  EXPECT_NEAR(small.findings.features->strips[0].place.x, 1, 1e-9);
+  const double aspect = small.findings.features->share.aspect;
   EXPECT_GT(aspect, 1);
-  EXPECT_NEAR(std::tan(small.features->strips[0].surface_degrees * std::numbers::pi / 180), 1 / aspect, 1e-6);
-  EXPECT_GT(small.features->wanted_tetrahedra(), 2 * 20'000);
-  const std::string text = describe(*small.features);
-  EXPECT_NE(text.find("'" + small.features->strips[0].face + "'"), std::string::npos) << text;
+  EXPECT_NEAR(std::tan(small.findings.features->strips[0].surface_degrees * std::numbers::pi / 180),
+              1 / aspect, 1e-6);
+  EXPECT_GT(small.findings.features->wanted_tetrahedra(), 2 * 20'000);
+  const std::string text = describe(*small.findings.features);
+  EXPECT_NE(text.find("'" + small.findings.features->strips[0].face + "'"), std::string::npos) << text;
   EXPECT_NE(text.find("sizing.feature_budget"), std::string::npos) << text;
   const SizedDomain large = size_within(500);
-  ASSERT_TRUE(large.features);
-  EXPECT_TRUE(large.features->strips.empty());
-  EXPECT_TRUE(describe(*large.features).empty());
+  ASSERT_TRUE(large.findings.features);
+  EXPECT_TRUE(large.findings.features->strips.empty());
+  EXPECT_TRUE(describe(*large.findings.features).empty());
   EXPECT_LT(large.sizes.strip_minimum, 0.0005);
-  EXPECT_NEAR(small.features->wanted_tetrahedra(), large.counts.tetrahedra, 0.4 * large.counts.tetrahedra);
+  EXPECT_NEAR(small.findings.features->wanted_tetrahedra(), large.findings.counts.tetrahedra,
+              0.4 * large.findings.counts.tetrahedra);
 }
 
 io::CheckpointContent as_read(const io::CheckpointDraft& draft) {
@@ -196,8 +199,8 @@ TEST(SizeDomain, ComesBackFromACheckpoint) {
   EXPECT_EQ(found.field({1, 0, 0.75}), sized.field({1, 0, 0.75}));
   EXPECT_EQ(found.sizes, sized.sizes);
   EXPECT_EQ(found.model.face_count(), sized.model.face_count());
-  EXPECT_EQ(found.joined.groups, sized.joined.groups);
-  EXPECT_EQ(found.joined.changes.at(0).what, sized.joined.changes.at(0).what);
+  EXPECT_EQ(found.findings.joined.groups, sized.findings.joined.groups);
+  EXPECT_EQ(found.findings.joined.changes.at(0).what, sized.findings.joined.changes.at(0).what);
 }
 
 /// A half wing of unit chord and three times that span, as a body.
@@ -213,8 +216,8 @@ SizedDomain size_automatically(const Model& model, const cases::SizingRequest& r
 }
 
 const JudgedEdge& only_edge(const SizedDomain& sized) {
-  EXPECT_EQ(sized.edges.size(), 1u);
-  return sized.edges.front();
+  EXPECT_EQ(sized.findings.edges.size(), 1u);
+  return sized.findings.edges.front();
 }
 
 // Thick enough for the budget: kept. Thin enough that nobody sees it: closed. Between: graded.
@@ -306,12 +309,12 @@ TEST(TrailingEdges, ClosedOnesComeBackFromACheckpoint) {
   cases::SizingRequest request;
   request.minimum = 0.05, request.maximum = 1;
   const SizedDomain sized = size_automatically(model, request);
-  ASSERT_TRUE(has_closed(sized.edges));
+  ASSERT_TRUE(has_closed(sized.findings.edges));
   const auto world = parallel::Communicator::world();
   const SizedDomain found = pipeline::unpack_sizes(world, as_read(pipeline::pack_sizes(sized)), model);
   EXPECT_EQ(found.model.face_count(), sized.model.face_count());
   EXPECT_EQ(found.model.edge_count(), sized.model.edge_count());
-  EXPECT_EQ(found.edges.at(0).what, sized.edges.at(0).what);
+  EXPECT_EQ(found.findings.edges.at(0).what, sized.findings.edges.at(0).what);
 }
 
 // Where joined faces could not be meshed, the surface is that of other sizes than the stage before has kept.
@@ -324,7 +327,7 @@ TEST(SizeDomain, OtherSizesComeWithTheSurface) {
   SizedDomain sized = joined;
   const auto with = pipeline::pack_surface(world, {empty, kept.field, {}, kept, true});
   EXPECT_TRUE(pipeline::unpack_surface(world, as_read(with), model, sized));
-  EXPECT_TRUE(sized.joined.groups.empty());
+  EXPECT_TRUE(sized.findings.joined.groups.empty());
   EXPECT_EQ(sized.field.digest(), kept.field.digest());
   sized = joined;
   const auto without = pipeline::pack_surface(world, {empty, kept.field, {}, kept, false});

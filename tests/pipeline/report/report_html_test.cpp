@@ -36,7 +36,7 @@ RunRecord rich_record() {
   record.bounds.add(geometry::Vec3{1, 1, 1});
   record.face_names = {"nose", "tail"};
   record.domain.changes = {{"sewn", geometry::Vec3{1, 2, 3}, 1e-5}};
-  record.joined_faces = {{"joined", std::nullopt, 0.25}};
+  record.findings.joined.changes = {{"joined", std::nullopt, 0.25}};
   record.sizes.maximum = 2;
   record.surface.triangles = 120;
   record.surface.sharp_corners = {{0, {1, 2, 3}, 12.5}};
