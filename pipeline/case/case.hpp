@@ -12,11 +12,11 @@
 #include "pipeline/case/layer_rules.hpp"
 #include "pipeline/case/patch_rules.hpp"
 #include "pipeline/case/quality_gate.hpp"
-#include "pipeline/case/source_rules.hpp"
 #include "sizing/choice/feature_share.hpp"
 #include "sizing/choice/given_sizes.hpp"
 #include "sizing/choice/levels.hpp"
 #include "sizing/sources/patch_size.hpp"
+#include "sizing/sources/size_shapes.hpp"
 #include "surface/surface_options.hpp"
 #include "volume/volume_options.hpp"
 
@@ -25,7 +25,38 @@
 #include <string>
 #include <vector>
 
+namespace aeroloom::sizing {
+struct WallSize;
+struct EdgeSize;
+}  // namespace aeroloom::sizing
+
 namespace aeroloom::cases {
+
+/// A source of sizes as it is written, or in the model's unit.
+struct SourceRule {
+  std::string name;
+  sizing::SizeShape shape;
+  double size = 0;  ///< largest size within; of a wake where it begins
+};
+
+/// A band of small elements off walls as it is written.
+struct WallRule {
+  std::string name;
+  std::vector<std::string> faces;  ///< patterns; none: all walls
+  std::optional<double> size, distance;
+};
+
+/// Sizes along CAD edges as they are written.
+struct EdgeRule {
+  std::string name;
+  std::vector<std::string> between;         ///< patterns of faces
+  std::optional<geometry::Vec3> low, high;  ///< corners of a box
+  std::optional<double> size;
+};
+
+/// What rules ask for that have all they need.
+sizing::WallSize wall_of(const WallRule& rule);
+sizing::EdgeSize edge_of(const EdgeRule& rule);
 
 /// The sizes that the user gave; others are chosen from the model.
 struct SizingRequest : sizing::GivenSizes {

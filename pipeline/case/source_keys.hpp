@@ -1,7 +1,7 @@
 /// The keys of sizes at places: sizing.sources, sizing.expression.
 #pragma once
 
-#include "pipeline/case/source_rules.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/case/yaml_reader.hpp"
 
 #include <deque>

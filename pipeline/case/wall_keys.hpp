@@ -1,7 +1,7 @@
 /// The keys of sizes at walls and along CAD edges: sizing.walls, sizing.edges.
 #pragma once
 
-#include "pipeline/case/source_rules.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/case/yaml_reader.hpp"
 
 #include <deque>

@@ -46,7 +46,7 @@ TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
 
 TEST(SizeDomain, LeavesFacesAsWideAsElements) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
-  EXPECT_TRUE(size(model, 0.01, cases::NarrowFaces::join).joined.changes.empty());
+  EXPECT_TRUE(size(model, 0.01, cases::NarrowFaces::join).findings.joined.changes.empty());
 }
 
 // Sizes from the model go by what is left of it.

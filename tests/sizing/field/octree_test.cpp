@@ -33,7 +33,7 @@ OctreeNodes collect_all(const SplitCubes::Leaves& leaves, const LeafTable& table
 std::vector<std::uint64_t> keys_of(std::span<const GridPoint> points) {
   std::vector<std::uint64_t> keys;
   for (const GridPoint p : points) keys.push_back(morton_key(p));
-  geometry::sort_unique(keys);
+  aeroloom::geometry::sort_unique(keys);
   return keys;
 }
 

@@ -42,7 +42,7 @@ TEST(SizeShapes, TellHowFarAPointIs) {
   EXPECT_EQ(cylinder.distance_to({1, 0.6, 0.6}), 0);
   EXPECT_NEAR(cylinder.distance_to({1, 0, 3}), 2, 1e-12);
   EXPECT_NEAR(cylinder.distance_to({8, 4, 0}), 5, 1e-12);  // to the rim
-  EXPECT_NEAR(PointShape{{1, 1, 1}}.distance_to({1, 4, 5}), 5, 1e-12);
+  EXPECT_NEAR((PointShape{{1, 1, 1}}).distance_to({1, 4, 5}), 5, 1e-12);
   // Without an axis, a ball is left.
   EXPECT_NEAR((CylinderShape{{1, 2, 3}, {1, 2, 3}, 1.5}).distance_to({1, 2, 6}), 1.5, 1e-12);
 }
