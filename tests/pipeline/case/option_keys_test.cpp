@@ -27,8 +27,7 @@ TEST(OptionKeys, OptionsAreNamedByTheKeysThatSetThem) {
 TEST(OptionKeys, EveryOptionThatAMessageNamesHasAKey) {
   const std::regex quoted(R"re("[^"]*\w+Options::\w+[^"]*")re");
   int named = 0;
-  for (const char* room :
-       {"cad", "mesh", "sizing", "surface", "layers", "volume", "improve", "pipeline/domain"}) {
+  for (const char* room : {"cad", "mesh", "sizing", "surface", "volume", "improve", "pipeline/domain"}) {
     for (const auto& file : std::filesystem::recursive_directory_iterator(source_tree() / room)) {
       if (file.path().extension() != ".cpp" && file.path().extension() != ".hpp") continue;
       std::ifstream stream(file.path());
