@@ -40,8 +40,7 @@ Angles measure_angles(const mesh::DistributedMesh& filled) {
   return angles;
 }
 
-mesh::DistributedMesh fill(const Communicator& communicator, const benchmarks::CaseSurface& from,
-                           const volume::VolumeOptions& options) {
+mesh::DistributedMesh fill(const benchmarks::CaseSurface& from, const volume::VolumeOptions& options) {
   const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, options};
   volume::VolumeReport report;
   return volume::fill_zones(task, volume::decompose(task), report);
@@ -49,7 +48,7 @@ mesh::DistributedMesh fill(const Communicator& communicator, const benchmarks::C
 
 void run(const Communicator& communicator, const cases::Case& input) {
   const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
-  mesh::DistributedMesh filled = fill(communicator, from, input.volume);
+  mesh::DistributedMesh filled = fill(from, input.volume);
   const Angles before = measure_angles(filled);
   improve::ImproveReport total;
   const double start = parallel::cpu_seconds();

@@ -47,7 +47,7 @@ struct Unaware {
   ColumnLimits limits;
 };
 
-mesh::DistributedMesh clear(const Communicator& communicator, Unaware& columns, LayerReport& report) {
+mesh::DistributedMesh clear(Unaware& columns, LayerReport& report) {
   const PlaneRemesher none;
   return FrontClearing(columns.wall, columns.directions, none).run(columns.limits, report);
 }
@@ -58,7 +58,7 @@ TEST(Front, ShrinksUntilNoTrianglesMeet) {
   Unaware columns(mesh);
   EXPECT_FALSE(mesh::find_intersections(columns.front()).empty());
   LayerReport report;
-  clear(world, columns, report);
+  clear(columns, report);
   EXPECT_TRUE(mesh::find_intersections(columns.front()).empty());
   EXPECT_GE(report.crossing_rounds, 1);
   EXPECT_GT(report.crossings, 0);
@@ -79,7 +79,7 @@ TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
     const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);
     Unaware columns(mesh);
     LayerReport report;
-    const mesh::DistributedMesh front = clear(communicator, columns, report);
+    const mesh::DistributedMesh front = clear(columns, report);
     return mesh::hash_mesh(front, mesh::number_mesh(front));
   };
   EXPECT_EQ(cleared(world), cleared(self));

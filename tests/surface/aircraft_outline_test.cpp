@@ -111,7 +111,7 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
   move();
   int attempts = 1;
   for (; attempts < 40; ++attempts) {
-    const PlaneConflicts found = remesh(communicator, model, options, meshed);
+    const PlaneConflicts found = remesh(model, options, meshed);
     if (found.empty()) break;
     outline.shorten(found.vertices);
     move();
@@ -120,8 +120,8 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
   EXPECT_GT(attempts, 1);
   EXPECT_EQ(outline.longest(), 0.02 * 37.6);
   refine_at_loops(communicator, meshed);
-  EXPECT_TRUE(remesh(communicator, model, options, meshed).empty());
-  expect_closed(communicator, meshed);
+  EXPECT_TRUE(remesh(model, options, meshed).empty());
+  expect_closed(meshed);
   EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
   const PlaneMeasures measures = measure_planes(communicator, meshed);
   EXPECT_EQ(measures.off, 0);

@@ -43,8 +43,7 @@ inline Meshed mesh_model(const Communicator& communicator, const Model& model,
   return {mesh_surface(communicator, model, field, options), cad::shapes::faces_of_patch(model, "symmetry")};
 }
 
-inline PlaneConflicts remesh(const Communicator& communicator, const Model& model,
-                             const SurfaceOptions& options, Meshed& meshed) {
+inline PlaneConflicts remesh(const Model& model, const SurfaceOptions& options, Meshed& meshed) {
   return remesh_planes(model, meshed.surface.field, {meshed.planes, options}, meshed.surface.mesh);
 }
 
@@ -108,7 +107,7 @@ inline std::int64_t count_plane_hits(const Communicator& communicator, const Mes
   });
 }
 
-inline void expect_closed(const Communicator& communicator, const Meshed& meshed) {
+inline void expect_closed(const Meshed& meshed) {
   const auto report = mesh::check_surface_mesh(meshed.surface.mesh, mesh::number_mesh(meshed.surface.mesh));
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }

@@ -63,8 +63,8 @@ TEST(PlaneRemesher, MeshesThePlaneAroundAThickenedBall) {
     Meshed meshed = before;
     thicken_ball(thickness, meshed.surface.mesh);
     const auto others = other_pieces(meshed.planes, meshed.surface.mesh);
-    EXPECT_TRUE(remesh(world, model, options, meshed).empty());
-    expect_closed(world, meshed);
+    EXPECT_TRUE(remesh(model, options, meshed).empty());
+    expect_closed(meshed);
     EXPECT_EQ(count_plane_hits(world, meshed), 0);
     EXPECT_EQ(other_pieces(meshed.planes, meshed.surface.mesh), others);
     const PlaneMeasures was = measure_planes(world, before), is = measure_planes(world, meshed);
@@ -81,7 +81,7 @@ TEST(PlaneRemesher, IsTheSameOnAnyNumberOfRanks) {
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
     Meshed meshed = mesh_model(communicator, model, ball_sizes, options);
     thicken_ball(2 * ball_size, meshed.surface.mesh);
-    EXPECT_TRUE(remesh(communicator, model, options, meshed).empty());
+    EXPECT_TRUE(remesh(model, options, meshed).empty());
     EXPECT_GT(measure_planes(communicator, meshed).pieces, 3);
     return hash_of(meshed.surface.mesh);
   });
@@ -94,14 +94,14 @@ TEST(PlaneRemesher, CutsHeavyPlanesIntoPieces) {
   const SurfaceOptions options{.piece_triangles = 60};
   Meshed meshed = mesh_model(world, model, ball_sizes, options);
   thicken_ball(2 * ball_size, meshed.surface.mesh);
-  EXPECT_TRUE(remesh(world, model, options, meshed).empty());
-  expect_closed(world, meshed);
+  EXPECT_TRUE(remesh(model, options, meshed).empty());
+  expect_closed(meshed);
   const PlaneMeasures once = measure_planes(world, meshed);
   EXPECT_GT(once.pieces, 3);
   EXPECT_GT(once.least_angle, 20);
   EXPECT_EQ(once.off, 0);
   const std::string hash = hash_of(meshed.surface.mesh);
-  EXPECT_TRUE(remesh(world, model, options, meshed).empty());
+  EXPECT_TRUE(remesh(model, options, meshed).empty());
   EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
 }
 
@@ -115,7 +115,7 @@ TEST(PlaneRemesher, KeepsOrderAndClassification) {
     for (const mesh::LocalIndex v : piece.shared_vertices)
       piece.vertex_dimension[v] = mesh::CadDimension::region, piece.vertex_entity[v] = 7;
   }
-  EXPECT_TRUE(remesh(world, model, {}, meshed).empty());
+  EXPECT_TRUE(remesh(model, {}, meshed).empty());
   mesh::PieceId last_other = -1, first_plane = meshed.surface.mesh.piece_count;
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
     if (!is_of(meshed.planes, piece)) {
@@ -153,7 +153,7 @@ TEST(PlaneRemesher, BlamesTheVerticesOfEdgesThatCross) {
       },
       meshed.surface.mesh);
   const std::string hash = hash_of(meshed.surface.mesh);
-  const PlaneConflicts conflicts = remesh(world, model, {}, meshed);
+  const PlaneConflicts conflicts = remesh(model, {}, meshed);
   EXPECT_TRUE(std::binary_search(conflicts.vertices.begin(), conflicts.vertices.end(), far));
   EXPECT_LT(conflicts.vertices.size(), 10u);
   EXPECT_NE(conflicts.complaint.find("crosses or touches itself"), std::string::npos) << conflicts.complaint;
@@ -169,7 +169,7 @@ TEST(PlaneRemesher, RefusesVerticesBesideThePlane) {
         return p.y == 0 && norm(p) < 1.5 ? std::optional(Vec3{p.x, 1e-15, p.z}) : std::nullopt;
       },
       meshed.surface.mesh);
-  EXPECT_THROW(remesh(world, model, {}, meshed), parallel::CollectiveError);
+  EXPECT_THROW(remesh(model, {}, meshed), parallel::CollectiveError);
 }
 
 /// The ball in the corner of a box, turned about the ball's centre by so many degrees.
@@ -217,14 +217,14 @@ TEST(PlaneRemesher, SpreadsVerticesOnLinesBetweenPlanesAnew) {
       meshed.planes = planes_through_centre(model);
       EXPECT_EQ(meshed.planes.size(), 3u);
       thicken_ball(4 * ball_size, meshed.surface.mesh);
-      const PlaneConflicts conflicts = remesh(communicator, model, {}, meshed);
+      const PlaneConflicts conflicts = remesh(model, {}, meshed);
       EXPECT_TRUE(conflicts.empty()) << conflicts.complaint;
-      expect_closed(communicator, meshed);
+      expect_closed(meshed);
       EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
       EXPECT_GT(measure_planes(communicator, meshed).least_angle, 20);
       EXPECT_LE(distance_off_planes(communicator, model, meshed), degrees == 0 ? 0 : 1e-13);
       std::string hash = hash_of(meshed.surface.mesh);
-      EXPECT_TRUE(remesh(communicator, model, {}, meshed).empty());
+      EXPECT_TRUE(remesh(model, {}, meshed).empty());
       EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
       return hash;
     });
