@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -27,8 +26,8 @@ using mesh::PointTable;
 /// Cells of a part where nothing else decides.
 constexpr GlobalIndex suitable_part_cells = 250'000;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw parallel::CollectiveError(parallel::FailureKind::input, fmt::format("'{}': {}", path, what));
+[[noreturn]] void refuse(const SharedPath& file, const std::string& what) {
+  throw parallel::CollectiveError(parallel::FailureKind::input, fmt::format("'{}': {}", file.path, what));
 }
 
 void require_ids(const std::vector<GlobalIndex>& ids, const char* whose) {
@@ -82,12 +81,12 @@ struct CellPlaces {
   GlobalIndex total = 0;
 };
 
-CellPlaces place_cells(const parallel::Communicator& communicator, const RawMesh& raw) {
+CellPlaces place_cells(const RawMesh& raw) {
   CellPlaces places;
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
     const auto mine = static_cast<std::int64_t>(raw.cell_regions[s].size());
-    places.first[s] = places.total + communicator.exclusive_scan(mine);
-    places.total += communicator.sum(mine);
+    places.first[s] = places.total + raw.file.communicator.exclusive_scan(mine);
+    places.total += raw.file.communicator.sum(mine);
   }
   return places;
 }
@@ -213,7 +212,8 @@ GlobalIndex number_faces(const RawMesh& raw, const IdTable& ids, const std::vect
   return left_out;
 }
 
-PointTable store_points(const parallel::Communicator& communicator, RawMesh& raw, const std::string& path) {
+PointTable store_points(RawMesh& raw) {
+  const parallel::Communicator& communicator = raw.file.communicator;
   GlobalIndex limit = 0;
   for (const GlobalIndex id : raw.point_ids) limit = std::max(limit, id + 1);
   for (const auto& cells : raw.cells) {
@@ -229,7 +229,7 @@ PointTable store_points(const parallel::Communicator& communicator, RawMesh& raw
   mesh::KeyRanges ranges = mesh::fair_ranges(communicator, std::move(raw.point_ids), limit);
   PointTable store(communicator, std::move(ranges), std::move(points));
   if (store.clash() >= 0)
-    refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));
+    refuse(raw.file, fmt::format("point {} comes with different coordinates", store.clash()));
   return store;
 }
 
@@ -240,46 +240,47 @@ std::int32_t suitable_parts(GlobalIndex cells) {
 
 /// Runs what one share alone may find wrong. Collective.
 template <class Work>
-void agree_on(const parallel::Communicator& communicator, const std::string& path, const Work& work) {
-  parallel::agree(communicator, [&] {
+void agree_on(const SharedPath& file, const Work& work) {
+  parallel::agree(file.communicator, [&] {
     try {
       work();
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(fmt::format("'{}': {}", path, error.what()));
+      throw std::runtime_error(fmt::format("'{}': {}", file.path, error.what()));
     }
   });
 }
 
 }  // namespace
 
-Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
-                   std::int32_t parts) {
-  agree_on(communicator, path, [&] { require_sound(raw); });
-  const CellPlaces places = place_cells(communicator, raw);
-  if (places.total == 0) refuse(path, "there are no tetrahedra, pyramids or prisms in it");
+Assembled assemble(RawMesh raw, std::int32_t parts) {
+  const parallel::Communicator& communicator = raw.file.communicator;
+  agree_on(raw.file, [&] { require_sound(raw); });
+  const CellPlaces places = place_cells(raw);
+  if (places.total == 0) refuse(raw.file, "there are no tetrahedra, pyramids or prisms in it");
   if (parts <= 0) parts = suitable_parts(places.total);
   Assembled result;
-  PointTable store = store_points(communicator, raw, path);
+  PointTable store = store_points(raw);
   const GlobalIndex in_file = store.count();
   const IdTable ids = used_ids(raw);
   PieceItems items;
   NumberedShare share;
+  share.file = raw.file;
   {
     const PointTable::Fetched found = store.fetch(ids.numbers());
     if (found.missing >= 0)
-      refuse(path, fmt::format("a cell refers to point {}, which there is not", found.missing));
+      refuse(raw.file, fmt::format("a cell refers to point {}, which there is not", found.missing));
     const IdTable of_faces = face_ids(raw);
     PointTable::Numbers numbers = store.number(ids.numbers(), of_faces.numbers());
     share.numbers = std::move(numbers.used);
     share.shared = std::move(numbers.shared);
     result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
     ShareBuilder builder(raw, ids, found.values);
-    agree_on(communicator, path, [&] { builder.add_cells(places, parts, share, items); });
+    agree_on(raw.file, [&] { builder.add_cells(places, parts, share, items); });
     result.turned_cells = communicator.sum(builder.turned);
   }
   result.dropped_points = in_file - store.count();
   raw.cells = {}, raw.faces = {};
-  MatchedFaces matched = match_boundary(communicator, share, std::move(raw.patches), raw.regions, path);
+  MatchedFaces matched = match_boundary(share, std::move(raw.patches), raw.regions);
   share = {};
   result.unnamed_faces = matched.unnamed;
   result.left_out_faces += matched.left_out;

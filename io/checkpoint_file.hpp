@@ -5,7 +5,7 @@
 /// and for the common bytes and each item its number, bytes and digest; then their bytes, without gaps.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
+#include "io/shared_path.hpp"
 #include "parallel/storage/digest.hpp"
 
 #include <cstdint>
@@ -49,15 +49,13 @@ struct CheckpointContent {
 
 /// Writes the file whole or not at all (parallel/storage/shared_file.hpp). Collective; throws
 /// CollectiveError.
-void write_checkpoint(const parallel::Communicator& communicator, const std::string& path,
-                      const CheckpointLabel& label, const CheckpointDraft& draft);
+void write_checkpoint(const SharedPath& file, const CheckpointLabel& label, const CheckpointDraft& draft);
 
 /// The label alone; nothing where there is no file, or one with another number of texts. Collective; throws
 /// CollectiveError where it is damaged.
-std::optional<CheckpointLabel> read_checkpoint_label(const parallel::Communicator& communicator,
-                                                     const std::string& path, std::size_t texts);
+std::optional<CheckpointLabel> read_checkpoint_label(const SharedPath& file, std::size_t texts);
 
 /// Collective; throws CollectiveError where it cannot be read or is damaged.
-CheckpointContent read_checkpoint(const parallel::Communicator& communicator, const std::string& path);
+CheckpointContent read_checkpoint(const SharedPath& file);
 
 }  // namespace aeroloom::io

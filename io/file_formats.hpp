@@ -1,8 +1,6 @@
 /// The formats of mesh files: a row has all that the program asks of one.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -14,6 +12,7 @@ namespace aeroloom::io {
 
 struct FileMesh;
 struct RawMesh;
+struct SharedPath;
 struct WriteOptions;
 
 enum class FileFormat : std::uint8_t {
@@ -52,7 +51,7 @@ struct FormatRow {
   /// Of paths to read; none where files are read as those of another format. What is empty is none.
   std::array<ReadableEnd, 3> readable_ends = {};
   /// Null: the format is not read.
-  RawMesh (*read)(const parallel::Communicator& communicator, const std::string& path) = nullptr;
+  RawMesh (*read)(const SharedPath& file) = nullptr;
   /// `path`: as written_path() has it.
   void (*write)(const FileMesh& mesh, const std::string& path, const WriteOptions& options);
   FormatContent content = {};
@@ -66,8 +65,7 @@ struct FormatRow {
   /// How many parts a file names; 0 where it names none. Null: files name none.
   int (*named_parts)(const std::string& path) = nullptr;
   /// Removes parts of an earlier mesh with more than `parts`. Null: there can be none.
-  void (*remove_later_parts)(const parallel::Communicator& communicator, const std::string& path,
-                             std::int32_t parts) = nullptr;
+  void (*remove_later_parts)(const SharedPath& file, std::int32_t parts) = nullptr;
   /// What to know of lengths in a unit that is not the metre. Null: files have any unit.
   std::string (*unit_warning)(const std::string& unit, double in_metres) = nullptr;
 };

@@ -111,11 +111,11 @@ struct FileMesh {
   std::vector<std::array<mesh::GlobalIndex, cell_shape_count>> region_cells;  ///< by region and shape
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> patch_faces;   ///< by patch and shape
 
+  const parallel::Communicator& communicator() const { return pieces->communicator; }
   mesh::GlobalIndex cell_count(CellShape shape) const;
   mesh::GlobalIndex cell_count() const;
   /// Of patches that are not interior.
   mesh::GlobalIndex boundary_count(FaceShape shape) const;
-  mesh::GlobalIndex face_count(FaceShape shape) const;
   ShapeCounts counts(CountedFaces faces) const;
 };
 

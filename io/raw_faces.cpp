@@ -82,8 +82,7 @@ private:
 
 /// Sides of cells that are not matched inside one region here, or that a cell of another share may have, and
 /// all faces of the file.
-std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communicator,
-                                         const NumberedShare& share) {
+std::vector<FaceCandidate> candidates_of(const NumberedShare& share) {
   std::vector<FaceCandidate> candidates;
   const ShareFaces faces(share);
   std::vector<FaceCandidate> met;
@@ -101,7 +100,7 @@ std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communica
                     });
   GlobalIndex count = 0;
   for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
-  GlobalIndex order = communicator.exclusive_scan(count);
+  GlobalIndex order = share.file.communicator.exclusive_scan(count);
   for (const FaceShape shape : face_shapes) {
     const auto s = static_cast<std::size_t>(shape);
     for (std::size_t f = 0; f < share.patches[s].size(); ++f) {
@@ -179,14 +178,13 @@ private:
   }
 };
 
-void require_fit(const parallel::Communicator& communicator, const std::vector<UnmatchedFace>& mine,
-                 const std::string& path) {
-  const GlobalIndex count = communicator.sum(static_cast<std::int64_t>(mine.size()));
+void require_fit(const SharedPath& file, const std::vector<UnmatchedFace>& mine) {
+  const GlobalIndex count = file.communicator.sum(static_cast<std::int64_t>(mine.size()));
   if (count == 0) return;
   const auto less = [](const UnmatchedFace& a, const UnmatchedFace& b) { return a.key < b.key; };
   std::vector<UnmatchedFace> first;
   if (!mine.empty()) first.push_back(*std::min_element(mine.begin(), mine.end(), less));
-  const auto all = communicator.all_gather_items(std::span<const UnmatchedFace>(first));
+  const auto all = file.communicator.all_gather_items(std::span<const UnmatchedFace>(first));
   const UnmatchedFace& worst = *std::min_element(all.begin(), all.end(), less);
   throw parallel::CollectiveError(
       parallel::FailureKind::input,
@@ -194,7 +192,7 @@ void require_fit(const parallel::Communicator& communicator, const std::vector<U
                   "without those "
                   "that no cell uses): "
                   "the mesh does not conform; {} such faces",
-                  path,
+                  file.path,
                   worst.cells > 2 ? "more than two cells meet"
                                   : "two cells lie on the same side, or their corners cross,",
                   worst.key[0], worst.key[1], worst.key[2], count));
@@ -292,12 +290,12 @@ void name_faces(const std::vector<ModelFace>& faces, mesh::DistributedMesh& name
 
 }  // namespace
 
-MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
-                            std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
-                            const std::string& path) {
-  FaceMatch match(mesh::meet_by_key(communicator, candidates_of(communicator, share), &FaceCandidate::key,
-                                    &FaceCandidate::place));
-  require_fit(communicator, match.unmatched, path);
+MatchedFaces match_boundary(const NumberedShare& share, std::vector<mesh::Patch> patches,
+                            const std::vector<std::string>& regions) {
+  const parallel::Communicator& communicator = share.file.communicator;
+  FaceMatch match(
+      mesh::meet_by_key(communicator, candidates_of(share), &FaceCandidate::key, &FaceCandidate::place));
+  require_fit(share.file, match.unmatched);
   PatchTable table(communicator, std::move(patches), regions, match.found);
   std::vector<ModelFace> of_found;
   of_found.reserve(match.found.size());

@@ -12,6 +12,7 @@ namespace aeroloom::io {
 
 /// The share of one rank with its points numbered: corners are places in `numbers`.
 struct NumberedShare {
+  SharedPath file;                         ///< that it comes from
   std::vector<mesh::GlobalIndex> numbers;  ///< ascending; of the points that cells here use
   std::vector<std::uint8_t> shared;        ///< by place: 1 where cells of other shares use the point too
   std::array<std::vector<mesh::LocalIndex>, cell_shape_count> cells;
@@ -34,10 +35,9 @@ struct MatchedFaces {
 /// get patches of their own, `boundary_of_REGION` and `REGION_to_REGION`. A patch with faces between regions
 /// beside others becomes two. Each patch is a face of the model for each region that it bounds, or each two
 /// that it lies between, called like the patch, and by its regions where the patch has several. Throws
-/// CollectiveError (input) with `path` where more than two cells meet at a face, or two on the same side of
+/// CollectiveError (input) with the path where more than two cells meet at a face, or two on the same side of
 /// it. Collective.
-MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
-                            std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
-                            const std::string& path);
+MatchedFaces match_boundary(const NumberedShare& share, std::vector<mesh::Patch> patches,
+                            const std::vector<std::string>& regions);
 
 }  // namespace aeroloom::io

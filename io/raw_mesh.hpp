@@ -2,11 +2,12 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
+#include "io/shared_path.hpp"
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::io {
@@ -17,6 +18,9 @@ inline constexpr mesh::GlobalIndex largest_id = mesh::GlobalIndex{1} << 62;
 /// The share of one rank. Shares follow each other by rank: the order of the file is that of all shares one
 /// after another. Points are known by the ids of the file: any distinct numbers from 0 to `largest_id`.
 struct RawMesh {
+  explicit RawMesh(SharedPath of) : file(std::move(of)) {}
+
+  SharedPath file;                           ///< that the mesh comes from, and the ranks that hold it
   std::vector<double> coordinates;           ///< (n,3)
   std::vector<mesh::GlobalIndex> point_ids;  ///< (n); a point may come several times, with the same bits
   std::array<std::vector<mesh::GlobalIndex>, cell_shape_count>
@@ -40,10 +44,10 @@ struct Assembled {
 /// share of vertices. repartition() makes compact parts. Cells whose corners come in mirrored order are
 /// turned over, faces oriented out of the fluid; points that no cell uses are dropped; vertices are numbered
 /// in the order of ids. Faces of cells that the file leaves open become patches `boundary_of_REGION` or
-/// `REGION_to_REGION`. Throws CollectiveError (input) with `path` and the place: a point that does not exist
-/// or comes twice with different coordinates, a corner twice, coordinates that are no numbers, a tetrahedron
-/// without volume, cells that do not conform, no cells at all. Collective; the same for any number of ranks.
-Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
-                   std::int32_t parts);
+/// `REGION_to_REGION`. Throws CollectiveError (input) with the path and the place: a point that does not
+/// exist or comes twice with different coordinates, a corner twice, coordinates that are no numbers, a
+/// tetrahedron without volume, cells that do not conform, no cells at all. Collective; the same for any
+/// number of ranks.
+Assembled assemble(RawMesh raw, std::int32_t parts);
 
 }  // namespace aeroloom::io

@@ -12,7 +12,7 @@ namespace aeroloom::io {
 /// .su2, .su2b, .mesh, .meshb. Each rank reads its share where the format allows it. `parts` and the rest as
 /// assemble() has it. Collective; throws CollectiveError (files where the file cannot be opened, input for
 /// what is in it).
-Assembled read_mesh(const parallel::Communicator& communicator, const std::string& path, std::int32_t parts);
+Assembled read_mesh(const SharedPath& file, std::int32_t parts);
 
 /// The ends of paths that read_mesh() knows, each with its dot.
 std::vector<std::string> readable_extensions();

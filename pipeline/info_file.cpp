@@ -54,7 +54,7 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
 }
 
 void show_mesh(const Communicator& communicator, const InfoRequest& request) {
-  const io::Assembled file = io::read_mesh(communicator, request.file, 0);
+  const io::Assembled file = io::read_mesh({communicator, request.file}, 0);
   const io::ReadableFile format = io::readable_file(request.file);
   MeshFileFacts facts{std::string(format.end->description), 0, bounds_of(file.mesh)};
   if (communicator.is_root() && format.row->named_parts != nullptr)

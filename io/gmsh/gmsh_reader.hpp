@@ -8,15 +8,13 @@
 
 #include "io/raw_mesh.hpp"
 
-#include <string>
-
 namespace aeroloom::io {
 
-/// `path`: a file; or the first of a partitioned mesh, STEM_1.msh, or STEM_*.msh: all files STEM_1.msh ...
-/// STEM_N.msh are read, each by one rank. Of one binary file every rank reads a share; an ASCII file is read
-/// by rank 0. Throws CollectiveError (input) with the file, the place and what is wrong there, also for
-/// higher-order elements, hexahedra and other versions of the format; (files) where it cannot be opened.
-/// Collective.
-RawMesh read_msh(const parallel::Communicator& communicator, const std::string& path);
+/// The path is that of a file; or the first of a partitioned mesh, STEM_1.msh, or STEM_*.msh: all files
+/// STEM_1.msh ... STEM_N.msh are read, each by one rank. Of one binary file every rank reads a share; an
+/// ASCII file is read by rank 0. Throws CollectiveError (input) with the file, the place and what is wrong
+/// there, also for higher-order elements, hexahedra and other versions of the format; (files) where it cannot
+/// be opened. Collective.
+RawMesh read_msh(const SharedPath& file);
 
 }  // namespace aeroloom::io

@@ -3,6 +3,7 @@
 #include "io/gmsh/msh_head.hpp"
 #include "io/gmsh/msh_layout.hpp"
 #include "io/local_file.hpp"
+#include "io/streams/byte_order.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/storage/shared_file.hpp"
 
@@ -24,14 +25,6 @@ using mesh::LocalIndex;
 
 /// Items that are put into their binary form at a time.
 constexpr std::size_t batch = std::size_t{1} << 16;
-
-template <class T>
-void append_bytes(std::string& text, T value) {
-  text.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-void append_sizes(std::string& text, std::initializer_list<std::int64_t> values) {
-  for (const std::int64_t value : values) append_bytes(text, value);
-}
 
 std::string nodes_begin(std::int64_t count, std::int64_t least, std::int64_t largest, std::int32_t entity) {
   std::string text = msh_nodes_begin;
@@ -147,7 +140,7 @@ struct PartNames {
 };
 
 void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks& blocks,
-                     const std::vector<MshBox>& boxes, const std::string& path) {
+                     const std::vector<geometry::Box>& boxes, const std::string& path) {
   std::set<std::int32_t> patches, regions;
   std::int64_t written = 0, elements = 0;
   for_runs(part, blocks, [&](const Block&, const Run& run, const MshBlock& of_file) {
@@ -198,20 +191,19 @@ void require_small_tags(const FileMesh& mesh) {
 }  // namespace
 
 void write_msh(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const std::string head = msh_head(mesh, boxes_of_entities(mesh), nullptr);
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   const MshLayout layout = lay_out_file(static_cast<std::int64_t>(head.size()), mesh.vertex_count, blocks);
-  parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
-    if (communicator.is_root()) write_frame(file, head, mesh.vertex_count, blocks, layout);
+  parallel::write_shared_file(mesh.communicator(), path, [&](parallel::SharedFile& file) {
+    if (mesh.communicator().is_root()) write_frame(file, head, mesh.vertex_count, blocks, layout);
     for (const FilePart& part : mesh.parts) write_part(file, part, blocks, layout);
   });
 }
 
 void write_msh_parts(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
-  const std::vector<MshBox> boxes = boxes_of_entities(mesh);
+  const std::vector<geometry::Box> boxes = boxes_of_entities(mesh);
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   parallel::agree(communicator, [&] {
     require_small_tags(mesh);
@@ -230,14 +222,14 @@ void write_msh_parts(const FileMesh& mesh, const std::string& path) {
   parallel::agree(communicator, [&] {
     for (const FilePart& part : mesh.parts) fs::rename(names.unfinished(part.id), names.path(part.id));
   });
-  remove_later_msh_parts(communicator, path, mesh.part_count);
+  remove_later_msh_parts({communicator, path}, mesh.part_count);
 }
 
-void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,
-                            std::int32_t parts) {
-  const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+void remove_later_msh_parts(const SharedPath& file, std::int32_t parts) {
+  const fs::path path = file.path;
+  const PartNames names{path.parent_path(), path.stem().string()};
+  parallel::agree(file.communicator, [&] {
+    if (!file.communicator.is_root()) return;
     for (std::int32_t part = parts; fs::remove(names.path(part));) ++part;
   });
 }

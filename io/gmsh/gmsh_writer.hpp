@@ -10,6 +10,7 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
+#include "io/shared_path.hpp"
 
 #include <cstdint>
 #include <string>
@@ -27,7 +28,6 @@ void write_msh(const FileMesh& mesh, const std::string& path);
 void write_msh_parts(const FileMesh& mesh, const std::string& path);
 /// Removes STEM_(parts + 1).msh and those that follow it without a gap; other files of such names are not
 /// ours. write_msh_parts() does it where it writes. Collective; throws CollectiveError.
-void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,
-                            std::int32_t parts);
+void remove_later_msh_parts(const SharedPath& file, std::int32_t parts);
 
 }  // namespace aeroloom::io

@@ -1,23 +1,16 @@
 /// The sections of an MSH file before the nodes, and what names become there.
 #pragma once
 
+#include "geometry/vec.hpp"
 #include "io/file_mesh.hpp"
 
-#include <array>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
 
-/// Least and largest coordinates; of nothing: infinite, the wrong way round.
-struct MshBox {
-  std::array<double, 3> least, largest;
-
-  static constexpr auto fields() { return std::tuple(&MshBox::least, &MshBox::largest); }
-};
-/// By patch, then by region, of the whole mesh. Collective.
-std::vector<MshBox> boxes_of_entities(const FileMesh& mesh);
+/// The boxes of the patches, then of the regions of the whole mesh. Collective.
+std::vector<geometry::Box> boxes_of_entities(const FileMesh& mesh);
 
 /// The entities that lie in part `part` (from 1), which part files have in addition.
 struct MshPartition {
@@ -30,6 +23,7 @@ inline std::int64_t partitioned_tag(std::int64_t entities, std::int64_t part, st
 }
 
 /// $MeshFormat, $Comments, $PhysicalNames, $Entities, and $PartitionedEntities where there is a partition.
-std::string msh_head(const FileMesh& mesh, const std::vector<MshBox>& boxes, const MshPartition* partition);
+std::string msh_head(const FileMesh& mesh, const std::vector<geometry::Box>& boxes,
+                     const MshPartition* partition);
 
 }  // namespace aeroloom::io

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "io/hdf5/memory_image.hpp"
+#include "io/shared_path.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <cstdint>
@@ -83,34 +84,7 @@ private:
 
 /// Writes a file (parallel::write_shared_file): rank 0 the structure, every rank by `work` its share of what
 /// was reserved. Collective.
-void write_laid_out(const parallel::Communicator& communicator, const std::string& path,
-                    const std::vector<Extent>& structure,
+void write_laid_out(const SharedPath& file, const std::vector<Extent>& structure,
                     const std::function<void(parallel::SharedFile&)>& work);
-
-/// Items that come one by one, written in large portions from `offset` bytes on.
-template <class T>
-class ItemStream {
-public:
-  ItemStream(parallel::SharedFile& file, std::int64_t offset) : _file(file), _offset(offset) {
-    _items.reserve(portion);
-  }
-  void add(T item) {
-    _items.push_back(item);
-    if (_items.size() == portion) flush();
-  }
-  /// Writes what is left. To be called at the end.
-  void flush() {
-    if (_items.empty()) return;
-    _file.write_items(_offset, std::span<const T>(_items));
-    _offset += static_cast<std::int64_t>(_items.size() * sizeof(T));
-    _items.clear();
-  }
-
-private:
-  static constexpr std::size_t portion = (std::size_t{1} << 20) / sizeof(T);
-  parallel::SharedFile& _file;
-  std::int64_t _offset;
-  std::vector<T> _items;
-};
 
 }  // namespace aeroloom::io::hdf5

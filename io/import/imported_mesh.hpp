@@ -2,8 +2,8 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
+#include "io/shared_path.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +21,6 @@ mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& pat
 
 /// Reads a file (io/read_mesh.hpp) and cuts it. Collective. Throws CollectiveError when the file cannot be
 /// read or is no conforming mesh of tetrahedra.
-mesh::DistributedMesh import_mesh(const parallel::Communicator& communicator, const std::string& path,
-                                  std::optional<std::int64_t> piece_tets);
+mesh::DistributedMesh import_mesh(const io::SharedPath& file, std::optional<std::int64_t> piece_tets);
 
 }  // namespace aeroloom::imported

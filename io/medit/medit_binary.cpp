@@ -133,8 +133,7 @@ private:
 /// Reads the share of a rank.
 class ShareReader {
 public:
-  ShareReader(const std::string& path, Widths widths, parallel::Rank rank, int ranks)
-      : _file(path), _widths(widths), _rank(rank), _ranks(ranks) {
+  ShareReader(const SharedPath& file, Widths widths) : _shared(file), _file(file.path), _widths(widths) {
     _file.set_order(widths.order);
   }
 
@@ -149,12 +148,10 @@ public:
   }
 
 private:
-  Share share_of(const Section& section) const { return Share::of(section.count, _rank, _ranks); }
-
   /// Calls `visit(line)` for the lines of this rank.
   template <class Visit>
   void for_each_line(const Section& section, std::int64_t line_bytes, const Visit& visit) {
-    const auto [begin, end] = share_of(section);
+    const auto [begin, end] = _shared.local_range(section.count);
     const std::int64_t in_chunk = std::max<std::int64_t>(1, chunk_bytes / line_bytes);
     for (std::int64_t first = begin; first < end; first += in_chunk) {
       const std::int64_t lines = std::min(in_chunk, end - first);
@@ -165,8 +162,9 @@ private:
   }
 
   void read_vertices(const Section& section) {
-    share.first_point = share_of(section).begin;
-    share.coordinates.reserve(3 * static_cast<std::size_t>(share_of(section).count()));
+    const LocalRange range = _shared.local_range(section.count);
+    share.first_point = range.begin;
+    share.coordinates.reserve(3 * static_cast<std::size_t>(range.count()));
     const int width = _widths.real();
     for_each_line(section, 3 * width + _widths.integer(), [&](const std::byte* line) {
       for (int axis = 0; axis < 3; ++axis)
@@ -175,11 +173,11 @@ private:
   }
 
   void read_items(const Section& section, MeditItems& items, int corners) {
-    items.corners.reserve(static_cast<std::size_t>(corners) *
-                          static_cast<std::size_t>(share_of(section).count()));
-    items.references.reserve(static_cast<std::size_t>(share_of(section).count()));
+    const LocalRange range = _shared.local_range(section.count);
+    items.corners.reserve(static_cast<std::size_t>(corners * range.count()));
+    items.references.reserve(static_cast<std::size_t>(range.count()));
     const int width = _widths.integer();
-    std::int64_t at = section.lines + share_of(section).begin * (corners + 1) * width;
+    std::int64_t at = section.lines + range.begin * (corners + 1) * width;
     for_each_line(section, std::int64_t{corners + 1} * width, [&](const std::byte* line) {
       for (int k = 0; k < corners; ++k) {
         const std::int64_t corner = decode_integer(_file, line + k * width, width);
@@ -191,21 +189,22 @@ private:
     });
   }
 
+  const SharedPath& _shared;
   RangeReader _file;
   Widths _widths;
-  int _rank, _ranks;
   std::vector<std::byte> _buffer;
 };
 
 }  // namespace
 
-MeditShare read_medit_binary(const parallel::Communicator& communicator, const std::string& path) {
+MeditShare read_medit_binary(const SharedPath& file) {
+  const parallel::Communicator& communicator = file.communicator;
   std::vector<Widths> widths;
   std::vector<Section> sections;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
-    RangeReader file(path);
-    SectionChain chain(file);
+    RangeReader reader(file.path);
+    SectionChain chain(reader);
     chain.follow();
     widths = {chain.widths};
     sections = std::move(chain.sections);
@@ -214,7 +213,7 @@ MeditShare read_medit_binary(const parallel::Communicator& communicator, const s
   communicator.broadcast_items(sections);
   MeditShare share;
   parallel::agree(communicator, [&] {
-    ShareReader reader(path, widths.front(), communicator.rank(), communicator.size());
+    ShareReader reader(file, widths.front());
     for (const Section& section : sections) reader.read(section);
     share = std::move(reader.share);
   });

@@ -28,14 +28,13 @@ constexpr std::int64_t largest_names_file = std::int64_t{64} << 20;
 
 /// The different references of items over all ranks, ascending. Collective.
 template <class Shapes>
-std::vector<std::int64_t> all_references(const parallel::Communicator& communicator, const std::string& path,
-                                         const Shapes& shapes) {
+std::vector<std::int64_t> all_references(const SharedPath& file, const Shapes& shapes) {
   std::vector<std::span<const std::int64_t>> lists;
   lists.reserve(shapes.size());
   for (const MeditItems& items : shapes) lists.emplace_back(items.references);
   return distinct_numbers(
-      communicator, lists, most_references,
-      fmt::format("'{}': there are more than {} different references", path, most_references));
+      file.communicator, lists, most_references,
+      fmt::format("'{}': there are more than {} different references", file.path, most_references));
 }
 
 /// The first reference in use that has no name, though others have; nothing where there is none.
@@ -75,60 +74,58 @@ std::string read_names_file(const std::string& path) {
 }
 
 /// Reads the names on one rank for all. Collective.
-MeditNames read_names(const parallel::Communicator& communicator, const std::string& mesh_path) {
-  const std::string path = medit_names_path(mesh_path);
+MeditNames read_names(const SharedPath& file) {
+  const std::string path = medit_names_path(file.path);
   std::string text;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) text = read_names_file(path);
+  parallel::agree(file.communicator, [&] {
+    if (file.communicator.is_root()) text = read_names_file(path);
   });
-  std::vector<char> bytes(text.begin(), text.end());
-  communicator.broadcast_items(bytes);
+  file.communicator.broadcast_value(text);
   MeditNames names;
-  parallel::agree(communicator,
-                  [&] { names = parse_medit_names(std::string(bytes.begin(), bytes.end()), path); });
+  parallel::agree(file.communicator, [&] { names = parse_medit_names(text, path); });
   return names;
 }
 
 /// Whether the file is text. Collective.
-bool is_text(const parallel::Communicator& communicator, const std::string& path) {
+bool is_text(const SharedPath& file) {
   std::int64_t text = 0;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    RangeReader file(path);
+  parallel::agree(file.communicator, [&] {
+    if (!file.communicator.is_root()) return;
+    RangeReader reader(file.path);
     // A binary file begins with the bytes 0 or 1.
-    text = file.size() > 0 && file.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
+    text = reader.size() > 0 && reader.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
   });
-  return communicator.sum(text) > 0;
+  return file.communicator.sum(text) > 0;
 }
 
-MeditShare read_share(const parallel::Communicator& communicator, const std::string& path) {
-  if (!is_text(communicator, path)) return read_medit_binary(communicator, path);
+MeditShare read_share(const SharedPath& file) {
+  if (!is_text(file)) return read_medit_binary(file);
   MeditShare share;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) share = read_medit_text(path);
+  parallel::agree(file.communicator, [&] {
+    if (file.communicator.is_root()) share = read_medit_text(file.path);
   });
   return share;
 }
 
 }  // namespace
 
-RawMesh read_medit(const parallel::Communicator& communicator, const std::string& path) {
-  MeditShare share = read_share(communicator, path);
-  MeditNames names = read_names(communicator, path);
-  std::vector<std::int64_t> regions = all_references(communicator, path, share.cells),
-                            patches = all_references(communicator, path, share.faces);
+RawMesh read_medit(const SharedPath& file) {
+  MeditShare share = read_share(file);
+  MeditNames names = read_names(file);
+  std::vector<std::int64_t> regions = all_references(file, share.cells),
+                            patches = all_references(file, share.faces);
   std::optional<std::int64_t> nameless = first_nameless(regions, names.regions);
   if (!nameless) nameless = first_nameless(patches, names.patches);
   if (nameless) {
-    if (communicator.is_root()) {
+    if (file.communicator.is_root()) {
       parallel::log_warning(fmt::format("'{}' is left alone: it has no name for the reference {} of '{}'",
-                                        medit_names_path(path), *nameless, path));
+                                        medit_names_path(file.path), *nameless, file.path));
     }
     names = {};
   }
   add_named(names.regions, regions);
   add_named(names.patches, patches);
-  RawMesh raw;
+  RawMesh raw(file);
   for (const std::int64_t reference : regions) {
     const auto named = names.regions.find(reference);
     raw.regions.push_back(named == names.regions.end() ? fmt::format("region_{}", reference) : named->second);

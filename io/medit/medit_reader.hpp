@@ -2,9 +2,6 @@
 #pragma once
 
 #include "io/raw_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-
-#include <string>
 
 namespace aeroloom::io {
 
@@ -16,6 +13,6 @@ namespace aeroloom::io {
 /// Throws CollectiveError (files) where the file cannot be read, (input) naming file and place: no such
 /// format, a plane mesh, cut off, a count or position that the file has no room for, a section that comes
 /// twice, hexahedra, curved cells, a number that is none, more than 65,536 references. Collective.
-RawMesh read_medit(const parallel::Communicator& communicator, const std::string& path);
+RawMesh read_medit(const SharedPath& file);
 
 }  // namespace aeroloom::io

@@ -3,7 +3,7 @@
 
 #include "io/file_mesh.hpp"
 #include "io/medit/medit_layout.hpp"
-#include "parallel/communication/communicator.hpp"
+#include "io/shared_path.hpp"
 
 #include <array>
 #include <cstdint>
@@ -37,7 +37,7 @@ std::string medit_unreadable(std::int32_t keyword);
 bool medit_unreadable(const std::string& keyword);
 
 /// Each rank reads its share of each section. Collective; throws CollectiveError.
-MeditShare read_medit_binary(const parallel::Communicator& communicator, const std::string& path);
+MeditShare read_medit_binary(const SharedPath& file);
 /// The whole file; not collective. Throws std::runtime_error with file and line.
 MeditShare read_medit_text(const std::string& path);
 

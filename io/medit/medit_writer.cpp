@@ -140,7 +140,7 @@ void write_share(const FileMesh& mesh, const MeditLayout& layout, bool is_root, 
 }  // namespace
 
 void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptions& options) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension != ".meshb" && extension != ".mesh") {
     throw parallel::CollectiveError(parallel::FailureKind::input,

@@ -5,6 +5,9 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
 
 namespace aeroloom::io {
 
@@ -18,6 +21,15 @@ T with_bytes_reversed(T value) {
   auto bytes = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
   std::reverse(bytes.begin(), bytes.end());
   return std::bit_cast<T>(bytes);
+}
+
+/// Appends the bytes of a number as this machine has them.
+template <class T>
+void append_bytes(std::string& text, T value) {
+  text.append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
+inline void append_sizes(std::string& text, std::initializer_list<std::int64_t> values) {
+  for (const std::int64_t value : values) append_bytes(text, value);
 }
 
 }  // namespace aeroloom::io

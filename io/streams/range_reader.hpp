@@ -11,18 +11,6 @@
 
 namespace aeroloom::io {
 
-/// `count` things shared out evenly: those of `rank` among `size`.
-struct Share {
-  std::int64_t begin = 0, end = 0;
-
-  static Share of(std::int64_t count, int rank, int size) {
-    const std::int64_t each = count / size, rest = count % size;
-    const auto first = [&](std::int64_t r) { return r * each + (r < rest ? r : rest); };
-    return {first(rank), first(rank + std::int64_t{1})};
-  }
-  std::int64_t count() const { return end - begin; }
-};
-
 class RangeReader {
 public:
   /// Throws std::filesystem::filesystem_error where there is no plain file that can be read.

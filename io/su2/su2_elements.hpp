@@ -1,7 +1,7 @@
 /// Elements of SU2 meshes by VTK's type.
 #pragma once
 
-#include "io/file_mesh.hpp"
+#include "io/raw_mesh.hpp"
 #include "io/vtk_order.hpp"
 
 #include <cstdint>
@@ -32,6 +32,23 @@ inline std::optional<Su2Element> su2_element_of(std::int64_t type) {
   if (type == Su2Element::point) return Su2Element{std::nullopt, std::nullopt, 1};
   if (type == Su2Element::line) return Su2Element{std::nullopt, std::nullopt, 2};
   return std::nullopt;
+}
+
+/// Appends the element with these points, in VTK's order. `patch`: of a marker; -1: an element of the volume.
+/// Points and lines, and faces of the volume, are left out.
+template <class Points>
+void append_su2_element(RawMesh& raw, const Su2Element& element, const Points& points, std::int32_t patch) {
+  const auto count = static_cast<std::size_t>(element.corners);
+  if (element.cell) {
+    const auto s = static_cast<std::size_t>(*element.cell);
+    for (std::size_t k = 0; k < count; ++k)
+      raw.cells[s].push_back(static_cast<mesh::GlobalIndex>(points[static_cast<std::size_t>(to_vtk[s][k])]));
+    raw.cell_regions[s].push_back(0);
+  } else if (element.face && patch >= 0) {
+    const auto s = static_cast<std::size_t>(*element.face);
+    for (std::size_t k = 0; k < count; ++k) raw.faces[s].push_back(static_cast<mesh::GlobalIndex>(points[k]));
+    raw.face_patches[s].push_back(patch);
+  }
 }
 
 /// For messages.

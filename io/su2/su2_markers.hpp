@@ -3,7 +3,7 @@
 
 #include "io/boundary_patches.hpp"
 #include "io/file_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
+#include "io/shared_path.hpp"
 
 #include <cstddef>
 #include <string>
@@ -24,7 +24,7 @@ std::string markers_path_of(const std::string& path);
 
 /// Removes NAME_markers.cfg: conditions of an earlier mesh must not stand beside a new one. Collective;
 /// throws CollectiveError (files).
-void remove_markers(const parallel::Communicator& communicator, const std::string& mesh_path);
+void remove_markers(const SharedPath& mesh_file);
 /// Writes lines for an SU2 configuration to NAME_markers.cfg: the markers of the mesh at `mesh_path` by
 /// condition. Walls are MARKER_HEATFLUX (adiabatic), slip MARKER_EULER, symmetry MARKER_SYM, farfield
 /// MARKER_FAR; inlets and outlets stand in comments, as values of their own must be filled in. Collective;
@@ -36,7 +36,6 @@ void write_markers(const std::string& mesh_path, const FileMesh& mesh, const Bou
 /// begin with `% MARKER_` count. Others are what their name says (mesh::patch_type_by_name), or stay. A file
 /// with a marker that the mesh does not have is left alone, with a warning. Collective; throws
 /// CollectiveError (input, files).
-void set_marker_types(const parallel::Communicator& communicator, const std::string& mesh_path,
-                      std::vector<mesh::Patch>& patches);
+void set_marker_types(const SharedPath& mesh_file, std::vector<mesh::Patch>& patches);
 
 }  // namespace aeroloom::io

@@ -152,14 +152,14 @@ std::vector<std::int64_t> place_stretches(const std::vector<std::string>& headin
 }  // namespace
 
 void write_su2(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const std::vector<std::string> headings = headings_of(mesh, patches, names);
   const std::vector<TextBlock> mine = measure(mesh, patches);
   std::vector<TextBlock> all = communicator.all_gather_items(std::span<const TextBlock>(mine));
   const std::vector<std::int64_t> heading_offsets = place_stretches(headings, all);
-  remove_markers(communicator, path);
+  remove_markers({communicator, path});
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file);
     for (std::size_t section = 0; communicator.is_root() && section < headings.size(); ++section) {

@@ -12,7 +12,6 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <string>
 

@@ -142,13 +142,12 @@ void write_binary_share(const FileMesh& mesh, const BoundaryPatches& patches,
 }  // namespace
 
 void write_su2b(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const bool is_narrow = su2b_layout(counts_of_mesh(mesh, patches)).integer_bytes == 4;
-  const bool is_root = communicator.is_root();
-  remove_markers(communicator, path);
-  parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
+  const bool is_root = mesh.communicator().is_root();
+  remove_markers({mesh.communicator(), path});
+  parallel::write_shared_file(mesh.communicator(), path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file, ByteOrder::little);
     if (is_narrow) {
       write_binary_share<std::uint32_t>(mesh, patches, names, is_root, writer);

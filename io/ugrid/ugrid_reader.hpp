@@ -8,15 +8,11 @@
 #pragma once
 
 #include "io/raw_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-
-#include <string>
-
 namespace aeroloom::io {
 
 /// Collective; throws CollectiveError naming the file and the byte, or line of the .mapbc: input where it
 /// does not hold what its counts announce, for hexahedra, numbers of points out of range, coordinates that
 /// are no numbers; files where it cannot be read.
-RawMesh read_ugrid(const parallel::Communicator& communicator, const std::string& path);
+RawMesh read_ugrid(const SharedPath& file);
 
 }  // namespace aeroloom::io

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -113,7 +112,6 @@ NormalAxis normal_axis_of(const geometry::Box& box) {
 
 /// The box around a patch. Collective.
 geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
   for (const FilePart& part : mesh.parts) {
     for (const Block& block : part.faces) {
@@ -125,8 +123,8 @@ geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
       }
     }
   }
-  const auto low = [&](double value) { return communicator.minimum(value); };
-  const auto high = [&](double value) { return communicator.maximum(value); };
+  const auto low = [&](double value) { return mesh.communicator().minimum(value); };
+  const auto high = [&](double value) { return mesh.communicator().maximum(value); };
   box.low = {low(box.low.x), low(box.low.y), low(box.low.z)};
   box.high = {high(box.high.x), high(box.high.y), high(box.high.z)};
   return box;
@@ -152,7 +150,7 @@ std::string mapbc_text(const FileMesh& mesh, const BoundaryPatches& patches) {
 }  // namespace
 
 void write_ugrid(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   UgridKind kind;
   parallel::agree(communicator, [&] {
     kind = ugrid_kind_of(path);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

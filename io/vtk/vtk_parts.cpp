@@ -254,9 +254,9 @@ std::string PartFiles::part_path(std::size_t part) const {
   return (fs::path(directory) / part_source(part)).string();
 }
 
-std::size_t write_parts(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
-                        PartContent content, mesh::GlobalIndex items_per_file, const PartFiles& files,
-                        const PartWriter& write) {
+std::size_t write_parts(std::span<const PartPiece> mine, PartContent content,
+                        mesh::GlobalIndex items_per_file, const PartFiles& files, const PartWriter& write) {
+  const parallel::Communicator& communicator = files.communicator;
   parallel::agree(communicator, [&] {
     if (communicator.is_root()) prepare_folder(files);
   });
@@ -278,11 +278,10 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
   return plan.files.size();
 }
 
-void write_index(const parallel::Communicator& communicator, const std::string& path,
-                 const std::string& text) {
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
-    const std::string unfinished = path + ".unfinished";
+void write_index(const PartFiles& files, const std::string& text) {
+  parallel::agree(files.communicator, [&] {
+    if (!files.communicator.is_root()) return;
+    const std::string path = files.index_path(), unfinished = path + ".unfinished";
     try {
       LocalFile file(unfinished);
       file.text(text);

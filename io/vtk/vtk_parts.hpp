@@ -40,10 +40,11 @@ PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent conten
 
 /// The files of one mesh.
 struct PartFiles {
-  std::string directory;        ///< of the index
-  std::string name;             ///< of the index, and of the folder of the parts
-  std::string index_extension;  ///< "pvtu"
-  std::string part_extension;   ///< "vtu"
+  parallel::Communicator communicator;  ///< of the ranks that write them
+  std::string directory;                ///< of the index
+  std::string name;                     ///< of the index, and of the folder of the parts
+  std::string index_extension;          ///< "pvtu"
+  std::string part_extension;           ///< "vtu"
 
   std::string index_path() const;
   /// Relative to the index.
@@ -59,13 +60,11 @@ using PartWriter = std::function<void(const std::vector<PartPiece>& pieces, cons
 /// together until they have `items_per_file` cells (or faces), as plan_files() says. Only parts that live
 /// elsewhere travel, in rounds. `mine` are the parts on this rank, ascending; ids run from 0 over all ranks.
 /// Returns the number of files. Collective; throws CollectiveError when anything cannot be written.
-std::size_t write_parts(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
-                        PartContent content, mesh::GlobalIndex items_per_file, const PartFiles& files,
-                        const PartWriter& write);
+std::size_t write_parts(std::span<const PartPiece> mine, PartContent content,
+                        mesh::GlobalIndex items_per_file, const PartFiles& files, const PartWriter& write);
 
-/// Writes a small text file on rank 0, whole or not at all. Collective; throws CollectiveError when it cannot
-/// be written.
-void write_index(const parallel::Communicator& communicator, const std::string& path,
-                 const std::string& text);
+/// Writes the index, a small text, on rank 0, whole or not at all. Collective; throws CollectiveError when it
+/// cannot be written.
+void write_index(const PartFiles& files, const std::string& text);
 
 }  // namespace aeroloom::io

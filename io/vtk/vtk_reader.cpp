@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -24,18 +23,19 @@ namespace fs = std::filesystem;
 using mesh::GlobalIndex;
 
 /// The files that hold the mesh, the same on every rank. Collective.
-std::vector<std::string> find_parts(const parallel::Communicator& communicator, const std::string& path) {
+std::vector<std::string> find_parts(const SharedPath& file) {
+  const std::string& path = file.path;
   const std::string extension = fs::path(path).extension().string();
   std::vector<std::string> parts;
-  parallel::agree(communicator, [&] {
+  parallel::agree(file.communicator, [&] {
     if (extension != ".pvtu" && extension != ".vtu" && extension != ".vtk")
       throw std::runtime_error(fmt::format("'{}': '{}' is not among .vtu, .pvtu and .vtk", path, extension));
-    if (!communicator.is_root() || extension != ".pvtu") return;
+    if (!file.communicator.is_root() || extension != ".pvtu") return;
     for (const std::string& source : read_vtk_sources(path))
       parts.push_back((fs::path(path).parent_path() / source).string());
   });
   if (extension != ".pvtu") return {path};
-  communicator.broadcast_value(parts);
+  file.communicator.broadcast_value(parts);
   return parts;
 }
 
@@ -59,15 +59,15 @@ struct PartRange {
 
 /// Consecutive parts for this rank, by bytes; a single one is for rank 0. Each rank looks at its share of the
 /// files. Collective.
-PartRange deal_parts(const parallel::Communicator& communicator, const std::string& path,
-                     const std::vector<std::string>& parts) {
+PartRange deal_parts(const SharedPath& file, const std::vector<std::string>& parts) {
+  const parallel::Communicator& communicator = file.communicator;
   const auto ranks = static_cast<std::size_t>(communicator.size()),
              rank = static_cast<std::size_t>(communicator.rank());
   const auto cut = [&](std::size_t r) { return r * parts.size() / ranks; };
   std::vector<std::int64_t> mine;
   parallel::agree(communicator, [&] {
     for (std::size_t p = cut(rank); p < cut(rank + 1); ++p)
-      mine.push_back(with_index(path, parts[p], [&] { return readable_bytes(parts[p]); }));
+      mine.push_back(with_index(file.path, parts[p], [&] { return readable_bytes(parts[p]); }));
   });
   const auto sizes = communicator.all_gather_items(std::span<const std::int64_t>(mine));
   double total = 0, before = 0;
@@ -86,6 +86,8 @@ PartRange deal_parts(const parallel::Communicator& communicator, const std::stri
 
 /// The share that this rank has read of several parts.
 struct VtkShare {
+  explicit VtkShare(const SharedPath& file) : raw(file) {}
+
   RawMesh raw;
   std::vector<VtkLabel> regions, patches;     ///< what labels of cells and faces refer to, so far
   GlobalIndex with_ids = 0, without_ids = 0;  ///< parts with points
@@ -135,8 +137,9 @@ void append_part(VtkPart part, VtkShare& share) {
 }
 
 /// Ids of points that have none in the file are their places among all. Collective.
-void place_points(const parallel::Communicator& communicator, RawMesh& raw) {
-  const GlobalIndex first = communicator.exclusive_scan(static_cast<std::int64_t>(raw.point_ids.size()));
+void place_points(RawMesh& raw) {
+  const GlobalIndex first =
+      raw.file.communicator.exclusive_scan(static_cast<std::int64_t>(raw.point_ids.size()));
   const auto move = [&](std::vector<GlobalIndex>& ids) {
     for (GlobalIndex& v : ids) v += first;
   };
@@ -180,8 +183,8 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
   return named;
 }
 
-void require_ids_everywhere(const parallel::Communicator& communicator, const VtkShare& share,
-                            const std::string& path) {
+void require_ids_everywhere(const VtkShare& share) {
+  const auto& [communicator, path] = share.raw.file;
   const GlobalIndex with = communicator.sum(share.with_ids), without = communicator.sum(share.without_ids);
   if (with == 0 || without == 0) return;
   throw parallel::CollectiveError(
@@ -193,18 +196,19 @@ void require_ids_everywhere(const parallel::Communicator& communicator, const Vt
 
 }  // namespace
 
-RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& path) {
-  const std::vector<std::string> parts = find_parts(communicator, path);
-  const PartRange mine = deal_parts(communicator, path, parts);
-  VtkShare share;
+RawMesh read_vtk(const SharedPath& file) {
+  const parallel::Communicator& communicator = file.communicator;
+  const std::vector<std::string> parts = find_parts(file);
+  const PartRange mine = deal_parts(file, parts);
+  VtkShare share(file);
   parallel::agree(communicator, [&] {
     for (std::size_t p = mine.begin; p < mine.end; ++p)
-      append_part(with_index(path, parts[p], [&] { return read_vtk_part(parts[p]); }), share);
+      append_part(with_index(file.path, parts[p], [&] { return read_vtk_part(parts[p]); }), share);
   });
-  require_ids_everywhere(communicator, share, path);
+  require_ids_everywhere(share);
   if (communicator.sum(share.with_ids) == 0) {
-    place_points(communicator, share.raw);
-    if (parts.size() > 1) join_equal_points(communicator, share.raw);
+    place_points(share.raw);
+    if (parts.size() > 1) join_equal_points(share.raw);
   }
   for (const mesh::Patch& region : merge_labels(communicator, share.regions, share.raw.cell_regions))
     share.raw.regions.push_back(region.name);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "io/raw_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <string>
 
@@ -23,7 +22,7 @@ namespace aeroloom::io {
 /// `boundary` without one. Points, lines and ghost cells (`vtkGhostType`) are left out. Throws
 /// CollectiveError: files where one cannot be opened; input where it is damaged, or has cells of other kinds
 /// or of higher order. Collective; the same for any number of ranks.
-RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& path);
+RawMesh read_vtk(const SharedPath& file);
 
 /// The parts that a .pvtu names; 0 of other files. By one rank.
 int parts_named_in_pvtu(const std::string& path);

@@ -151,34 +151,29 @@ SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
 
 void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
                    const std::string& directory, const std::string& name, Compression compression) {
-  const parallel::Communicator& communicator = surface.communicator;
-  const PartFiles files{directory, name, "pvtp", "vtp"};
+  const PartFiles files{surface.communicator, directory, name, "pvtp", "vtp"};
   const std::size_t parts =
-      write_parts(communicator, pieces_of(surface, numbering), PartContent::faces, faces_per_part, files,
+      write_parts(pieces_of(surface, numbering), PartContent::faces, faces_per_part, files,
                   [&](const std::vector<PartPiece>& pieces, const std::string& path) {
                     write_triangle_part(pieces, surface, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {
       {"Int32", "piece"}, {"Int32", "face"}, {"Int32", "patch"}, {"Float32", "quality"}};
-  write_index(communicator, files.index_path(),
-              index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
+  write_index(files, index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
 void write_surface(const FileMesh& mesh, const std::string& directory, const std::string& name,
                    Compression compression, SurfaceFaces faces) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const PartFiles files{directory, name, "pvtp", "vtp"};
+  const PartFiles files{mesh.communicator(), directory, name, "pvtp", "vtp"};
   const SelectedFaces selected = select_faces(mesh, faces);
-  const std::size_t parts =
-      write_parts(communicator, selected.pieces, PartContent::faces, faces_per_part, files,
-                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_face_part(pieces, mesh, path, compression);
-                  });
+  const std::size_t parts = write_parts(selected.pieces, PartContent::faces, faces_per_part, files,
+                                        [&](const std::vector<PartPiece>& pieces, const std::string& path) {
+                                          write_face_part(pieces, mesh, path, compression);
+                                        });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {{"Int32", "piece"}, {"Int32", "patch"}};
-  write_index(communicator, files.index_path(),
-              index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
+  write_index(files, index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
 void write_triangles(const std::vector<geometry::Vec3>& points,

@@ -128,24 +128,17 @@ void write_volume_part(const std::vector<PartPiece>& pieces, const FileMesh& mes
 
 void write_volume(const FileMesh& mesh, const std::string& directory, const std::string& name,
                   Compression compression) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const PartFiles files{directory, name, "pvtu", "vtu"};
+  const PartFiles files{mesh.communicator(), directory, name, "pvtu", "vtu"};
   const std::size_t parts =
-      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file(mesh.cell_count()),
-                  files, [&](const std::vector<PartPiece>& pieces, const std::string& path) {
+      write_parts(pieces_of(mesh), PartContent::cells, cells_per_vtk_file(mesh.cell_count()), files,
+                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
                     write_volume_part(pieces, mesh, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   std::vector<IndexArray> cell_arrays = {
       {"Int32", "piece"}, {"Int32", "region"}, {"Float32", "mean_ratio"}, {"Float32", "min_dihedral"}};
   if (mesh.has_layers) cell_arrays.push_back({"Int16", "layer"});
-  write_index(communicator, files.index_path(),
-              index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
-}
-
-void write_volume(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                  const std::string& directory, const std::string& name, Compression compression) {
-  write_volume(file_mesh_of(mesh, numbering), directory, name, compression);
+  write_index(files, index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
 }  // namespace aeroloom::io

@@ -4,7 +4,6 @@
 
 #include "io/file_mesh.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <algorithm>
 #include <array>
@@ -34,10 +33,6 @@ constexpr mesh::GlobalIndex cells_per_vtk_file(mesh::GlobalIndex cells) {
 /// left out. One part is in VTK's form at a time on each rank. The files are the same bytes for any number of
 /// ranks. Collective; throws CollectiveError (files) when a file cannot be written.
 void write_volume(const FileMesh& mesh, const std::string& directory, const std::string& name,
-                  Compression compression = Compression::none);
-/// Writes a mesh of tetrahedra.
-void write_volume(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                  const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
 
 /// Writes DIRECTORY/NAME.pvtp and its parts in DIRECTORY/NAME/. Cell arrays `face` and `patch` (ids),

@@ -42,6 +42,10 @@ struct BoundaryPlaces {
 BoundaryPlaces lay_out_boundary(hdf5::FileLayout& file, std::int64_t faces, std::int64_t corners,
                                 std::span<const mesh::Patch> patches);
 
+/// Stores the names and the types of patches at these paths.
+void store_patches(hdf5::FileLayout& file, const std::string& names_path, const std::string& types_path,
+                   std::span<const mesh::Patch> patches);
+
 /// The partitions before each one together; one entry more than partitions, the last of all.
 std::vector<GridCounts> sums_before(std::span<const GridCounts> partitions);
 

@@ -3,8 +3,6 @@
 
 #include "io/raw_mesh.hpp"
 
-#include <string>
-
 namespace aeroloom::io {
 
 /// Reads an UnstructuredGrid of any number of partitions, contiguous or chunked, compressed or not; each rank
@@ -22,6 +20,6 @@ namespace aeroloom::io {
 ///
 /// Throws CollectiveError: files where it cannot be opened, input for anything else: no VTKHDF file, another
 /// type of data, several time steps, cells of other shapes, arrays that contradict each other. Collective.
-RawMesh read_vtkhdf(const parallel::Communicator& communicator, const std::string& path);
+RawMesh read_vtkhdf(const SharedPath& file);
 
 }  // namespace aeroloom::io

@@ -1,7 +1,6 @@
 #include "io/vtkhdf/vtkhdf_share.hpp"
 
 #include "io/hdf5/input_file.hpp"
-#include "io/streams/range_reader.hpp"
 #include "io/vtk_order.hpp"
 
 #include <algorithm>
@@ -44,11 +43,10 @@ struct Elements {
 
 class Reader {
 public:
-  Reader(const FileFacts& facts, const std::string& path, int rank, int ranks)
-      : _facts(facts), _file(path), _rank(rank), _ranks(ranks) {}
+  Reader(const FileFacts& facts, const std::string& path) : _facts(facts), _file(path) {}
 
   void read_points(RawMesh& raw) const {
-    const Share mine = Share::of(_facts.all().points, _rank, _ranks);
+    const LocalRange mine = raw.file.local_range(_facts.all().points);
     raw.coordinates = _file.reals("/VTKHDF/Points", mine.begin, mine.end - mine.begin);
     if (_facts.id_array.empty()) {
       for (std::int64_t i = mine.begin; i < mine.end; ++i) raw.point_ids.push_back(i);
@@ -65,7 +63,7 @@ public:
 
   /// Corners become places among the points of all partitions.
   void read_cells(RawMesh& raw) {
-    const Share mine = Share::of(_facts.all().cells, _rank, _ranks);
+    const LocalRange mine = raw.file.local_range(_facts.all().cells);
     for (std::int64_t begin = mine.begin; begin < mine.end; begin += cells_at_a_time)
       read_cells(raw, {begin, std::min(mine.end, begin + cells_at_a_time)});
   }
@@ -73,7 +71,7 @@ public:
   /// Corners are ids of points.
   void read_boundary(RawMesh& raw) const {
     if (!_facts.has_boundary) return;
-    const Share mine = Share::of(_facts.boundary_faces, _rank, _ranks);
+    const LocalRange mine = raw.file.local_range(_facts.boundary_faces);
     for (std::int64_t begin = mine.begin; begin < mine.end; begin += cells_at_a_time) {
       const std::int64_t count = std::min(mine.end - begin, cells_at_a_time);
       Elements faces;
@@ -145,7 +143,7 @@ private:
 
   /// The cells of a range with offsets into all corners of the file: each partition has one offset more than
   /// cells, and counts from 0.
-  Elements elements_of(Share range) {
+  Elements elements_of(LocalRange range) {
     Elements cells;
     cells.first = range.begin;
     cells.types = _file.integers("/VTKHDF/Types", range.begin, range.end - range.begin);
@@ -183,7 +181,7 @@ private:
                      name_of_cell_type(type), type));
   }
 
-  void read_cells(RawMesh& raw, Share range) {
+  void read_cells(RawMesh& raw, LocalRange range) {
     Elements cells = elements_of(range);
     const std::int64_t count = range.end - range.begin;
     const auto column = [&](bool exists, const char* name) {
@@ -256,15 +254,13 @@ private:
 
   const FileFacts& _facts;
   InputFile _file;
-  int _rank, _ranks;
   std::vector<std::size_t> _partition;  ///< of the cells being read
 };
 
 }  // namespace
 
-void read_share(const FileFacts& facts, const std::string& path, int rank, int ranks, RawMesh& grid,
-                RawMesh& boundary) {
-  Reader reader(facts, path, rank, ranks);
+void read_share(const FileFacts& facts, RawMesh& grid, RawMesh& boundary) {
+  Reader reader(facts, grid.file.path);
   reader.read_points(grid);
   reader.read_cells(grid);
   reader.read_boundary(boundary);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "io/vtkhdf/vtkhdf_layout.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <string>
