@@ -1,4 +1,4 @@
-/// The order of bytes in binary files.
+/// The byte order of binary files.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ enum class ByteOrder { little, big };
 inline constexpr ByteOrder own_byte_order =
     std::endian::native == std::endian::little ? ByteOrder::little : ByteOrder::big;
 
-/// A number with its bytes the other way round.
+/// A number with its bytes in reverse order.
 template <class T>
 T with_bytes_reversed(T value) {
   auto bytes = std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
@@ -23,7 +23,7 @@ T with_bytes_reversed(T value) {
   return std::bit_cast<T>(bytes);
 }
 
-/// Appends the bytes of a number as this machine has them.
+/// Appends the bytes of a number, in the byte order of this machine.
 template <class T>
 void append_bytes(std::string& text, T value) {
   text.append(reinterpret_cast<const char*>(&value), sizeof(T));

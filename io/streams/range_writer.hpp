@@ -1,4 +1,4 @@
-/// Numbers and text into a file that all ranks write, one after another from any offset on.
+/// Writes numbers and text into a file that all ranks write, from any offset on.
 #pragma once
 
 #include "io/streams/byte_order.hpp"
@@ -12,8 +12,8 @@
 
 namespace aeroloom::io {
 
-/// A buffer of fixed size before a file: the only memory that a writer needs beside the mesh. What has been
-/// put is in the file after flush() or move_to() alone. Failures: as SharedFile::write.
+/// A buffer of fixed size: the only memory that a writer needs besides the mesh. Only flush() and move_to()
+/// write it to the file. Fails as SharedFile::write.
 class RangeWriter {
 public:
   static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
@@ -23,7 +23,7 @@ public:
   /// Begins at `offset` bytes.
   RangeWriter(parallel::SharedFile& file, std::int64_t offset) : RangeWriter(file) { _begin = offset; }
 
-  /// Goes on at `offset` bytes from the beginning of the file.
+  /// Writes the buffer, and continues at `offset` bytes from the beginning of the file.
   void move_to(std::int64_t offset) {
     flush();
     _begin = offset;

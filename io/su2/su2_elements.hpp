@@ -1,4 +1,4 @@
-/// Elements of SU2 meshes by VTK's type.
+/// Elements of SU2 meshes, whose types are VTK's.
 #pragma once
 
 #include "io/raw_mesh.hpp"
@@ -10,7 +10,7 @@
 
 namespace aeroloom::io {
 
-/// Exactly one is set, or neither for points and lines, which are left out.
+/// The shape of an element: a cell, a face, or neither (points and lines, which readers leave out).
 struct Su2Element {
   std::optional<CellShape> cell;
   std::optional<FaceShape> face;
@@ -19,7 +19,7 @@ struct Su2Element {
   static constexpr std::int64_t point = 1, line = 3;
 };
 
-/// The element of a type; none where it is not supported.
+/// The element of a type; empty for types that are not supported.
 inline std::optional<Su2Element> su2_element_of(std::int64_t type) {
   for (const CellShape shape : cell_shapes) {
     if (vtk_cell_type[static_cast<std::size_t>(shape)] == type)
@@ -34,7 +34,7 @@ inline std::optional<Su2Element> su2_element_of(std::int64_t type) {
   return std::nullopt;
 }
 
-/// Appends the element with these points, in VTK's order. `patch`: of a marker; -1: an element of the volume.
+/// Appends an element with points in VTK's order. `patch`: of a marker, or -1 for an element of the volume.
 /// Points and lines, and faces of the volume, are left out.
 template <class Points>
 void append_su2_element(RawMesh& raw, const Su2Element& element, const Points& points, std::int32_t patch) {
@@ -51,7 +51,7 @@ void append_su2_element(RawMesh& raw, const Su2Element& element, const Points& p
   }
 }
 
-/// For messages.
+/// The text of a message about a type that is not supported.
 inline std::string su2_type_text(std::int64_t type) {
   if (type == 12) return "hexahedra (type 12) are not supported";
   return "elements of type " + std::to_string(type) + " are not supported";

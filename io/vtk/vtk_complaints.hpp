@@ -1,4 +1,4 @@
-/// Complaints of VTK, which it prints instead of throwing. Included by io/vtk/*.cpp alone: it names VTK.
+/// Catches the errors that VTK prints instead of throwing. Only io/vtk/*.cpp include this header.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace aeroloom::io {
 
-/// While it lives, VTK prints nothing in this process; the first error is kept.
+/// While an object exists, VTK prints nothing in this process, and the first error is kept.
 class VtkComplaints {
 public:
   VtkComplaints();
@@ -18,7 +18,7 @@ public:
   VtkComplaints& operator=(const VtkComplaints&) = delete;
 
   bool any() const { return !first().empty(); }
-  /// On one line, without the place in VTK's source; empty where there was none.
+  /// The first error on one line, without the place in VTK's source; empty if there was none.
   std::string first() const;
 
 private:

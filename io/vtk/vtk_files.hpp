@@ -1,4 +1,4 @@
-/// Parts of VTK files that all their writers have in common. Included by io/vtk/*.cpp alone: it names VTK.
+/// Builds the VTK objects of a file and writes it. Only io/vtk/*.cpp include this header.
 #pragma once
 
 #include "io/vtk/vtk_writer.hpp"
@@ -21,20 +21,20 @@
 
 namespace aeroloom::io {
 
-/// Sets binary appended form, the file's own offsets in 64 bits, and writes. Throws
-/// std::filesystem::filesystem_error with the reason.
+/// Writes a file in binary appended form, with 64-bit offsets. Throws std::filesystem::filesystem_error with
+/// the reason.
 void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path,
                     Compression compression);
 
 /// Points in double precision from (n,3) coordinates.
 vtkSmartPointer<vtkPoints> make_points(const std::vector<double>& coordinates);
 
-/// Cells of several sizes; their offsets, too, must fit 32 bits.
+/// Cells with different numbers of corners, with 32-bit offsets.
 struct CellsOfShapes {
   std::vector<std::int32_t> connectivity;
   std::vector<std::int32_t> offsets = {0};
 
-  /// Ends the cell whose corners were appended last. Throws std::length_error where they are too many.
+  /// Ends the cell whose corners were appended last. Throws std::length_error above 2^31 - 1 corners.
   void close_cell() {
     if (connectivity.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
       throw std::length_error("a file would get more corners than its 32-bit offsets can count");
@@ -43,7 +43,7 @@ struct CellsOfShapes {
 };
 vtkSmartPointer<vtkCellArray> make_cells(const CellsOfShapes& cells);
 
-/// Field arrays `patch_names` and `patch_types`.
+/// Adds the field arrays `patch_names` and `patch_types`.
 void add_patches(vtkFieldData& fields, const std::vector<mesh::Patch>& patches);
 
 /// A VTK array of type `Array` that holds a copy of `values`.
@@ -61,13 +61,13 @@ vtkSmartPointer<Array> make_array(const char* name, const std::vector<Value>& va
   return array;
 }
 
-/// An array of an index file: its VTK type and its name.
+/// The VTK type and the name of an array in an index file.
 struct IndexArray {
   const char* type;
   const char* name;
 };
 
-/// The XML of a .pvtu (`grid_type` PUnstructuredGrid) or .pvtp (PPolyData) file.
+/// The XML of an index file: .pvtu (`grid_type` PUnstructuredGrid) or .pvtp (PPolyData).
 std::string index_text(const char* grid_type, std::span<const IndexArray> point_arrays,
                        std::span<const IndexArray> cell_arrays, const std::vector<std::string>& sources);
 

@@ -1,4 +1,4 @@
-/// How a mesh becomes part files: fixed groups of consecutive parts, written by all ranks (file_plan.hpp).
+/// Writes a mesh as an index file and several data files. Each holds consecutive parts (file_plan.hpp).
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -12,8 +12,8 @@
 
 namespace aeroloom::io {
 
-/// One part as a writer needs it: views of a part that lives here, or of one that was brought, without
-/// `owned`. The surface of a DistributedMesh comes as faces without runs.
+/// A part as the writer of a file needs it: views of a part of this rank, or of one that another rank has
+/// sent (without `owned`). The triangles of a surface mesh are faces without runs.
 struct PartPiece {
   FilePart part;
   std::span<const std::int32_t> triangle_face;   ///< (k) of such a surface, else empty
@@ -23,48 +23,47 @@ struct PartPiece {
 /// The parts on this rank.
 std::vector<PartPiece> pieces_of(const FileMesh& mesh);
 
-/// The items of a part that go into the files.
+/// The items of a part that are written.
 enum class PartContent { cells, faces };
 
-/// Number of a point within its file.
+/// The index of a point in its file.
 using PointIndex = std::int32_t;
 
-/// The points of a file: those its cells (or faces) use, each once, in the order of parts and of their
-/// vertices.
+/// The points that the cells (or faces) of a file use, each once, by part and vertex.
 struct PartPoints {
   std::vector<mesh::GlobalIndex> numbers;
   std::vector<double> coordinates;                ///< (n,3)
-  std::vector<std::vector<PointIndex>> of_piece;  ///< per part of the file, per local vertex; -1 unused
+  std::vector<std::vector<PointIndex>> of_piece;  ///< by part of the file and local vertex; -1: not used
 };
 PartPoints merge_points(const std::vector<PartPiece>& pieces, PartContent content);
 
-/// The files of one mesh.
+/// The files of one mesh: an index, and data files in a folder beside it.
 struct PartFiles {
   parallel::Communicator communicator;  ///< of the ranks that write them
   std::string directory;                ///< of the index
-  std::string name;                     ///< of the index, and of the folder of the parts
+  std::string name;                     ///< of the index, and of the folder of the data files
   std::string index_extension;          ///< "pvtu"
   std::string part_extension;           ///< "vtu"
 
   std::string index_path() const;
-  /// Relative to the index.
+  /// The path relative to the index.
   std::string part_source(std::size_t part) const;
   std::vector<std::string> part_sources(std::size_t parts) const;
   std::string part_path(std::size_t part) const;
 };
 
-/// Writes one file to `path`; throws when it cannot.
+/// Writes one file to `path`, or throws.
 using PartWriter = std::function<void(const std::vector<PartPiece>& pieces, const std::string& path)>;
 
-/// Makes the folders, removes index and parts of an earlier run, and writes the files: consecutive parts
-/// together until they have `items_per_file` cells (or faces), as plan_files() says. Only parts that live
-/// elsewhere travel, in rounds. `mine` are the parts on this rank, ascending; ids run from 0 over all ranks.
-/// Returns the number of files. Collective; throws CollectiveError when anything cannot be written.
+/// Makes the folders, removes index and data files of an earlier run, and writes the data files as
+/// plan_files() distributes the parts. Only parts that the writer lacks are sent, in rounds. `mine`: the
+/// parts on this rank, by ascending id; ids run from 0 over all ranks. Returns the number of files.
+/// Collective; throws CollectiveError where a file cannot be written.
 std::size_t write_parts(std::span<const PartPiece> mine, PartContent content,
                         mesh::GlobalIndex items_per_file, const PartFiles& files, const PartWriter& write);
 
-/// Writes the index, a small text, on rank 0, whole or not at all. Collective; throws CollectiveError when it
-/// cannot be written.
+/// Rank 0 writes the index, whole or not at all. Collective; throws CollectiveError where it cannot be
+/// written.
 void write_index(const PartFiles& files, const std::string& text);
 
 }  // namespace aeroloom::io

@@ -1,4 +1,4 @@
-/// One rank's share of a VTKHDF file.
+/// Reads the items of one rank from a VTKHDF file.
 #pragma once
 
 #include "io/raw_mesh.hpp"
@@ -6,9 +6,9 @@
 
 namespace aeroloom::io::vtkhdf {
 
-/// Reads the share of a rank. In `grid`, cells and the faces among them have places among the points of all
-/// partitions for corners, and points their ids; in `boundary`, the faces of /Boundary have ids. Regions and
-/// patches are the values of the file. Throws std::runtime_error with the file and the place. Not collective.
+/// Reads the range of this rank. In `grid` points have ids, but corners of cells and faces are indices among
+/// the points of all partitions. In `boundary` corners of the faces of /Boundary are ids. Regions and patches
+/// are the values in the file. Throws std::runtime_error with the file and the place. Not collective.
 void read_share(const FileFacts& facts, RawMesh& grid, RawMesh& boundary);
 
 }  // namespace aeroloom::io::vtkhdf
