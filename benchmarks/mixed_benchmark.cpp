@@ -57,7 +57,7 @@ private:
 };
 
 /// The columns of this rank, without boundary faces: those are found.
-io::RawMesh raw_share(const Communicator& communicator, int squares) {
+io::RawMesh local_columns(const Communicator& communicator, int squares) {
   const auto first_of = [&](int rank) { return rank * (squares + 1) / communicator.size(); };
   const MixedMesh columns(squares, {first_of(communicator.rank()), first_of(communicator.rank() + 1)});
   io::RawMesh raw({communicator, "mixed"});
@@ -147,7 +147,7 @@ void require_all_missed(const mesh::DistributedMesh& mesh) {
 void run(const Communicator& communicator, int squares, const std::string& folder) {
   Steps steps(communicator);
   const io::Assembled file =
-      steps.time("assemble", [&] { return io::assemble(raw_share(communicator, squares), 0); });
+      steps.time("assemble", [&] { return io::assemble(local_columns(communicator, squares), 0); });
   const mesh::GlobalIndex cells = file.mesh.cell_count();
   mesh::NumberedMesh cut = steps.time("repartition", [&] {
     return mesh::repartition(*file.mesh.pieces, *file.mesh.numbering,

@@ -34,7 +34,7 @@ std::vector<Number> distinct_numbers(const parallel::Communicator& communicator,
     }
     fails = is_too_many();
   });
-  // The text does not depend on how many ranks find too many in their shares.
+  // The text does not depend on how many ranks find too many in their lists.
   const auto require_few = [&] {
     if (communicator.maximum(std::int64_t{fails}) > 0)
       throw parallel::CollectiveError(parallel::FailureKind::input, message);

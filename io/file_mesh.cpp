@@ -21,7 +21,7 @@ using mesh::LocalIndex;
 constexpr int kind_count = cell_shape_count + face_shape_count;
 
 /// A block of a part: cells by shape, then faces by shape.
-Block& block_of(FilePart& part, int kind) {
+Block& block_of(MeshPart& part, int kind) {
   return kind < cell_shape_count ? part.cells[kind] : part.faces[kind - cell_shape_count];
 }
 
@@ -37,7 +37,7 @@ struct CountRow {
 
 std::vector<CountRow> count_rows(FileMesh& mesh) {
   std::vector<CountRow> rows;
-  for (FilePart& part : mesh.parts) {
+  for (MeshPart& part : mesh.parts) {
     rows.push_back({part.id, -1, 0, part.owned_count});
     for (int kind = 0; kind < kind_count; ++kind) {
       for (const Run& run : block_of(part, kind).runs)
@@ -47,14 +47,14 @@ std::vector<CountRow> count_rows(FileMesh& mesh) {
   return rows;
 }
 
-FilePart* find_part(FileMesh& mesh, std::int32_t id) {
+MeshPart* find_part(FileMesh& mesh, std::int32_t id) {
   const auto found =
       std::lower_bound(mesh.parts.begin(), mesh.parts.end(), id,
-                       [](const FilePart& part, std::int32_t wanted) { return part.id < wanted; });
+                       [](const MeshPart& part, std::int32_t wanted) { return part.id < wanted; });
   return found != mesh.parts.end() && found->id == id ? &*found : nullptr;
 }
 
-/// Adds up the rows of all parts in their order, and tells the parts that are here what came before them.
+/// Adds up the rows of all parts in their order, and sets the counts before each part on this rank.
 void place_parts(FileMesh& mesh, std::vector<CountRow> rows) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const CountRow& a, const CountRow& b) { return a.part < b.part; });
@@ -65,7 +65,7 @@ void place_parts(FileMesh& mesh, std::vector<CountRow> rows) {
   std::vector<int> parts_seen(mesh.part_count, 0);
   for (const CountRow& row : rows) {
     if (row.part != at) before_part = of_kind, at = row.part;
-    FilePart* const part = find_part(mesh, row.part);
+    MeshPart* const part = find_part(mesh, row.part);
     if (row.kind < 0) {
       ++parts_seen.at(row.part);
       if (part != nullptr) part->first_owned = mesh.vertex_count;
@@ -169,10 +169,10 @@ Block faces_of_piece(const mesh::DistributedMesh& mesh, const mesh::Piece& piece
   return block;
 }
 
-FilePart part_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, std::size_t i,
+MeshPart part_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, std::size_t i,
                  const SplitPatches& split) {
   const mesh::Piece& piece = mesh.pieces[i];
-  FilePart part;
+  MeshPart part;
   part.id = piece.id;
   part.piece = &piece;
   part.coordinates = piece.coordinates;
@@ -214,7 +214,7 @@ void require_fitting(const mesh::DistributedMesh& mesh, const mesh::Numbering& n
 }
 
 void require_numbers(const FileMesh& mesh) {
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     GlobalIndex next = part.first_owned;
     for (std::size_t v = 0; v < part.numbers.size(); ++v) {
       if (part.owned[v])

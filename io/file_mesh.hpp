@@ -63,7 +63,7 @@ struct Block {
 /// A part: n vertices, cells, and boundary faces of these cells. A face between two regions is in the part of
 /// the front region's cell. Each vertex of the mesh has one owner among the parts. Owned vertices have
 /// consecutive numbers, which ascend with the id of the part.
-struct FilePart {
+struct MeshPart {
   std::int32_t id = 0;
   std::span<const double> coordinates;         ///< (n,3)
   std::span<const mesh::GlobalIndex> numbers;  ///< (n) numbers in the whole mesh, from 0
@@ -102,7 +102,7 @@ struct FileMesh {
   std::shared_ptr<const mesh::NumberedMesh> held;  ///< owns both, or is null
 
   std::int32_t part_count = 0;         ///< of the whole mesh
-  std::vector<FilePart> parts;         ///< on this rank, by ascending id
+  std::vector<MeshPart> parts;         ///< on this rank, by ascending id
   mesh::GlobalIndex vertex_count = 0;  ///< of the whole mesh, as all members below
   std::vector<mesh::Patch> patches;    ///< `interior` if and only if between regions
   std::vector<std::string> regions;    ///< at least one

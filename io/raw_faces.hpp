@@ -11,8 +11,8 @@
 namespace aeroloom::io {
 
 /// The cells and faces of one rank after points have numbers. Corners of cells are indices in `numbers`.
-struct NumberedShare {
-  SharedPath file;                         ///< the mesh comes from
+struct LocalMesh {
+  SharedPath file;                         ///< the file that it comes from
   std::vector<mesh::GlobalIndex> numbers;  ///< ascending; the points of the cells on this rank
   std::vector<std::uint8_t> shared;        ///< by index: 1 where cells of other ranks use the point too
   std::array<std::vector<mesh::LocalIndex>, cell_shape_count> cells;
@@ -37,7 +37,7 @@ struct MatchedFaces {
 /// of regions that it separates. Such a face has the name of the patch; if there are several, also of its
 /// regions. Throws CollectiveError (input) with the path where more than two cells have a common face, or two
 /// lie on the same side of it. Collective.
-MatchedFaces match_boundary(const NumberedShare& share, std::vector<mesh::Patch> patches,
+MatchedFaces match_boundary(const LocalMesh& local, std::vector<mesh::Patch> patches,
                             const std::vector<std::string>& regions);
 
 }  // namespace aeroloom::io

@@ -26,7 +26,7 @@ constexpr int info_schema_version = 1;
 geometry::Box bounds_of(const io::FileMesh& mesh) {
   const Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
-  for (const io::FilePart& part : mesh.parts) {
+  for (const io::MeshPart& part : mesh.parts) {
     for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
   }
   box.low = {communicator.minimum(box.low.x), communicator.minimum(box.low.y),

@@ -10,7 +10,7 @@ using parallel::SharedFile;
 
 namespace {
 
-void write_coordinates(SharedFile& file, const cgns::Plan& plan, const FilePart& part) {
+void write_coordinates(SharedFile& file, const cgns::Plan& plan, const MeshPart& part) {
   const std::int64_t before = part.first_owned * static_cast<std::int64_t>(sizeof(double));
   RangeWriter x(file, plan.coordinates[0] + before), y(file, plan.coordinates[1] + before),
       z(file, plan.coordinates[2] + before);
@@ -28,7 +28,7 @@ void write_coordinates(SharedFile& file, const cgns::Plan& plan, const FilePart&
 
 /// The elements of a run, by the numbers of their vertices from 1.
 template <class Index>
-void write_elements(SharedFile& file, const cgns::Section& section, const FilePart& part, const Block& block,
+void write_elements(SharedFile& file, const cgns::Section& section, const MeshPart& part, const Block& block,
                     const Run& run) {
   RangeWriter writer(file,
                      section.offset + run.before * block.corners * static_cast<std::int64_t>(sizeof(Index)));
@@ -39,7 +39,7 @@ void write_elements(SharedFile& file, const cgns::Section& section, const FilePa
   writer.flush();
 }
 
-void write_block(SharedFile& file, const cgns::Plan& plan, const FilePart& part, const Block& block,
+void write_block(SharedFile& file, const cgns::Plan& plan, const MeshPart& part, const Block& block,
                  std::size_t shape, const auto& section_of) {
   for (const Run& run : block.runs) {
     const std::int32_t place = section_of[static_cast<std::size_t>(run.id)][shape];
@@ -64,7 +64,7 @@ void write_cgns(const FileMesh& mesh, const std::string& path) {
     structure = cgns::lay_out(plan);
   });
   hdf5::write_laid_out({mesh.communicator(), path}, structure, [&](SharedFile& file) {
-    for (const FilePart& part : mesh.parts) {
+    for (const MeshPart& part : mesh.parts) {
       write_coordinates(file, plan, part);
       for (std::size_t s = 0; s < part.cells.size(); ++s)
         write_block(file, plan, part, part.cells[s], s, plan.section_of_region);

@@ -113,7 +113,7 @@ Group group_of(const MshTables& tables, const MshElementBlock& block) {
   if (entity.partitioned && entity.parent_dimension != block.dimension) return {0, 0, 0};
   for (const std::int32_t tag : entity.physical) {
     const auto name = tables.physical_names.find({block.dimension, tag});
-    // What Gmsh calls the shares of a group when it partitions a mesh.
+    // The name that Gmsh gives the subgroups of a group when it partitions a mesh.
     if (name != tables.physical_names.end() && name->second.starts_with("_part{")) continue;
     return {block.dimension, 0, tag};
   }
@@ -167,7 +167,7 @@ std::vector<NamedGroup> agree_on_groups(const parallel::Communicator& communicat
 }
 
 /// Groups of one name stay distinct.
-void rename_twins(RawMesh& raw) {
+void make_names_distinct(RawMesh& raw) {
   constexpr std::size_t longest = std::size_t{1} << 16;
   const auto same = [](const std::string& name) { return name; };
   std::vector<std::string> names;
@@ -277,7 +277,7 @@ RawMesh read_msh(const SharedPath& file) {
       raw.regions.push_back(named.name);
     }
   }
-  rename_twins(raw);
+  make_names_distinct(raw);
   if (raw.regions.empty()) raw.regions.emplace_back("volume");
   parallel::agree(communicator, [&] {
     for (Source& source : sources) {

@@ -49,7 +49,7 @@ std::string head_of(const MshBlock& block) {
 
 /// Calls `write` with the records of a run, a chunk at a time; `first_tag` is the tag of its first element.
 template <class Write>
-void put_run(const FilePart& part, const Block& block, const Run& run, std::int64_t first_tag,
+void put_run(const MeshPart& part, const Block& block, const Run& run, std::int64_t first_tag,
              const Write& write) {
   std::vector<std::int64_t> records;
   records.reserve(batch + 8);
@@ -65,7 +65,7 @@ void put_run(const FilePart& part, const Block& block, const Run& run, std::int6
 
 /// Calls `visit(block of the part, run, block of the file)` for all runs of a part in the order of the file.
 template <class Visit>
-void for_runs(const FilePart& part, const MshBlocks& blocks, const Visit& visit) {
+void for_runs(const MeshPart& part, const MshBlocks& blocks, const Visit& visit) {
   for (std::size_t s = 0; s < face_shape_count; ++s) {
     for (const Run& run : part.faces[s].runs) visit(part.faces[s], run, blocks.faces[run.id][s]);
   }
@@ -74,7 +74,7 @@ void for_runs(const FilePart& part, const MshBlocks& blocks, const Visit& visit)
   }
 }
 
-void write_owned(parallel::SharedFile& file, const FilePart& part, const MshLayout& layout) {
+void write_owned(parallel::SharedFile& file, const MeshPart& part, const MshLayout& layout) {
   std::vector<std::int64_t> tags;
   std::vector<double> points;
   tags.reserve(batch);
@@ -97,7 +97,7 @@ void write_owned(parallel::SharedFile& file, const FilePart& part, const MshLayo
   flush();
 }
 
-void write_part(parallel::SharedFile& file, const FilePart& part, const MshBlocks& blocks,
+void write_part(parallel::SharedFile& file, const MeshPart& part, const MshBlocks& blocks,
                 const MshLayout& layout) {
   write_owned(file, part, layout);
   for_runs(part, blocks, [&](const Block& block, const Run& run, const MshBlock& of_file) {
@@ -139,7 +139,7 @@ struct PartNames {
   std::string unfinished(std::int32_t part) const { return path(part) + ".unfinished"; }
 };
 
-void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks& blocks,
+void write_part_file(const FileMesh& mesh, const MeshPart& part, const MshBlocks& blocks,
                      const std::vector<geometry::Box>& boxes, const std::string& path) {
   std::set<std::int32_t> patches, regions;
   std::int64_t written = 0, elements = 0;
@@ -196,7 +196,7 @@ void write_msh(const FileMesh& mesh, const std::string& path) {
   const MshLayout layout = lay_out_file(static_cast<std::int64_t>(head.size()), mesh.vertex_count, blocks);
   parallel::write_shared_file(mesh.communicator(), path, [&](parallel::SharedFile& file) {
     if (mesh.communicator().is_root()) write_frame(file, head, mesh.vertex_count, blocks, layout);
-    for (const FilePart& part : mesh.parts) write_part(file, part, blocks, layout);
+    for (const MeshPart& part : mesh.parts) write_part(file, part, blocks, layout);
   });
 }
 
@@ -211,16 +211,16 @@ void write_msh_parts(const FileMesh& mesh, const std::string& path) {
   });
   try {
     parallel::agree(communicator, [&] {
-      for (const FilePart& part : mesh.parts)
+      for (const MeshPart& part : mesh.parts)
         write_part_file(mesh, part, blocks, boxes, names.unfinished(part.id));
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;
-    for (const FilePart& part : mesh.parts) fs::remove(names.unfinished(part.id), ignored);
+    for (const MeshPart& part : mesh.parts) fs::remove(names.unfinished(part.id), ignored);
     throw;
   }
   parallel::agree(communicator, [&] {
-    for (const FilePart& part : mesh.parts) fs::rename(names.unfinished(part.id), names.path(part.id));
+    for (const MeshPart& part : mesh.parts) fs::rename(names.unfinished(part.id), names.path(part.id));
   });
   remove_later_msh_parts({communicator, path}, mesh.part_count);
 }

@@ -88,7 +88,7 @@ void add_partition(std::string& text, const FileMesh& mesh, const std::vector<ge
 }
 
 /// Grows the boxes of the entities of a block.
-void grow(std::vector<geometry::Box>& boxes, std::size_t first, const FilePart& part, const Block& block) {
+void grow(std::vector<geometry::Box>& boxes, std::size_t first, const MeshPart& part, const Block& block) {
   for (const Run& run : block.runs) {
     geometry::Box& box = boxes[first + static_cast<std::size_t>(run.id)];
     for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
@@ -101,7 +101,7 @@ void grow(std::vector<geometry::Box>& boxes, std::size_t first, const FilePart& 
 
 std::vector<geometry::Box> boxes_of_entities(const FileMesh& mesh) {
   std::vector<geometry::Box> boxes(mesh.patches.size() + mesh.regions.size());
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const Block& block : part.faces) grow(boxes, 0, part, block);
     for (const Block& block : part.cells) grow(boxes, mesh.patches.size(), part, block);
   }

@@ -1,4 +1,4 @@
-#include "io/medit/medit_share.hpp"
+#include "io/medit/local_medit_mesh.hpp"
 #include "io/streams/range_reader.hpp"
 #include "parallel/communication/collective_error.hpp"
 
@@ -130,20 +130,20 @@ private:
   RangeReader& _file;
 };
 
-/// Reads the share of a rank.
-class ShareReader {
+/// Reads the items of this rank.
+class LocalMeditReader {
 public:
-  ShareReader(const SharedPath& file, Widths widths) : _shared(file), _file(file.path), _widths(widths) {
+  LocalMeditReader(const SharedPath& file, Widths widths) : _shared(file), _file(file.path), _widths(widths) {
     _file.set_order(widths.order);
   }
 
-  MeditShare share;
+  LocalMeditMesh local;
 
   void read(const Section& section) {
     if (section.keyword == static_cast<std::int32_t>(MeditKeyword::vertices)) {
       read_vertices(section);
     } else {
-      read_items(section, *share.items(section.keyword), medit_corners(section.keyword));
+      read_items(section, *local.items(section.keyword), medit_corners(section.keyword));
     }
   }
 
@@ -163,12 +163,12 @@ private:
 
   void read_vertices(const Section& section) {
     const LocalRange range = _shared.local_range(section.count);
-    share.first_point = range.begin;
-    share.coordinates.reserve(3 * static_cast<std::size_t>(range.count()));
+    local.first_point = range.begin;
+    local.coordinates.reserve(3 * static_cast<std::size_t>(range.count()));
     const int width = _widths.real();
     for_each_line(section, 3 * width + _widths.integer(), [&](const std::byte* line) {
       for (int axis = 0; axis < 3; ++axis)
-        share.coordinates.push_back(decode_real(_file, line + axis * width, width));
+        local.coordinates.push_back(decode_real(_file, line + axis * width, width));
     });
   }
 
@@ -197,7 +197,7 @@ private:
 
 }  // namespace
 
-MeditShare read_medit_binary(const SharedPath& file) {
+LocalMeditMesh read_medit_binary(const SharedPath& file) {
   const parallel::Communicator& communicator = file.communicator;
   std::vector<Widths> widths;
   std::vector<Section> sections;
@@ -211,13 +211,13 @@ MeditShare read_medit_binary(const SharedPath& file) {
   });
   communicator.broadcast_items(widths);
   communicator.broadcast_items(sections);
-  MeditShare share;
+  LocalMeditMesh local;
   parallel::agree(communicator, [&] {
-    ShareReader reader(file, widths.front());
+    LocalMeditReader reader(file, widths.front());
     for (const Section& section : sections) reader.read(section);
-    share = std::move(reader.share);
+    local = std::move(reader.local);
   });
-  return share;
+  return local;
 }
 
 }  // namespace aeroloom::io

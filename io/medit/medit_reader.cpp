@@ -2,8 +2,8 @@
 
 #include "geometry/sort_unique.hpp"
 #include "io/distinct_numbers.hpp"
+#include "io/medit/local_medit_mesh.hpp"
 #include "io/medit/medit_names.hpp"
-#include "io/medit/medit_share.hpp"
 #include "io/streams/range_reader.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
@@ -98,22 +98,22 @@ bool is_text(const SharedPath& file) {
   return file.communicator.sum(text) > 0;
 }
 
-MeditShare read_share(const SharedPath& file) {
+LocalMeditMesh read_local_mesh(const SharedPath& file) {
   if (!is_text(file)) return read_medit_binary(file);
-  MeditShare share;
+  LocalMeditMesh local;
   parallel::agree(file.communicator, [&] {
-    if (file.communicator.is_root()) share = read_medit_text(file.path);
+    if (file.communicator.is_root()) local = read_medit_text(file.path);
   });
-  return share;
+  return local;
 }
 
 }  // namespace
 
 RawMesh read_medit(const SharedPath& file) {
-  MeditShare share = read_share(file);
+  LocalMeditMesh local = read_local_mesh(file);
   MeditNames names = read_names(file);
-  std::vector<std::int64_t> regions = all_references(file, share.cells),
-                            patches = all_references(file, share.faces);
+  std::vector<std::int64_t> regions = all_references(file, local.cells),
+                            patches = all_references(file, local.faces);
   std::optional<std::int64_t> nameless = first_nameless(regions, names.regions);
   if (!nameless) nameless = first_nameless(patches, names.patches);
   if (nameless) {
@@ -137,18 +137,18 @@ RawMesh read_medit(const SharedPath& file) {
                               ? mesh::Patch{fmt::format("patch_{}", reference), mesh::PatchType::wall}
                               : named->second);
   }
-  raw.point_ids.resize(share.coordinates.size() / 3);
-  std::iota(raw.point_ids.begin(), raw.point_ids.end(), share.first_point);
-  raw.coordinates = std::move(share.coordinates);
+  raw.point_ids.resize(local.coordinates.size() / 3);
+  std::iota(raw.point_ids.begin(), raw.point_ids.end(), local.first_point);
+  raw.coordinates = std::move(local.coordinates);
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
-    raw.cell_regions[s] = ids_of(share.cells[s], regions);
-    raw.cells[s] = std::move(share.cells[s].corners);
-    share.cells[s] = {};
+    raw.cell_regions[s] = ids_of(local.cells[s], regions);
+    raw.cells[s] = std::move(local.cells[s].corners);
+    local.cells[s] = {};
   }
   for (std::size_t s = 0; s < face_shape_count; ++s) {
-    raw.face_patches[s] = ids_of(share.faces[s], patches);
-    raw.faces[s] = std::move(share.faces[s].corners);
-    share.faces[s] = {};
+    raw.face_patches[s] = ids_of(local.faces[s], patches);
+    raw.faces[s] = std::move(local.faces[s].corners);
+    local.faces[s] = {};
   }
   return raw;
 }

@@ -43,7 +43,7 @@ struct FoamCorners {
   std::array<mesh::LocalIndex, 4> corners{};
   int count = 0;
 };
-FoamCorners corners_of_face(const FilePart& part, const FoamFace& face);
+FoamCorners corners_of_face(const MeshPart& part, const FoamFace& face);
 
 /// What a part tells another part about a common face.
 struct FoamFaceNote {
@@ -67,7 +67,7 @@ struct FoamPlan {
 FoamPlan plan_faces(const FileMesh& mesh, const mesh::FaceLinks& links);
 
 /// The faces of one part. Not collective.
-FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const mesh::PieceLinks& links,
+FoamFaces order_faces(const FileMesh& mesh, const MeshPart& part, const mesh::PieceLinks& links,
                       const FoamPlan& plan);
 
 }  // namespace aeroloom::io

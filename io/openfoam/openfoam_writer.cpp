@@ -52,7 +52,7 @@ bool is_boundary(const mesh::Patch& patch) {
 /// Writes the files of one part.
 class FoamPartWriter {
 public:
-  FoamPartWriter(const FoamMesh& whole, const FilePart& part, const FoamFaces& order, fs::path folder)
+  FoamPartWriter(const FoamMesh& whole, const MeshPart& part, const FoamFaces& order, fs::path folder)
       : _mesh(whole.mesh),
         _part(part),
         _plan(whole.plan),
@@ -252,7 +252,7 @@ private:
   }
 
   const FileMesh& _mesh;
-  const FilePart& _part;
+  const MeshPart& _part;
   const FoamPlan& _plan;
   const FoamFaces& _order;
   const Names& _names;
@@ -262,7 +262,7 @@ private:
 
 FoamFormat format_of(const FileMesh& mesh, const FoamPlan& plan, const OpenFoamOptions& options) {
   GlobalIndex corners = 0;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     corners = std::max<GlobalIndex>(corners, 12 * GlobalIndex{part.cells[0].count()} +
                                                  16 * GlobalIndex{part.cells[1].count()} +
                                                  18 * GlobalIndex{part.cells[2].count()});
@@ -301,7 +301,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   try {
     parallel::agree(communicator, [&] {
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
-        const FilePart& part = mesh.parts[i];
+        const MeshPart& part = mesh.parts[i];
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(whole, part, order, foam_case.unfinished(part.id)).write();
       }
@@ -309,7 +309,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;
-    for (const FilePart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
+    for (const MeshPart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
     throw;
   }
   parallel::agree(communicator, [&] {
@@ -317,7 +317,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   });
   has_fields = communicator.maximum(std::int64_t{has_fields ? 0 : 1}) == 0;
   parallel::agree(communicator, [&] {
-    for (const FilePart& part : mesh.parts) {
+    for (const MeshPart& part : mesh.parts) {
       if (has_fields) write_fields(foam_case, part.id);
       fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
     }

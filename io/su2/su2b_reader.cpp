@@ -25,9 +25,9 @@ constexpr std::int64_t records_at_once = 1 << 15;
 
 /// Reads a file with integers of one width.
 template <class Integer>
-class Su2bShare {
+class Su2bReader {
 public:
-  explicit Su2bShare(RangeReader& file) : _file(file) {}
+  explicit Su2bReader(RangeReader& file) : _file(file) {}
 
   void read(RawMesh& raw) {
     read_zone();
@@ -194,9 +194,9 @@ RawMesh read_su2b(const SharedPath& file) {
       width = reader.value<std::int32_t>(0);
     }
     if (width == 4) {
-      Su2bShare<std::uint32_t>(reader).read(raw);
+      Su2bReader<std::uint32_t>(reader).read(raw);
     } else if (width == 8) {
-      Su2bShare<std::uint64_t>(reader).read(raw);
+      Su2bReader<std::uint64_t>(reader).read(raw);
     } else {
       reader.fail(0, "no binary SU2 mesh: it begins with the size of its integers, 4 or 8");
     }

@@ -29,14 +29,14 @@ constexpr std::int64_t chunk_items = 1 << 17;
 constexpr std::array<const char*, face_shape_count> face_names = {"triangle", "quadrilateral"};
 constexpr std::array<const char*, cell_shape_count> cell_names = {"tetrahedron", "pyramid", "prism"};
 
-/// The ids of the patches of the faces in a share, by shape.
+/// The ids of the patches of the faces on this rank, by shape.
 using PatchIds = std::array<std::vector<std::int64_t>, face_shape_count>;
 
 /// Reads a file with integers of one width.
 template <class Integer>
-class UgridShare {
+class UgridReader {
 public:
-  UgridShare(RangeReader& file, RawMesh& raw) : _file(file), _raw(raw) {}
+  UgridReader(RangeReader& file, RawMesh& raw) : _file(file), _raw(raw) {}
 
   void read(PatchIds& patch_ids) {
     read_counts();
@@ -185,9 +185,9 @@ RawMesh read_ugrid(const SharedPath& file) {
     RangeReader reader(file.path);
     reader.set_order(kind.order);
     if (kind.integer_bytes == 4) {
-      UgridShare<std::int32_t>(reader, raw).read(patch_ids);
+      UgridReader<std::int32_t>(reader, raw).read(patch_ids);
     } else {
-      UgridShare<std::int64_t>(reader, raw).read(patch_ids);
+      UgridReader<std::int64_t>(reader, raw).read(patch_ids);
     }
   });
   set_patches(patch_ids, raw);

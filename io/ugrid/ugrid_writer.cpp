@@ -34,7 +34,7 @@ public:
     for (const GlobalIndex count : in_ugrid_order(_counts)) _writer.put(static_cast<Integer>(count));
   }
 
-  void write_part(const FilePart& part) {
+  void write_part(const MeshPart& part) {
     write_points(part);
     for (std::size_t s = 0; s < face_shape_count; ++s) {
       for (const Run& run : part.faces[s].runs) {
@@ -47,7 +47,7 @@ public:
 private:
   static constexpr std::int64_t width = sizeof(Integer);
 
-  void write_points(const FilePart& part) {
+  void write_points(const MeshPart& part) {
     _writer.move_to(_layout.points + 24 * part.first_owned);
     for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
       if (!part.owned[v]) continue;
@@ -55,7 +55,7 @@ private:
     }
   }
 
-  void write_faces(const FilePart& part, std::size_t shape, const Run& run) {
+  void write_faces(const MeshPart& part, std::size_t shape, const Run& run) {
     const Block& block = part.faces[shape];
     const std::int32_t place = _patches.places[run.id];
     const GlobalIndex first = _patches.before[place][shape] + run.before;
@@ -70,7 +70,7 @@ private:
     for (LocalIndex i = run.begin; i < run.end; ++i) _writer.put(id);
   }
 
-  void write_cells(const FilePart& part, std::size_t shape) {
+  void write_cells(const MeshPart& part, std::size_t shape) {
     const Block& block = part.cells[shape];
     if (block.count() == 0) return;
     _writer.move_to(_layout.cells[shape] + block.before * block.corners * width);
@@ -79,7 +79,7 @@ private:
     }
   }
 
-  void put_vertex(const FilePart& part, LocalIndex vertex) {
+  void put_vertex(const MeshPart& part, LocalIndex vertex) {
     _writer.put(static_cast<Integer>(part.numbers[vertex] + 1));
   }
 
@@ -94,7 +94,7 @@ void write_parts_of_rank(const FileMesh& mesh, const BoundaryPatches& patches, b
                          RangeWriter& writer) {
   UgridParts<Integer> parts(mesh, patches, writer);
   if (is_root) parts.write_counts();
-  for (const FilePart& part : mesh.parts) parts.write_part(part);
+  for (const MeshPart& part : mesh.parts) parts.write_part(part);
   writer.flush();
 }
 
@@ -113,7 +113,7 @@ NormalAxis normal_axis_of(const geometry::Box& box) {
 /// The box around a patch. Collective.
 geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
   geometry::Box box;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const Block& block : part.faces) {
       for (const Run& run : block.runs) {
         if (run.id != patch) continue;

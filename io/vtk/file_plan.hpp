@@ -13,14 +13,14 @@
 namespace aeroloom::io {
 
 /// A part, and the rank that holds it.
-struct PartPlace {
+struct PartLocation {
   std::int32_t id = 0;
   parallel::Rank rank = 0;
   mesh::GlobalIndex items = 0;  ///< cells (or faces) for the file
   mesh::GlobalIndex work = 0;   ///< work to write them: their number of corners
 
   static constexpr auto fields() {
-    return std::tuple(&PartPlace::id, &PartPlace::rank, &PartPlace::items, &PartPlace::work);
+    return std::tuple(&PartLocation::id, &PartLocation::rank, &PartLocation::items, &PartLocation::work);
   }
 };
 
@@ -48,6 +48,6 @@ struct FilePlan {
 /// rank with least work writes it, so at the end two ranks differ by at most one file. Parts are sent to
 /// writers in rounds, which limits memory. In a round a writer gets one file, or more while they have at most
 /// `items_per_file` items or an eighth of the mean of all ranks. `places`: all parts, by id from 0.
-FilePlan plan_files(std::span<const PartPlace> places, mesh::GlobalIndex items_per_file, int ranks);
+FilePlan plan_files(std::span<const PartLocation> places, mesh::GlobalIndex items_per_file, int ranks);
 
 }  // namespace aeroloom::io

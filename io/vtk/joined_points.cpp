@@ -54,7 +54,7 @@ std::vector<GlobalIndex> lowest_ids(const std::vector<PlacedPoint>& points) {
   return lowest;
 }
 
-/// The joined id of each point of the share.
+/// The joined id of each point on this rank.
 std::vector<GlobalIndex> find_joined(const RawMesh& raw) {
   const parallel::Communicator& communicator = raw.file.communicator;
   std::map<parallel::Rank, std::vector<PlacedPoint>> outgoing;

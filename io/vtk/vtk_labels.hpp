@@ -1,7 +1,7 @@
 /// Finds the regions and patches of a VTK file. Only io/vtk/*.cpp include this header.
 #pragma once
 
-#include "io/vtk/vtk_part.hpp"
+#include "io/vtk/vtk_content.hpp"
 
 #include <array>
 #include <cstdint>
@@ -38,6 +38,6 @@ CellLabels read_patches(vtkUnstructuredGrid& grid, std::span<const std::vector<v
 bool has_boundary_fields(vtkFieldData& fields);
 /// Reads faces, their labels and the patches from these arrays. Throws std::runtime_error where the arrays
 /// contradict each other.
-void read_boundary_fields(vtkFieldData& fields, VtkPart& part);
+void read_boundary_fields(vtkFieldData& fields, VtkContent& content);
 
 }  // namespace aeroloom::io

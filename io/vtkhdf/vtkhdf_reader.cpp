@@ -2,7 +2,7 @@
 
 #include "geometry/sort_unique.hpp"
 #include "io/distinct_numbers.hpp"
-#include "io/vtkhdf/vtkhdf_share.hpp"
+#include "io/vtkhdf/vtkhdf_items.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
@@ -169,7 +169,7 @@ RawMesh read_vtkhdf(const SharedPath& file) {
   });
   file.communicator.broadcast_value(facts);
   RawMesh raw(file), boundary(file);
-  parallel::agree(file.communicator, [&] { vtkhdf::read_share(facts, raw, boundary); });
+  parallel::agree(file.communicator, [&] { vtkhdf::read_local_items(facts, raw, boundary); });
   if (!facts.id_array.empty()) {
     std::vector<std::vector<mesh::GlobalIndex>*> corners = pointers_to(raw.cells);
     for (auto* faces : pointers_to(raw.faces)) corners.push_back(faces);

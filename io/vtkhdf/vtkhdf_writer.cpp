@@ -88,7 +88,7 @@ private:
 };
 
 void write_grid_cells(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
-                      const FilePart& part) {
+                      const MeshPart& part) {
   file.write_items(places.points + 3 * before.points * item_bytes, part.coordinates);
   file.write_items(places.numbers + before.points * item_bytes, part.numbers);
   PartitionWriter writer(file, places, before, part.id);
@@ -102,7 +102,7 @@ void write_grid_cells(SharedFile& file, const vtkhdf::GridPlaces& places, const 
 }
 
 void write_boundary(SharedFile& file, const vtkhdf::BoundaryPlaces& places, const GridCounts& before,
-                    const FilePart& part) {
+                    const MeshPart& part) {
   RangeWriter connectivity(file, places.connectivity + before.corners * item_bytes);
   RangeWriter offsets(file, places.offsets + (before.cells + 1) * item_bytes);
   RangeWriter types(file, places.types + before.cells);
@@ -127,7 +127,7 @@ void write_boundary(SharedFile& file, const vtkhdf::BoundaryPlaces& places, cons
 }
 
 /// The vertices of a part's faces, ascending.
-std::vector<mesh::LocalIndex> vertices_of_faces(const FilePart& part) {
+std::vector<mesh::LocalIndex> vertices_of_faces(const MeshPart& part) {
   std::vector<mesh::LocalIndex> used;
   for (const Block& block : part.faces)
     used.insert(used.end(), block.connectivity.begin(), block.connectivity.end());
@@ -136,7 +136,7 @@ std::vector<mesh::LocalIndex> vertices_of_faces(const FilePart& part) {
 }
 
 void write_grid_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
-                      const FilePart& part) {
+                      const MeshPart& part) {
   const std::vector<mesh::LocalIndex> used = vertices_of_faces(part);
   RangeWriter points(file, places.points + 3 * before.points * item_bytes);
   RangeWriter numbers(file, places.numbers + before.points * item_bytes);
@@ -162,7 +162,7 @@ void write_grid_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const 
 void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
   const parallel::Communicator& communicator = mesh.communicator();
   std::vector<GridCounts> cells, faces;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     cells.push_back(counts_of_grid(part.vertex_count(), part.cells));
     faces.push_back(counts_of_grid(0, part.faces));
   }
@@ -183,7 +183,7 @@ void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
   hdf5::write_laid_out({communicator, path}, structure, [&](SharedFile& file) {
     const std::int64_t none = 0;
     if (communicator.is_root()) file.write_items(boundary.offsets, std::span(&none, 1));
-    for (const FilePart& part : mesh.parts) {
+    for (const MeshPart& part : mesh.parts) {
       const auto p = static_cast<std::size_t>(part.id);
       write_grid_cells(file, grid, before[p], part);
       write_boundary(file, boundary, faces_before[p], part);
@@ -193,7 +193,7 @@ void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
 
 void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path) {
   std::vector<GridCounts> faces;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     faces.push_back(counts_of_grid(static_cast<std::int64_t>(vertices_of_faces(part).size()), part.faces));
   }
   const std::vector<GridCounts> rows = gather_counts(mesh, faces);
@@ -208,7 +208,7 @@ void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path) {
     structure = layout.finish();
   });
   hdf5::write_laid_out({mesh.communicator(), path}, structure, [&](SharedFile& file) {
-    for (const FilePart& part : mesh.parts)
+    for (const MeshPart& part : mesh.parts)
       write_grid_faces(file, grid, before[static_cast<std::size_t>(part.id)], part);
   });
 }

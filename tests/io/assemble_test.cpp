@@ -75,7 +75,7 @@ TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
     EXPECT_EQ(result.mesh.region_cells, examples::distribute(world, whole, 3).region_cells);
     expect_sound(result.mesh);
     expect_sound(repartition(result.mesh, 3));
-    for (const FilePart& part : result.mesh.parts) {
+    for (const MeshPart& part : result.mesh.parts) {
       for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
         const geometry::Vec3 p = whole.points[static_cast<std::size_t>(part.numbers[v])];
         EXPECT_TRUE(part.point(v).x == p.x && part.point(v).y == p.y && part.point(v).z == p.z);
@@ -91,8 +91,8 @@ TEST(Assemble, OneMeshWhateverTheRanks) {
   const Assembled all = assemble(raw_of(self, whole), 5);
   const FileMesh cut = repartition(mine.mesh, 4), cut_alone = repartition(all.mesh, 4);
   for (const auto& [some, every] : {std::pair(&mine.mesh, &all.mesh), std::pair(&cut, &cut_alone)}) {
-    for (const FilePart& part : some->parts) {
-      const FilePart& other = every->parts[static_cast<std::size_t>(part.id)];
+    for (const MeshPart& part : some->parts) {
+      const MeshPart& other = every->parts[static_cast<std::size_t>(part.id)];
       EXPECT_TRUE(std::equal(part.coordinates.begin(), part.coordinates.end(), other.coordinates.begin(),
                              other.coordinates.end()));
       EXPECT_TRUE(

@@ -65,7 +65,7 @@ TEST_F(Medit, WrittenAndReadAgain) {
     expect_same(mesh, read);
     // Coordinates come back with every bit.
     const examples::MixedMesh whole(4, 3);
-    for (const FilePart& part : read.mesh.parts) {
+    for (const MeshPart& part : read.mesh.parts) {
       for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) {
         const geometry::Vec3 p = part.point(v);
         EXPECT_NE(std::find(whole.points.begin(), whole.points.end(), p), whole.points.end());

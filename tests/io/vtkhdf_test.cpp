@@ -40,7 +40,7 @@ protected:
 std::array<std::array<double, cell_shape_count>, 2> volumes_of(const FileMesh& mesh) {
   const Communicator& communicator = mesh.pieces->communicator;
   std::array<std::array<double, cell_shape_count>, 2> volumes{};
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {
       const Block& block = part.cells[static_cast<std::size_t>(shape)];
       for (const Run& run : block.runs) {

@@ -1,4 +1,4 @@
-#include "io/vtk/vtk_part.hpp"
+#include "io/vtk/vtk_content.hpp"
 
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/sandbox.hpp"
@@ -32,15 +32,15 @@ std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-parallel::Bytes run_part_task(std::span<const std::byte> input) {
-  return parallel::hand_over_to_wire(extract_vtk_part(text_of(input)));
+parallel::Bytes run_content_task(std::span<const std::byte> input) {
+  return parallel::hand_over_to_wire(extract_vtk_content(text_of(input)));
 }
 
 parallel::Bytes run_sources_task(std::span<const std::byte> input) {
   return parallel::to_wire(extract_vtk_sources(text_of(input)));
 }
 
-const parallel::NamedTask part_task("read a VTK file", run_part_task);
+const parallel::NamedTask content_task("read a VTK file", run_content_task);
 const parallel::NamedTask sources_task("read an index of VTK files", run_sources_task);
 
 parallel::Bytes run_reader(const parallel::NamedTask& task, const std::string& path) {
@@ -82,8 +82,8 @@ std::int64_t readable_bytes(const std::string& path) {
   return static_cast<std::int64_t>(fs::file_size(path));
 }
 
-VtkPart read_vtk_part(const std::string& path) {
-  return parallel::from_wire<VtkPart>(run_reader(part_task, path));
+VtkContent read_vtk_content(const std::string& path) {
+  return parallel::from_wire<VtkContent>(run_reader(content_task, path));
 }
 
 std::vector<std::string> read_vtk_sources(const std::string& path) {

@@ -1,4 +1,4 @@
-#include "io/medit/medit_share.hpp"
+#include "io/medit/local_medit_mesh.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -26,7 +26,7 @@ constexpr std::array<std::pair<std::int32_t, const char*>, 14> unreadable = {{{1
 
 }  // namespace
 
-MeditItems* MeditShare::items(std::int32_t keyword) {
+MeditItems* LocalMeditMesh::items(std::int32_t keyword) {
   for (std::size_t s = 0; s < medit_cells.size(); ++s) {
     if (static_cast<std::int32_t>(medit_cells[s]) == keyword) return &cells[s];
   }

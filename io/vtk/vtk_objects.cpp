@@ -1,6 +1,6 @@
-#include "io/vtk/vtk_files.hpp"
+#include "io/vtk/vtk_objects.hpp"
 
-#include "io/vtk/vtk_complaints.hpp"
+#include "io/vtk/vtk_errors.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -48,7 +48,7 @@ std::string array_lines(std::span<const IndexArray> arrays) {
 
 void write_vtk_file(vtkXMLWriter& writer, vtkDataObject& data, const std::string& path,
                     Compression compression) {
-  const VtkComplaints kept_from_the_terminal;  // the exception tells
+  const VtkErrors kept_from_the_terminal;  // the exception has the reason
   writer.SetInputDataObject(&data);
   writer.SetFileName(path.c_str());
   writer.SetDataModeToAppended();

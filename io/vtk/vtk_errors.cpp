@@ -1,4 +1,4 @@
-#include "io/vtk/vtk_complaints.hpp"
+#include "io/vtk/vtk_errors.hpp"
 
 #include <algorithm>
 
@@ -26,7 +26,7 @@ vtkStandardNewMacro(FirstError);
 
 }  // namespace
 
-VtkComplaints::VtkComplaints()
+VtkErrors::VtkErrors()
     : _before(vtkOutputWindow::GetInstance()),
       _here(vtkSmartPointer<FirstError>::New()),
       _verbosity(vtkLogger::GetCurrentVerbosityCutoff()) {
@@ -34,12 +34,12 @@ VtkComplaints::VtkComplaints()
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }
 
-VtkComplaints::~VtkComplaints() {
+VtkErrors::~VtkErrors() {
   vtkOutputWindow::SetInstance(_before);
   vtkLogger::SetStderrVerbosity(_verbosity);
 }
 
-std::string VtkComplaints::first() const {
+std::string VtkErrors::first() const {
   std::string text = static_cast<const FirstError&>(*_here).text();
   const auto place = text.find("): ");
   if (place != std::string::npos) text.erase(0, place + 3);

@@ -22,7 +22,7 @@ struct VtkLabel {
 
 /// n points, and cells and faces with corners in CellShape's order. Corners are ids of points; without ids
 /// they are the indices 0 ... n - 1.
-struct VtkPart {
+struct VtkContent {
   std::vector<double> coordinates;     ///< (n,3)
   std::vector<mesh::GlobalIndex> ids;  ///< (n), or empty
   bool has_ids = false;                ///< also for a file without points, whose faces use ids of other files
@@ -33,9 +33,9 @@ struct VtkPart {
   std::vector<VtkLabel> regions, patches;
 
   static constexpr auto fields() {
-    return std::tuple(&VtkPart::coordinates, &VtkPart::ids, &VtkPart::has_ids, &VtkPart::cells,
-                      &VtkPart::cell_labels, &VtkPart::faces, &VtkPart::face_labels, &VtkPart::regions,
-                      &VtkPart::patches);
+    return std::tuple(&VtkContent::coordinates, &VtkContent::ids, &VtkContent::has_ids, &VtkContent::cells,
+                      &VtkContent::cell_labels, &VtkContent::faces, &VtkContent::face_labels,
+                      &VtkContent::regions, &VtkContent::patches);
   }
   std::size_t point_count() const { return coordinates.size() / 3; }
 };
@@ -43,16 +43,16 @@ struct VtkPart {
 /// Reads a .vtu or legacy .vtk file. All corners exist as points; only boundary faces from field arrays may
 /// use ids of other files. Throws std::filesystem::filesystem_error where the file cannot be opened,
 /// otherwise std::runtime_error with the file, the place and the reason. Not collective.
-VtkPart read_vtk_part(const std::string& path);
+VtkContent read_vtk_content(const std::string& path);
 
-/// The file names in a .pvtu index, absolute or relative to it. Throws as read_vtk_part. Not collective.
+/// The file names in a .pvtu index, absolute or relative to it. Throws as read_vtk_content. Not collective.
 std::vector<std::string> read_vtk_sources(const std::string& path);
 
 /// The size of a file in bytes. Throws std::filesystem::filesystem_error where it cannot be opened.
 std::int64_t readable_bytes(const std::string& path);
 
-/// Run in the child process; only io/vtk/vtk_part.cpp calls them. Their exceptions do not name the file.
-VtkPart extract_vtk_part(const std::string& path);
+/// Run in the child process; only io/vtk/vtk_content.cpp calls them. Their exceptions do not name the file.
+VtkContent extract_vtk_content(const std::string& path);
 std::vector<std::string> extract_vtk_sources(const std::string& path);
 
 }  // namespace aeroloom::io

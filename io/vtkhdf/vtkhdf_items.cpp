@@ -1,4 +1,4 @@
-#include "io/vtkhdf/vtkhdf_share.hpp"
+#include "io/vtkhdf/vtkhdf_items.hpp"
 
 #include "io/hdf5/input_file.hpp"
 #include "io/vtk_order.hpp"
@@ -129,7 +129,7 @@ private:
   }
 
   /// The cells of a partition take its corners from the first to the last. Whoever reads the cell asks, so
-  /// that the answer does not depend on where shares end.
+  /// that the answer does not depend on where the ranges of ranks end.
   void require_all_corners(std::int64_t cell, std::size_t p, std::int64_t begin, std::int64_t end) const {
     const GridCounts &before = _facts.before[p], &after = _facts.before[p + 1];
     const std::int64_t corners = after.corners - before.corners;
@@ -259,7 +259,7 @@ private:
 
 }  // namespace
 
-void read_share(const FileFacts& facts, RawMesh& grid, RawMesh& boundary) {
+void read_local_items(const FileFacts& facts, RawMesh& grid, RawMesh& boundary) {
   Reader reader(facts, grid.file.path);
   reader.read_points(grid);
   reader.read_cells(grid);

@@ -10,12 +10,12 @@
 namespace aeroloom::io {
 
 /// While an object exists, VTK prints nothing in this process, and the first error is kept.
-class VtkComplaints {
+class VtkErrors {
 public:
-  VtkComplaints();
-  ~VtkComplaints();
-  VtkComplaints(const VtkComplaints&) = delete;
-  VtkComplaints& operator=(const VtkComplaints&) = delete;
+  VtkErrors();
+  ~VtkErrors();
+  VtkErrors(const VtkErrors&) = delete;
+  VtkErrors& operator=(const VtkErrors&) = delete;
 
   bool any() const { return !first().empty(); }
   /// The first error on one line, without the place in VTK's source; empty if there was none.
