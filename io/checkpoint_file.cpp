@@ -20,7 +20,7 @@ using parallel::Communicator;
 using parallel::Digest;
 
 constexpr std::uint64_t magic = 0x54504b43'4f524541;  // "AEROCKPT"
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 /// The beginning of the file.
 struct Preamble {

@@ -76,16 +76,14 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  require_valid(what, mesh::check_surface_mesh(surface.mesh, surface.numbering));
-  record.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
-  record.face_table = table_of_faces(surface.model, surface.mesh);
+  require_valid(what, mesh::check_surface_mesh(surface));
+  record.surface_quality = mesh::summarise_quality(surface);
+  record.face_table = table_of_faces(surface.model, surface);
   record.patches = table_of_patches(surface.model, record.face_table, surface.patch_types);
 }
 
-void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record) {
-  surface.mesh = mesh::boundary_mesh(volume, numbering);
-  surface.numbering = mesh::number_mesh(surface.mesh);
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface, report::RunRecord& record) {
+  static_cast<mesh::NumberedMesh&>(surface) = mesh::number_mesh(mesh::boundary_mesh(volume));
   inspect_surface("the improved surface mesh", surface, record);
 }
 

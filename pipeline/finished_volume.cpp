@@ -36,17 +36,16 @@ std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& vol
 }
 
 /// Tells the elements that the CAD forces from those that improvement could not mend.
-void list_pinned(const cases::Case& input, const mesh::DistributedMesh& volume,
-                 const mesh::Numbering& numbering, const mesh::CellsOutside& suspects,
-                 report::RunRecord& record) {
-  record.pinned = attribution::find_pinned(volume, numbering, input.improve.target_angle, suspects,
+void list_pinned(const cases::Case& input, const mesh::NumberedMesh& volume,
+                 const mesh::CellsOutside& suspects, report::RunRecord& record) {
+  record.pinned = attribution::find_pinned(volume, input.improve.target_angle, suspects,
                                            input.improve.boundary_may_change);
   log_pinned(record);
 }
 
 /// Measures that compare neighbours and edges. Collective.
-mesh::MixedQuality measure_cells(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering) {
-  return mesh::measure_quality(volume, numbering, mesh::link_faces(volume, numbering));
+mesh::MixedQuality measure_cells(const mesh::NumberedMesh& volume) {
+  return mesh::measure_quality(volume, mesh::link_faces(volume));
 }
 
 }  // namespace
@@ -70,22 +69,21 @@ improve::ImproveReport improve_volume(const cases::Case& input, const improve::M
   return report;
 }
 
-mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
-                                const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                                report::RunRecord& record) {
+mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::NumberedMesh& volume,
+                                const mesh::DistributedMesh* surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, numbering, surface);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, surface);
   require_valid("the volume mesh", validity);
   record.mesh_volume = validity.volume;
-  const mesh::MeshCounts counts = mesh::count_mesh(volume, numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(volume);
   record.counts = counts;
   record.regions_filled = table_of_regions(volume, validity.region_volumes);
   mesh::CellsOutside suspects;
   if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
-  record.quality = mesh::summarise_quality(volume, numbering, &suspects);
-  if (input.gate.asks_for_cells()) record.cells = measure_cells(volume, numbering);
-  if (input.improve.enabled) list_pinned(input, volume, numbering, suspects, record);
-  record.hash = mesh::hash_mesh(volume, numbering);
+  record.quality = mesh::summarise_quality(volume, &suspects);
+  if (input.gate.asks_for_cells()) record.cells = measure_cells(volume);
+  if (input.improve.enabled) list_pinned(input, volume, suspects, record);
+  record.hash = mesh::hash_mesh(volume);
   return counts;
 }
 

@@ -252,7 +252,7 @@ private:
     }
     SurfaceReport report = describe(curves, surface);
     report.needles = std::move(groups);
-    _accepted = SurfaceMesh{std::move(surface), std::move(report), _field};
+    _accepted = SurfaceMesh{{mesh::number_mesh(std::move(surface)), _field}, std::move(report)};
     return remedies;
   }
 
@@ -294,7 +294,7 @@ SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, c
                                    const SizeField& field, const CutOptions& options,
                                    parallel::TaskStore* tasks) {
   SurfaceMesh result = SurfaceRounds(communicator, model, field, options, tasks).run();
-  parallel::add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
+  parallel::add_pieces(static_cast<std::int64_t>(result.pieces.size()));
   return result;
 }
 

@@ -2,9 +2,8 @@
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "sizing/field/size_field.hpp"
+#include "sizing/field/sized_surface.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
@@ -15,12 +14,10 @@ class TaskStore;
 
 namespace aeroloom::surface {
 
-struct SurfaceMesh {
-  mesh::DistributedMesh
-      mesh;  ///< triangle pieces, each part of one CAD face, numbered by face; spread over ranks by load
+/// Triangle pieces, each part of one CAD face, numbered by face and spread over ranks by load. The field has
+/// the sources that rounds of local refinement added.
+struct SurfaceMesh : sizing::SizedSurface {
   SurfaceReport report;
-  /// The field with the sources that mending added; the volume follows this one.
-  sizing::SizeField field;
 };
 
 /// Meshes the surface of the model. Collective. Throws SurfaceError or CollectiveError, the same on all

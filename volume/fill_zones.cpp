@@ -101,7 +101,7 @@ private:
     }
     if (filling.filled) {
       parallel::add_pieces(1);
-      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling);
+      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling, _input.surface_numbers);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
       parallel::note_task({parallel::TaskKind::zone, zone.zone, _work.at(zone.zone),

@@ -117,7 +117,8 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
     geometry::sort_unique(used);
     for (const auto& [cavity, v] : used)
       result.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
-                                 vertex_key[v], piece.point(v), piece.vertex_entity[v]});
+                                 vertex_key[v], piece.point(v), piece.vertex_entity[v],
+                                 piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
@@ -179,6 +180,7 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
 struct OwnedCavity {
   Cavity cavity;
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per point, ascending
+  std::vector<mesh::GlobalIndex> surface_numbers;  ///< per point
   std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
   std::optional<CavityContent> content;
   CavityShares shares;  ///< of the content
@@ -209,6 +211,7 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
     for (; v < vertices.size() && vertices[v].cavity == owned.cavity.id; ++v) {
       if (!owned.vertex_keys.empty() && owned.vertex_keys.back() == vertices[v].vertex_key) continue;
       owned.vertex_keys.push_back(vertices[v].vertex_key);
+      owned.surface_numbers.push_back(vertices[v].surface_number);
       owned.cavity.entity.push_back(vertices[v].entity);
       owned.cavity.points.push_back(vertices[v].point);
       owned.cavity.dimension.push_back(static_cast<mesh::CadDimension>(vertices[v].dimension));
@@ -260,12 +263,13 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
   for (const auto& [piece, v] : uses) {
     if (v < known) {
       out.vertices.push_back({id, piece, static_cast<std::int32_t>(owned.cavity.dimension[v]),
-                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v]});
+                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v],
+                              owned.surface_numbers[v]});
     } else {
       const AddedVertex& added = owned.content->added[v - known];
       out.vertices.push_back(
           {id, piece, static_cast<std::int32_t>(added.dimension), vertex_key(v), added.point,
-           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity});
+           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity, -1});
     }
   }
   const std::vector<CavityTriangle>& triangles = owned.content->triangles_of(owned.cavity);

@@ -292,7 +292,7 @@ int foam_label_bits(GlobalIndex cells, GlobalIndex faces, GlobalIndex points, Gl
 
 void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces, *mesh.numbering);
+  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces);
   const FoamPlan plan = plan_faces(mesh, links);
   const FoamMesh whole{
       mesh, plan, {foam_patches(mesh.patches), foam_words(mesh.regions)}, format_of(mesh, plan, options)};

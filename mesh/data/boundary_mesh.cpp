@@ -63,7 +63,7 @@ std::vector<LocalIndex> triangles_by_face(const Piece& piece) {
   return order;
 }
 
-DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& numbering) {
+DistributedMesh boundary_mesh(const NumberedMesh& volume) {
   const parallel::Communicator& communicator = volume.communicator;
   DistributedMesh surface(communicator);
   surface.kind = CellKind::triangle;
@@ -75,7 +75,7 @@ DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& nu
   for (std::size_t i = 0; i < volume.pieces.size(); ++i) {
     const Piece& piece = volume.pieces[i];
     const std::vector<LocalIndex> order = triangles_by_face(piece);
-    SkinPiece skin(piece, numbering.vertices[i]);
+    SkinPiece skin(piece, volume.numbering.vertices[i]);
     const auto same_face = [&](LocalIndex a, LocalIndex b) {
       return piece.triangle_face[a] == piece.triangle_face[b];
     };

@@ -83,7 +83,7 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 
 Subject find_subject(const Communicator& communicator, const PictureSource& source) {
   Subject subject{communicator, source, picture::find_scene(source.surface, source.types), {}, {}, {}};
-  subject.neighbours = picture::find_edge_neighbours(source.surface, source.numbering, subject.scene.shown);
+  subject.neighbours = picture::find_edge_neighbours(source.surface, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
@@ -363,10 +363,8 @@ std::vector<Picture> make_all(const Communicator& communicator, const PictureSou
                               const mesh::DistributedMesh* volume) {
   const Subject subject = find_subject(communicator, source);
   const auto& surface = source.surface;
-  const std::optional<Place> edge =
-      find_leading_edge(surface, source.numbering, subject.neighbours, subject.scene);
-  const std::optional<Place> junction =
-      find_junction(surface, source.numbering, subject.neighbours, subject.scene);
+  const std::optional<Place> edge = find_leading_edge(surface, subject.neighbours, subject.scene);
+  const std::optional<Place> junction = find_junction(surface, subject.neighbours, subject.scene);
   std::vector<Picture> pictures{body_picture(subject), views_picture(subject)};
   if (edge) pictures.push_back(leading_edge_picture(subject, *edge));
   if (junction) pictures.push_back(junction_picture(subject, *junction));

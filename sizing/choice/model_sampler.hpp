@@ -18,7 +18,7 @@
 
 namespace aeroloom::sizing {
 
-class SizedSurface;
+class SurfaceDemand;
 
 /// A field and what it predicts.
 struct Trial {
@@ -233,7 +233,7 @@ private:
   std::vector<cad::FaceCorner> _corners;          // of those, where may_be_sharp
   std::optional<TriangleTree> _part_on_boundary;  // facets that bound the domain, where not all do
   std::optional<Walls> _walls;                    // facets of all faces
-  std::shared_ptr<const std::vector<SizedSurface>> _surfaces;
+  std::shared_ptr<const std::vector<SurfaceDemand>> _surfaces;
   geometry::Box _body_box;
   std::vector<Estimate> _estimates;
   std::vector<UnseenGaps> _unseen_gaps;

@@ -5,7 +5,7 @@
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/sources/formula_sources.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -120,7 +120,7 @@ std::vector<SizeSource> ModelSampler::sample_regions(double coarser) const {
 }
 
 void ModelSampler::lay_surfaces() {
-  std::vector<SizedSurface> surfaces;
+  std::vector<SurfaceDemand> surfaces;
   const auto lay = [&](const std::string& key, std::vector<SizedTriangle> triangles, double reach) {
     surfaces.emplace_back(key, std::move(triangles), reach);
   };
@@ -146,7 +146,7 @@ void ModelSampler::lay_surfaces() {
     for (const EdgeSize& edge : _demands.edges)
       lay("sizing.edges." + edge.name, edges_asked_for(_model, edge), 0);
   });
-  for (const SizedSurface& each : surfaces) {
+  for (const SurfaceDemand& each : surfaces) {
     if (each.empty())
       throw std::invalid_argument(
           each.key() +
@@ -154,7 +154,7 @@ void ModelSampler::lay_surfaces() {
           "box "
           "of edges; geometry.trailing_edges: keep, where a trailing edge is named that would be closed");
   }
-  _surfaces = std::make_shared<const std::vector<SizedSurface>>(std::move(surfaces));
+  _surfaces = std::make_shared<const std::vector<SurfaceDemand>>(std::move(surfaces));
 }
 
 std::vector<SizeSource> ModelSampler::sample_formula(const SizingOptions& options, double coarser,
@@ -173,7 +173,7 @@ std::vector<SizeSource> ModelSampler::sample_formula(const SizingOptions& option
 std::vector<SizeSource> ModelSampler::sample_surfaces(const SizingOptions& options, double coarser,
                                                       double most) const {
   std::vector<SizeSource> mine;
-  for (const SizedSurface& surface : *_surfaces) {
+  for (const SurfaceDemand& surface : *_surfaces) {
     const auto ask = [&](geometry::Vec3 middle, double half) { return surface.ask(middle, half, coarser); };
     const Demand demand{surface.key(), [&] { return surface.cells(_root, coarser); },
                         [&](RankOf part, std::int64_t limit) {

@@ -6,7 +6,7 @@
 #include "sizing/features/segment_tree.hpp"
 #include "sizing/features/skin_faces.hpp"
 #include "sizing/lifting/lifting_section.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include <algorithm>
 #include <cmath>
