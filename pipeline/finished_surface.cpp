@@ -5,7 +5,6 @@
 #include "mesh/quality/quality.hpp"
 #include "pipeline/finished_volume.hpp"
 
-#include <algorithm>
 #include <tuple>
 
 namespace aeroloom::pipeline {
@@ -37,8 +36,7 @@ std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh:
     }
     mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
   }
-  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+  std::vector<PieceRow> rows = communicator.gather_sorted(mine, &PieceRow::piece);
   std::vector<report::FaceRow> faces;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Face& face = model.face(f);

@@ -7,7 +7,6 @@
 #include "pipeline/case/layer_gate.hpp"
 #include "pipeline/stage_log.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -114,10 +113,8 @@ std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volu
         mine.push_back({piece.id, static_cast<std::int32_t>(p), rows[p].area, rows[p].triangles});
     }
   }
-  std::vector<PatchArea> rows = communicator.all_gather_items<PatchArea>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PatchArea& a, const PatchArea& b) {
-    return std::tie(a.piece, a.patch) < std::tie(b.piece, b.patch);
-  });
+  std::vector<PatchArea> rows = communicator.gather_sorted(
+      mine, [](const PatchArea& each) { return std::tie(each.piece, each.patch); });
   std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < volume.patches.size(); ++p) {
     const auto type = p < volume.patch_types.size() ? volume.patch_types[p] : mesh::PatchType::wall;

@@ -89,8 +89,7 @@ std::string show_quality(const parallel::Communicator& communicator, const Quali
   const mesh::NumberedMesh& pieces = *file.mesh.pieces;
   const mesh::MixedQuality quality = mesh::measure_quality(pieces, mesh::link_faces(pieces));
   std::string missed = cases::missed_limits(gate, quality);
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     const std::string json = dump(report_json(request.file, file, quality, missed));
     if (!request.json_file.empty()) report::write_text(request.json_file, json);
     if (request.print_json) {

@@ -132,10 +132,8 @@ private:
   cad::Model find_or_load_domain() {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
       std::optional<cad::Domain> domain;
-      parallel::agree(_communicator, [&] {
-        const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-        domain = unpack_domain_product(std::move(*found));
-      });
+      parallel::collectively(_communicator, parallel::ScopedCpu::As::repeated,
+                             [&] { domain = unpack_domain_product(std::move(*found)); });
       if (_communicator.is_root()) _record.domain = std::move(domain->report);
       return std::move(domain->model);
     }

@@ -21,9 +21,8 @@ namespace {
                                      const volume::VolumeFailure& failure, const std::string& file) {
   std::string outcome = "the triangles are in " + file;
   try {
-    parallel::agree(communicator, [&] {
-      if (communicator.is_root()) io::write_triangles(failure.points(), failure.triangles(), file);
-    });
+    parallel::on_root(communicator,
+                      [&] { io::write_triangles(failure.points(), failure.triangles(), file); });
   } catch (const parallel::CollectiveError& error) {
     outcome = fmt::format("the triangles cannot be written: {}", error.what());
   }

@@ -36,8 +36,7 @@ public:
   /// Pieces of all faces, unless there are conflicts.
   PlaneConflicts mesh(const mesh::DistributedMesh& surface) {
     _loops = gather_loops(surface, _faces);
-    parallel::agree(_communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
       for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
     });
     for (std::vector<FaceId> faces = _faces; !faces.empty();) {
@@ -75,8 +74,7 @@ private:
     constexpr double seconds_per_triangle = 3e-6;  // about; no result depends on it
     Subfaces subfaces;
     _costs.clear();
-    parallel::agree(_communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
       for (const auto& [face, loops] : _loops) {
         if (!std::binary_search(faces.begin(), faces.end(), face)) continue;
         const double begin = parallel::cpu_seconds();
@@ -160,8 +158,7 @@ private:
     for (const mesh::Piece& piece : surface.pieces) {
       if (is_old(piece)) old.push_back(piece.id);
     }
-    old = _communicator.all_gather_items<mesh::PieceId>(old);
-    std::sort(old.begin(), old.end());
+    old = _communicator.gather_sorted(old);
     std::erase_if(surface.pieces, is_old);
     for (mesh::Piece& piece : surface.pieces) {
       piece.id -=

@@ -145,8 +145,7 @@ private:
       mine.push_back(std::abs(
           _shell.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
     }
-    std::vector<double> errors = _communicator.all_gather_items<double>(mine);
-    std::sort(errors.begin(), errors.end());
+    std::vector<double> errors = _communicator.gather_sorted(mine);
     return errors.empty() ? 0 : errors[(errors.size() - 1) * 9 / 10];
   }
 

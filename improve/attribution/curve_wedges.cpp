@@ -97,10 +97,8 @@ std::vector<EdgeWedge> measure_wedges(const mesh::NumberedMesh& mesh, const std:
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
       add_shares(mesh.pieces[i], mesh.numbering.vertices[i], edges, mine);
   }
-  std::vector<EdgeShare> all = communicator.all_gather_items<EdgeShare>(mine);
-  std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
-    return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
-  });
+  std::vector<EdgeShare> all =
+      communicator.gather_sorted(mine, [](const EdgeShare& each) { return std::tie(each.edge, each.piece); });
   std::vector<EdgeWedge> wedges(edges.size());
   for (const EdgeShare& share : all) {
     wedges[share.edge].angle += share.angle;

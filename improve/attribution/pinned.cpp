@@ -328,12 +328,9 @@ void PinnedSearch::merge_features() {
 }
 
 PinnedReport PinnedSearch::merge() {
-  std::vector<PinningEntity> all = _communicator.all_gather_items<PinningEntity>(_entities);
   const auto key = [](const PinningEntity& e) { return std::tuple(e.kind, e.faces, e.vertex); };
-  std::sort(all.begin(), all.end(), [&](const PinningEntity& a, const PinningEntity& b) {
-    return std::tuple(key(a), a.angle, a.at.x, a.at.y, a.at.z) <
-           std::tuple(key(b), b.angle, b.at.x, b.at.y, b.at.z);
-  });
+  const std::vector<PinningEntity> all = _communicator.gather_sorted(
+      _entities, [&](const PinningEntity& e) { return std::tuple(key(e), e.angle, e.at.x, e.at.y, e.at.z); });
   for (const PinningEntity& entity : all) {
     if (_report.entities.empty() || key(_report.entities.back()) != key(entity)) {
       _report.entities.push_back(entity);

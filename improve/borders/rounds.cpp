@@ -161,9 +161,7 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
                          [&](std::size_t first, std::size_t last) {
                            rows.push_back({all[first], static_cast<std::int64_t>(last - first)});
                          });
-  std::vector<CavitySize> table = communicator.all_gather_items<CavitySize>(rows);
-  std::sort(table.begin(), table.end(),
-            [](const CavitySize& a, const CavitySize& b) { return a.cavity < b.cavity; });
+  std::vector<CavitySize> table = communicator.gather_sorted(rows, &CavitySize::cavity);
   CavityTable result;
   for (const CavitySize& row : table) {
     if (result.ids.empty() || result.ids.back() != row.cavity) {
@@ -387,9 +385,7 @@ CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVert
       outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }
   });
-  outcomes = communicator.all_gather_items<Outcome>(outcomes);
-  std::sort(outcomes.begin(), outcomes.end(),
-            [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
+  outcomes = communicator.gather_sorted(outcomes, &Outcome::cavity);
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
   const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
   const Delivery delivery = deliver_replaced(communicator, cavities, outcomes, owner_of_piece, round);

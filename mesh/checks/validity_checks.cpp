@@ -238,10 +238,8 @@ void CompensatedSum::add(double term) {
 
 std::vector<double> sum_by_region(const DistributedMesh& mesh, const std::vector<RegionTerm>& terms) {
   const parallel::Communicator& communicator = mesh.communicator;
-  std::vector<RegionTerm> all = communicator.all_gather_items(std::span<const RegionTerm>(terms));
-  std::sort(all.begin(), all.end(), [](const RegionTerm& a, const RegionTerm& b) {
-    return std::tie(a.region, a.piece) < std::tie(b.region, b.piece);
-  });
+  std::vector<RegionTerm> all = communicator.gather_sorted(
+      terms, [](const RegionTerm& each) { return std::tie(each.region, each.piece); });
   std::vector<CompensatedSum> sums(mesh.region_count());
   for (const RegionTerm& term : all) sums[term.region].add(term.value);
   std::vector<double> values;

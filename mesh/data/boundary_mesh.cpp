@@ -86,8 +86,7 @@ DistributedMesh boundary_mesh(const NumberedMesh& volume) {
         });
   }
   // Ids run by tetrahedral piece, then by face.
-  std::vector<PieceId> all = communicator.all_gather_items<PieceId>(owners);
-  std::sort(all.begin(), all.end());
+  std::vector<PieceId> all = communicator.gather_sorted(owners);
   surface.piece_count = static_cast<PieceId>(all.size());
   for (std::size_t i = 0, run = 0; i < owners.size(); ++i) {
     run = i > 0 && owners[i] == owners[i - 1] ? run + 1 : 0;

@@ -1,6 +1,5 @@
 // Faces of the body that lie on one another: what no size can part.
 #include "geometry/sort_unique.hpp"
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 #include "sizing/choice/model_sampler.hpp"
 #include "sizing/features/facet_parameters.hpp"
@@ -264,8 +263,7 @@ std::vector<CoincidentFaces> ModelSampler::find_coincident_faces() const {
   const Vec3 size = _body_box.size();
   const double extent = std::max({size.x, size.y, size.z});
   std::vector<CoincidentFaces> mine;
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<std::int32_t> first_walls(_model.face_count(), -1);
     for (std::size_t w = _walls->facets.size(); w-- > 0;)
       first_walls[_walls->facets[w].face] = static_cast<std::int32_t>(w);

@@ -86,8 +86,7 @@ void search_faces(const parallel::Communicator& communicator, std::vector<FaceSe
     if (wanting == 0) break;
     const double per_share =
         static_cast<double>(left) / (deal == 0 ? all_shares : static_cast<double>(wanting));
-    parallel::agree(communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(communicator, ScopedCpu::As::task, [&] {
       for (FaceSearch& each : searches) {
         if (deal > 0 && is_done(each)) continue;
         visited += each.search.go_on(std::llround(per_share * static_cast<double>(each.share)), *each.gaps);
@@ -120,8 +119,7 @@ void look_closer(const parallel::Communicator& communicator, double layers,
     const auto wanted = static_cast<double>(std::max<std::int64_t>(1, rays));
     const double apart = std::max(1.0, std::sqrt(wanted / static_cast<double>(rays_left)));
     std::int64_t shot = 0, visited = 0;
-    parallel::agree(communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(communicator, ScopedCpu::As::task, [&] {
       for (FaceSearch& each : searches) {
         if (each.gaps->narrow.empty()) continue;
         // Half of it the same for each face, half by what is to be looked at.
@@ -190,9 +188,7 @@ void ModelSampler::gather_gaps() {
     if (const auto unseen = describe_unseen(face.id, *face.gaps, _layers)) mine.push_back(*unseen);
   }
   _narrowest_gap = _communicator.minimum(narrowest);
-  _unseen_gaps = _communicator.all_gather_items<UnseenGaps>(mine);
-  std::sort(_unseen_gaps.begin(), _unseen_gaps.end(),
-            [](const UnseenGaps& a, const UnseenGaps& b) { return a.face < b.face; });
+  _unseen_gaps = _communicator.gather_sorted(mine, &UnseenGaps::face);
 }
 
 }  // namespace aeroloom::sizing

@@ -1,8 +1,8 @@
 #include "sizing/choice/model_sampler.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/field/field_builder.hpp"
 
@@ -21,8 +21,7 @@ using parallel::ScopedCpu;
 /// Areas of all faces, each measured by one rank.
 std::vector<double> measure_faces(const parallel::Communicator& communicator, const cad::Model& model) {
   std::vector<double> mine, areas(model.face_count());
-  parallel::agree(communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(communicator, ScopedCpu::As::task, [&] {
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       mine.push_back(model.face_area(f));
     }
@@ -88,8 +87,7 @@ ModelSampler::ModelSampler(const parallel::Communicator& communicator, const cad
       _root(model.bounds()),
       _asked_on_faces(sizes_on_faces(model, _demands)),
       _areas(measure_faces(communicator, model)) {
-  parallel::agree(communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(communicator, ScopedCpu::As::task, [&] {
     _far_field = find_far_field(model);
     const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
     _owners = parallel::assign_largest_first(loads, communicator.size());
@@ -121,8 +119,7 @@ ModelSampler::ModelSampler(ModelSampler&& before, const cad::Model& joined)
       _walls(std::move(before._walls)),
       _surfaces(std::move(before._surfaces)),
       _body_box(before._body_box) {
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<FaceId> number(before._model.face_count());
     for (FaceId f = 0; f < joined.face_count(); ++f) {
       const std::vector<FaceId> members = joined.members(f);
@@ -178,8 +175,7 @@ void ModelSampler::list_corners() {
 
 void ModelSampler::gather_triangles() {
   std::vector<Wall> mine;
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (const OwnFace& face : _faces) {
       if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
       const auto& points = face.facets.points;
@@ -256,8 +252,7 @@ std::vector<SizeSource> ModelSampler::sample_corners(std::span<const SizeSource>
   points = _communicator.all_gather_items<geometry::Vec3>(points);
   const std::vector<double> sizes = sizes_at(points, own, options);
   std::vector<SizeSource> mine;
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (std::size_t i = 0; i < _corners.size(); ++i) {
       const auto more = corner_sources(_model, _corners[i], sizes[before + i], options);
       mine.insert(mine.end(), more.begin(), more.end());
@@ -270,10 +265,7 @@ std::vector<SizeSource> ModelSampler::sample(const SizingOptions& options, doubl
   check_options(options);
   require_possible(options);
   std::vector<SizeSource> mine;
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
-    mine = sample_own(options, coarser);
-  });
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] { mine = sample_own(options, coarser); });
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : mine) source.size *= coarser;
@@ -288,8 +280,7 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
   options.maximum = width;
   options.strip_minimum = finest_strip * width;
   std::vector<Strip> mine;
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (const OwnFace& face : _faces) {
       Strip narrowest{face.id, width, {}};
       for (const StripPart& part : strip_parts(_model, face.facets, face.closed_corners, options, width)) {
@@ -299,10 +290,8 @@ std::vector<Strip> ModelSampler::strips_narrower_than(double width, double minim
       if (narrowest.width < width) mine.push_back(narrowest);
     }
   });
-  std::vector<Strip> all = _communicator.all_gather_items<Strip>(mine);
-  std::sort(all.begin(), all.end(), [](const Strip& a, const Strip& b) {
-    return std::pair(a.width, a.face) < std::pair(b.width, b.face);
-  });
+  std::vector<Strip> all =
+      _communicator.gather_sorted(mine, [](const Strip& each) { return std::pair(each.width, each.face); });
   return all;
 }
 
@@ -320,8 +309,7 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
   SizingOptions rough = options;
   rough.feature_aspect = aspect_of_parts;
   std::vector<FaceElements> mine;
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     SizingOptions sizes = options;
     for (const OwnFace& face : _faces) {
       const auto parts = strip_parts(_model, face.facets, face.closed_corners, rough, options.minimum);
@@ -338,11 +326,9 @@ std::vector<double> ModelSampler::elements_along_strips(std::span<const double> 
       }
     }
   });
-  std::vector<FaceElements> all = _communicator.all_gather_items<FaceElements>(mine);
   // Summed in the order of faces, whatever the number of ranks.
-  std::sort(all.begin(), all.end(), [](const FaceElements& a, const FaceElements& b) {
-    return std::pair(a.face, a.aspect) < std::pair(b.face, b.aspect);
-  });
+  std::vector<FaceElements> all = _communicator.gather_sorted(
+      mine, [](const FaceElements& each) { return std::pair(each.face, each.aspect); });
   std::vector<double> elements(aspects.size());
   for (const FaceElements& face : all) elements[face.aspect] += face.elements;
   return elements;

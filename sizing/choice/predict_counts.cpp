@@ -177,8 +177,7 @@ double ModelSampler::count_triangles(const SizeField& field) const {
       if (area > 0) mine.push_back({face.id, triangles_per_square * sum * _areas[face.id] / area});
     }
   }
-  std::vector<FaceCount> all = _communicator.all_gather_items<FaceCount>(mine);
-  std::sort(all.begin(), all.end(), [](const FaceCount& a, const FaceCount& b) { return a.face < b.face; });
+  std::vector<FaceCount> all = _communicator.gather_sorted(mine, &FaceCount::face);
   double total = 0;
   for (const FaceCount& face : all) total += face.count;
   return total;

@@ -42,8 +42,7 @@ std::vector<SizeSource> find_demanded(const parallel::Communicator& communicator
   const double own_room = room / communicator.size();
   std::vector<SizeSource> mine;
   try {
-    parallel::agree(communicator, [&] {
-      const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+    parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
       const double count = demand.count();
       if (count <= room)
         mine =
@@ -103,8 +102,7 @@ std::vector<SizeSource> ModelSampler::sample_regions(double coarser) const {
         largest->name, largest->size, most));
   }
   std::vector<SizeSource> mine;
-  parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(_communicator, parallel::ScopedCpu::As::task, [&] {
     for (const SizeRegion& region : _demands.regions) {
       const auto more =
           sources_in(_root, region, coarser * region.size, _communicator.rank(), _communicator.size());
@@ -124,8 +122,7 @@ void ModelSampler::lay_surfaces() {
   const auto lay = [&](const std::string& key, std::vector<SizedTriangle> triangles, double reach) {
     surfaces.emplace_back(key, std::move(triangles), reach);
   };
-  parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
+  parallel::collectively(_communicator, parallel::ScopedCpu::As::repeated, [&] {
     for (const WallSize& wall : _demands.walls) {
       const std::vector<bool> named = faces_like(_model, wall.faces);
       std::vector<SizedTriangle> triangles;

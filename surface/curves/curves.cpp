@@ -242,10 +242,8 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   });
   CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
   mesh.sharp_corners = std::move(corners);
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-    align_tips(model, sizing::closing_gap(field.options()), mesh);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated,
+                         [&] { align_tips(model, sizing::closing_gap(field.options()), mesh); });
   return mesh;
 }
 

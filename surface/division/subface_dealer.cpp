@@ -1,6 +1,5 @@
 #include "surface/division/subface_dealer.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 
 #include <algorithm>
@@ -53,8 +52,7 @@ std::vector<SubfaceDealer::Row> SubfaceDealer::tabulate(const Subfaces& subfaces
     rows.push_back({key, subface.load, static_cast<double>(subface.support.triangles.size()),
                     cost == costs.end() ? 0 : cost->second, _communicator.rank()});
   }
-  rows = _communicator.all_gather_items<Row>(rows);
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
+  rows = _communicator.gather_sorted(rows, &Row::key);
   return rows;
 }
 
@@ -129,8 +127,7 @@ Subfaces SubfaceDealer::divide_heavy(Subfaces subfaces, const std::vector<Row>& 
   }
   subfaces = send_to_owners(std::move(subfaces), rows, owners);
   Subfaces divided;
-  parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(_communicator, parallel::ScopedCpu::As::task, [&] {
     for (auto& entry : subfaces) {
       if (is_to_divide({entry.first, entry.second.load, 0, 0, 0}, level)) {
         divide(entry, level, sizes, divided);

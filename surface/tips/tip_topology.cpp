@@ -266,12 +266,10 @@ private:
 /// Without tips that other faces keep open. Collective.
 std::vector<Tip> without_open(const CurveMesh& curves, const mesh::DistributedMesh& surface,
                               std::vector<Tip> tips) {
-  const parallel::Communicator& communicator = surface.communicator;
   Closure closure(curves.points.size(), tips);
-  std::vector<CurveTriangle> triangles =
-      communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
-  // Which tip opens first depends on their order, and theirs on the ranks.
-  std::sort(triangles.begin(), triangles.end());
+  // Sorted, since their order decides which tip opens first.
+  const std::vector<CurveTriangle> triangles =
+      surface.communicator.gather_sorted(closure.collect(curves, surface));
   const std::vector<char>& open = closure.open_needed(triangles);
   std::vector<Tip> rest;
   for (std::size_t i = 0; i < tips.size(); ++i) {

@@ -184,8 +184,7 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
     for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
   }
   for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
-  rows = communicator.all_gather_items<PieceRegion>(rows);
-  std::sort(rows.begin(), rows.end());
+  rows = communicator.gather_sorted(rows);
   mesh::DistributedMesh mesh(communicator);
   mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
   const auto add = [&](std::int32_t place, Piece& piece) {

@@ -1,6 +1,6 @@
 #include "volume/lattice/lattice.hpp"
 
-#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/neighbourhood.hpp"
 #include "volume/volume_mesher.hpp"
 
@@ -67,10 +67,8 @@ std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice) {
   const std::vector<SurfaceTriangle> near =
       add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   std::unique_ptr<const NearSurface> surface;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    surface = std::make_unique<NearSurface>(near);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task,
+                         [&] { surface = std::make_unique<NearSurface>(near); });
   return surface;
 }
 
