@@ -1,10 +1,10 @@
 #include "mesh/transfer/piece_size.hpp"
-#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/filling/decomposition_data.hpp"
 #include "volume/filling/failure_diagnostics.hpp"
 #include "volume/filling/filling_limits.hpp"
 #include "volume/lattice/block_regions.hpp"
-#include "volume/zones/cut_ghosts.hpp"
+#include "volume/zones/halo.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,14 +106,13 @@ double widest_halo(const VolumeOptions& options) {
 }
 
 /// With the core's. Eighths: the sum is exact. Collective.
-double expected_tetrahedra(const Communicator& communicator, const Shell& shell) {
+double expected_tetrahedra(const Lattice& lattice, const Shell& shell) {
   return std::accumulate(shell.expected.begin(), shell.expected.end(),
-                         static_cast<double>(communicator.sum(shell.local.core_cells())));
+                         static_cast<double>(lattice.tree.communicator().sum(shell.local.core_cells())));
 }
 
 Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
                  const VolumeOptions& options) {
-  const Communicator& communicator = lattice.tree.communicator();
   LocalShell local =
       make_local_shell(lattice, std::move(surface), std::vector<BlockChange>(lattice.tree.block_count()));
   const std::vector<Load> loads = loads_of_blocks(lattice, local);
@@ -123,9 +122,8 @@ Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surf
   std::vector<Load> of_zones(shell.zones.count(), 0);
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
     of_zones[shell.zones.of(b, 0)] += loads[b - lattice.tree.first()];
-  for (const Load load : sum_by_zone(communicator, std::move(of_zones)))
-    shell.expected.push_back(tetrahedra_of(load));
-  shell.core_piece_tets = piece_tets_of(expected_tetrahedra(communicator, shell), options);
+  for (const Load load : shell.zones.sum(std::move(of_zones))) shell.expected.push_back(tetrahedra_of(load));
+  shell.core_piece_tets = piece_tets_of(expected_tetrahedra(lattice, shell), options);
   return shell;
 }
 
@@ -143,7 +141,7 @@ DecompositionReport report_of(const Lattice& lattice, const Shell& shell, const 
   report.lattice_points = communicator.sum(shell.local.lattice_points);
   report.shell_points = communicator.sum(static_cast<std::int64_t>(shell.local.points.points.size()));
   report.core_tetrahedra = communicator.sum(shell.local.core_cells());
-  report.expected_tetrahedra = expected_tetrahedra(communicator, shell);
+  report.expected_tetrahedra = expected_tetrahedra(lattice, shell);
   report.zones = shell.zones.count();
   double work = 0, heaviest = 0;
   for (const ZoneLoad& load : plan.loads) {

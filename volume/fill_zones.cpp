@@ -1,6 +1,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "volume/filling/core_pieces.hpp"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -110,7 +110,7 @@ private:
       return static_cast<std::int64_t>(filling.owned.cells.size());
     }
     _failures.push_back({zone.zone, filling.failure});
-    _diagnostics.note(zone, _input.surface, filling.failure,
+    _diagnostics.note(zone, filling.failure,
                       _retries.changes_of(zone.zone) == 0 ? FailureDiagnostics::Look::later
                                                           : FailureDiagnostics::Look::for_defects);
     return 0;
@@ -179,7 +179,7 @@ private:
   std::map<ZoneIndex, double> _work;   // that zones were scheduled by
   std::vector<ZoneFailure> _failures;  // of this rank in this round
   std::vector<DemotedLeaf> _demoted;   // as well
-  FailureDiagnostics _diagnostics;
+  FailureDiagnostics _diagnostics{_input.surface};
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 #include "volume/volume_failure.hpp"
 #include "volume/volume_options.hpp"

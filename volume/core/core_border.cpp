@@ -1,6 +1,7 @@
 #include "volume/core/core_border.hpp"
 
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "volume/core/core_leaves.hpp"
 
 #include "geometry/sort_unique.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <utility>
 

@@ -13,7 +13,6 @@
 /// missing leaves the core.
 #pragma once
 
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/ghost_blocks.hpp"
 #include "volume/lattice/leaf_surroundings.hpp"

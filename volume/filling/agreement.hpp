@@ -2,7 +2,6 @@
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/zone_piece.hpp"
 
 #include <span>

@@ -56,7 +56,8 @@ public:
         ->point;
   }
   /// Cells of blocks that their rank may not know bring their points. Collective.
-  void send_points(const parallel::Communicator& communicator, std::span<const CoreParcel> cells) {
+  void send_points(std::span<const CoreParcel> cells) {
+    const parallel::Communicator& communicator = tree().communicator();
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (const auto& [rank, number] : wanted_by_others(communicator.rank(), cells))
       _arrived.push_back({rank, number, place(number)});

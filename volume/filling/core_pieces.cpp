@@ -3,6 +3,7 @@
 #include "geometry/predicates.hpp"
 #include "geometry/sort_unique.hpp"
 #include "mesh/data/piece_room.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/filling/core_parcels.hpp"
 #include "volume/filling/core_ranges.hpp"
 
@@ -248,7 +249,7 @@ public:
 
   CoreMesh run() {
     std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
-    _naming.send_points(_communicator, parcels);
+    _naming.send_points(parcels);
     parcels = mesh::deliver(_communicator, std::move(parcels), [](const CoreParcel& p) { return p.rank; });
     const ScopedCpu task(ScopedCpu::As::task);
     std::stable_sort(parcels.begin(), parcels.end(), [](const CoreParcel& a, const CoreParcel& b) {

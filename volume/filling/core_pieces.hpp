@@ -3,7 +3,6 @@
 /// the curve of equal weight.
 #pragma once
 
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/zone_piece.hpp"
 #include "volume/lattice/lattice.hpp"
 #include "volume/zones/shell.hpp"

@@ -1,5 +1,7 @@
 #include "volume/filling/core_ranges.hpp"
 
+#include "parallel/observation/timers.hpp"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -30,7 +32,7 @@ CoreRanges::CoreRanges(const LatticeTree& tree, const Shell& shell)
     find_inner();
   }
   ghosts.update(_inner);
-  find_ranks(tree.communicator());
+  find_ranks();
 }
 
 std::uint8_t CoreRanges::shared_of(BlockIndex b, const CoreCell& cell) const {
@@ -63,7 +65,8 @@ void CoreRanges::find_inner() {
   }
 }
 
-void CoreRanges::find_ranks(const parallel::Communicator& communicator) {
+void CoreRanges::find_ranks() {
+  const parallel::Communicator& communicator = _tree.communicator();
   struct RangeRank {
     std::int32_t range;
     parallel::Rank rank;

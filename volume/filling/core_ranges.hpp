@@ -1,7 +1,6 @@
 /// Ranges of the curve that the inside of the core is divided into: a piece of the mesh each.
 #pragma once
 
-#include "parallel/observation/timers.hpp"
 #include "volume/zones/shell.hpp"
 
 #include <cstdint>
@@ -27,7 +26,7 @@ private:
   /// All leaves that touch it are of its range, and none of them has points of the shell.
   bool is_inner(const Leaf& leaf) const { return _inner[_core.ghosts().place(leaf.block)] >> leaf.child & 1; }
   void find_inner();
-  void find_ranks(const parallel::Communicator& communicator);
+  void find_ranks();
 
   const LatticeTree& _tree;
   const CoreLeaves& _core;

@@ -1,7 +1,6 @@
 /// Diagnostics of zones that could not be filled, and the message the user gets.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "volume/filling/surface_check.hpp"
 #include "volume/filling/zone_inputs.hpp"
 #include "volume/lattice/block_regions.hpp"
@@ -22,25 +21,24 @@ struct ZoneFailure {
   static constexpr auto fields() { return std::tuple(&ZoneFailure::zone, &ZoneFailure::reason); }
 };
 
-/// The failures of all ranks, by zone. Collective.
-std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
-                                         const std::vector<ZoneFailure>& mine);
-
 /// Keeps what this rank's failing zones looked like.
 class FailureDiagnostics {
 public:
   /// Whether triangles are looked at for defects: takes a while, and a first failure may have lighter causes.
   enum class Look { later, for_defects };
+  /// Refers to the surface.
+  explicit FailureDiagnostics(const mesh::DistributedMesh& surface) : _surface(surface) {}
   /// A zone failed: its triangles are kept.
-  void note(const ZoneInput& input, const mesh::DistributedMesh& surface, const std::string& reason,
-            Look look);
+  void note(const ZoneInput& input, const std::string& reason, Look look);
+
+  /// The failures of all ranks, by zone. Collective.
+  std::vector<ZoneFailure> gather(const std::vector<ZoneFailure>& mine) const;
 
   /// The remedy belongs to the cause: a surface that meets itself cannot be helped by trying again. Throws
   /// VolumeFailure on every rank where a zone's triangles have a defect. Collective.
-  void stop_at_defects(const parallel::Communicator& communicator) const;
+  void stop_at_defects() const;
   /// Throws VolumeFailure on every rank: no retry was left for this zone. Collective.
-  [[noreturn]] void give_up(const parallel::Communicator& communicator, ZoneIndex zone,
-                            const std::vector<Retry>& tried) const;
+  [[noreturn]] void give_up(ZoneIndex zone, const std::vector<Retry>& tried) const;
 
 private:
   struct Item {
@@ -55,9 +53,10 @@ private:
     }
   };
   /// The item of the lowest zone among all ranks' chosen ones; zone is no_zone when there is none.
-  static Item lowest(const parallel::Communicator& communicator, const Item* mine);
+  Item lowest(const Item* mine) const;
   [[noreturn]] static void raise(const Item& item, const std::string& tried);
 
+  const mesh::DistributedMesh& _surface;
   std::vector<Item> _items;
 };
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace aeroloom::volume {
 

@@ -52,10 +52,10 @@ RetryPolicy::Changed RetryPolicy::nothing() const {
 std::vector<ZoneIndex> RetryPolicy::change_failed(const std::vector<ZoneFailure>& failures,
                                                   const std::vector<DemotedLeaf>& demoted,
                                                   const FailureDiagnostics& diagnostics) {
-  const std::vector<ZoneFailure> failed = gather_failures(_communicator, failures);
+  const std::vector<ZoneFailure> failed = diagnostics.gather(failures);
   const std::vector<DemotedLeaf> leaves = _communicator.all_gather_items<DemotedLeaf>(demoted);
   if (failed.empty() && leaves.empty()) return {};
-  if (!failed.empty()) diagnostics.stop_at_defects(_communicator);
+  if (!failed.empty()) diagnostics.stop_at_defects();
   Changed changed = nothing();
   BlockChanges changes = _shell.local.changes;
   demote(leaves, changes, changed);
@@ -105,7 +105,7 @@ bool RetryPolicy::escalate(const ZoneFailure& failure, const FailureDiagnostics&
     }
   } else {
     const ZoneIndex with = widest_neighbour(zone);
-    if (with == no_zone) diagnostics.give_up(_communicator, zone, _report.retries);
+    if (with == no_zone) diagnostics.give_up(zone, _report.retries);
     change = fmt::format("merged with zone {}", with);
     touch_all(zone, changed);
     merge(zone, with);
@@ -134,7 +134,7 @@ ZoneIndex RetryPolicy::widest_neighbour(ZoneIndex zone) const {
       if (_shell.zones.has(zone, n)) ++counts[z];
     });
   }
-  counts = sum_by_zone(_communicator, std::move(counts));
+  counts = _shell.zones.sum(std::move(counts));
   const auto most = std::max_element(counts.begin(), counts.end());
   return *most == 0 ? no_zone : static_cast<ZoneIndex>(most - counts.begin());
 }

@@ -2,6 +2,7 @@
 
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -215,16 +216,6 @@ private:
   ZoneInput _input;
 };
 
-/// Brings what zones know to their ranks, by zone. Collective.
-template <class Item>
-void send(const parallel::Communicator& communicator, std::vector<Item>& items) {
-  items = mesh::deliver(communicator, std::move(items), [](const Item& item) { return item.rank; });
-  // Ranks have ascending blocks: what comes block by block is by number within each zone.
-  const auto before = [](const Item& a, const Item& b) { return a.zone < b.zone; };
-  if (!std::is_sorted(items.begin(), items.end(), before))
-    std::stable_sort(items.begin(), items.end(), before);
-}
-
 /// Items of a zone, from a list by zone.
 template <class Item>
 std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
@@ -238,16 +229,23 @@ std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
 }  // namespace
 
 std::vector<ZoneInput> gather_zone_inputs(const Lattice& lattice, const Shell& shell, const SendPlan& plan) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   Cargo cargo;
   {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     cargo = std::move(Loader(lattice, shell, plan).cargo);
   }
-  send(communicator, cargo.points);
-  send(communicator, cargo.at_borders);
-  send(communicator, cargo.triangles);
-  send(communicator, cargo.borders);
+  const auto deliver_by_zone = [&](auto& items) {
+    items = mesh::deliver(lattice.tree.communicator(), std::move(items),
+                          [](const auto& item) { return item.rank; });
+    // Ranks have ascending blocks: what comes block by block is by number within each zone.
+    const auto before = [](const auto& a, const auto& b) { return a.zone < b.zone; };
+    if (!std::is_sorted(items.begin(), items.end(), before))
+      std::stable_sort(items.begin(), items.end(), before);
+  };
+  deliver_by_zone(cargo.points);
+  deliver_by_zone(cargo.at_borders);
+  deliver_by_zone(cargo.triangles);
+  deliver_by_zone(cargo.borders);
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   std::vector<ZoneInput> inputs;
   for (ZoneIndex zone = 0; zone < static_cast<ZoneIndex>(plan.ranks.size()); ++zone) {

@@ -4,13 +4,10 @@
 #include "mesh/data/piece.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/owned_cells.hpp"
 #include "volume/lattice/lattice.hpp"
 #include "volume/zones/shell.hpp"
 
-#include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {

@@ -165,7 +165,6 @@ ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling) {
 mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
                                     ZoneIndex zones) {
-  const parallel::Communicator& communicator = surface.communicator;
   struct PieceRegion {
     std::int32_t place;  ///< a zone, or a range of the core after them
     RegionId region;
@@ -177,9 +176,9 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
     for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
   }
   for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
-  rows = communicator.all_gather_items<PieceRegion>(rows);
+  rows = surface.communicator.all_gather_items<PieceRegion>(rows);
   std::sort(rows.begin(), rows.end());
-  mesh::DistributedMesh mesh(communicator);
+  mesh::DistributedMesh mesh(surface.communicator);
   mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
   const auto add = [&](std::int32_t place, Piece& piece) {
     piece.id = static_cast<mesh::PieceId>(

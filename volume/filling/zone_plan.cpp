@@ -3,6 +3,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/task_kind.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/zones/halo.hpp"
 
 #include <algorithm>
@@ -99,13 +100,12 @@ private:
 };
 
 /// The sum over all ranks of what they have of each zone, by zone. Collective.
-std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const SendPlan& mine,
-                             std::span<const ZoneIndex> zones, std::size_t all_zones) {
-  std::vector<std::int64_t> points(all_zones, 0), triangles(all_zones, 0);
+std::vector<ZoneLoad> add_up(const Zones& all, const SendPlan& mine, std::span<const ZoneIndex> zones) {
+  std::vector<std::int64_t> points(all.count(), 0), triangles(all.count(), 0);
   for (const auto& want : mine.blocks) points[want.zone] += __builtin_popcountll(want.points);
   for (const auto& want : mine.triangles) ++triangles[want.zone];
-  points = sum_by_zone(communicator, std::move(points));
-  triangles = sum_by_zone(communicator, std::move(triangles));
+  points = all.sum(std::move(points));
+  triangles = all.sum(std::move(triangles));
   std::vector<ZoneLoad> loads;
   for (const ZoneIndex z : zones) loads.push_back({z, points[z], triangles[z]});
   return loads;
@@ -150,7 +150,7 @@ ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const 
     mine = std::move(Finding(lattice, shell, zones, widths).found);
   });
   ZonePlan plan;
-  plan.loads = add_up(communicator, mine, zones, widths.size());
+  plan.loads = add_up(shell.zones, mine, zones);
   const std::vector<Assignment> assignments = schedule_zones(plan.loads, communicator.size(), widths.size());
   std::size_t batches = 0;
   for (const ZoneLoad& load : plan.loads) batches = std::max(batches, assignments[load.zone].batch + 1);

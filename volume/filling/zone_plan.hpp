@@ -1,8 +1,6 @@
 /// Who fills which zone, and with what.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/zone_inputs.hpp"
 
 #include <span>

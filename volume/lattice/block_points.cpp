@@ -39,11 +39,10 @@ constexpr Touching hanging[] = {{1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}},
 /// The largest size in a block, at most.
 double largest_size(const Lattice& lattice, BlockIndex b) {
   const GridCube cell = lattice.tree.cube(b);
-  const double half = 0.5 * cell.edge();
-  const Vec3 center = lattice.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
   const double half_diagonal = 0.5 * std::numbers::sqrt3 * lattice.frame.edge(cell.level);
   const double slope = slope_margin * std::log(lattice.field.options().growth);
-  return std::min(lattice.field.maximum(), lattice.field(center) + slope * half_diagonal);
+  return std::min(lattice.field.maximum(),
+                  lattice.field(lattice.frame.middle_of(cell)) + slope * half_diagonal);
 }
 
 /// Radius of the balls around core leaves that no point of the surface stands in, in leaf edges: half a
@@ -56,7 +55,7 @@ double core_distance(const Lattice& lattice, BlockIndex b) {
 }
 
 double clearance_of(const Lattice& lattice, const BlockChange& change) {
-  return lattice.options.clearance * std::pow(step_factor, change.farther);
+  return lattice.options.lattice_clearance * std::pow(step_factor, change.farther);
 }
 
 /// Whether there are far smaller triangles within a distance of the points of a block. Where a block is not
@@ -281,7 +280,7 @@ std::array<double, 2> looks_of_block(const Lattice& lattice, BlockIndex b) {
 // Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
 // of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
 SearchRadii search_radii_of_blocks(const Lattice& lattice, BlockIndex first, BlockIndex last) {
-  const double farthest = lattice.options.clearance * std::pow(step_factor, most_steps);
+  const double farthest = lattice.options.lattice_clearance * std::pow(step_factor, most_steps);
   SearchRadii radii;
   radii.per_edge = lattice.frame.grid_distance(farthest);
   for (BlockIndex b = first; b < last; ++b) {

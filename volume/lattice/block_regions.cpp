@@ -3,6 +3,7 @@
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/empty_balls.hpp"
 #include "volume/lattice/within_blocks.hpp"
 
@@ -82,26 +83,26 @@ public:
   }
 
   /// Ranks tell each other of lower sets until there are none. Collective.
-  void join_those_of_all_ranks(const parallel::Communicator& communicator) {
-    if (communicator.size() == 1) return;
+  void join_over_ranks() {
+    if (_tree.communicator().size() == 1) return;
     for (Joint& joint : _joints) joint.set = own_set(joint.set);
     // Each learns the other's set, and both know the joint.
-    std::vector<Joint> known = deliver(communicator, _joints);
+    std::vector<Joint> known = deliver(_joints);
     for (Joint& joint : known) joint = {own_set(joint.with), joint.set};
-    keep_each_once(known);
-    for (const Joint& joint : deliver(communicator, known)) known.push_back({joint.with, joint.set});
-    keep_each_once(known);
+    geometry::sort_unique(known);
+    for (const Joint& joint : deliver(known)) known.push_back({joint.with, joint.set});
+    geometry::sort_unique(known);
     for (bool changed = true; changed;) {
       std::vector<Joint> told;
       told.reserve(known.size());
       for (const Joint& joint : known) told.push_back({set(joint.set), joint.with});
       changed = false;
-      for (const Joint& joint : deliver(communicator, std::move(told))) {
+      for (const Joint& joint : deliver(std::move(told))) {
         if (joint.set >= set(joint.with)) continue;
         set(joint.with) = joint.set;
         changed = true;
       }
-      changed = communicator.maximum(std::int64_t{changed}) > 0;
+      changed = _tree.communicator().maximum(std::int64_t{changed}) > 0;
     }
   }
 
@@ -109,12 +110,12 @@ public:
   BlockNumber set_of(BlockNumber b) { return set(own_set(b)); }
 
   /// The contacts of this rank's met blocks in the order of faces, each with its set. Collective.
-  std::vector<Contact> take_contacts(const parallel::Communicator& communicator) {
+  std::vector<Contact> take_contacts() {
     std::vector<Contact> contacts =
-        mesh::deliver(communicator, std::move(_contacts),
+        mesh::deliver(_tree.communicator(), std::move(_contacts),
                       [&](const Contact& contact) { return _tree.owner(contact.free); });
     for (Contact& contact : contacts) contact.set = set_of(contact.free);
-    contacts = mesh::deliver(communicator, std::move(contacts),
+    contacts = mesh::deliver(_tree.communicator(), std::move(contacts),
                              [&](const Contact& contact) { return _tree.owner(contact.met); });
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& a, const Contact& b) { return a.order < b.order; });
@@ -125,11 +126,10 @@ private:
   BlockNumber first_of(BlockIndex i) { return _tree.number(_tree.first() + _own.root(i)); }
   BlockNumber own_set(BlockNumber b) { return first_of(_tree.index(b) - _tree.first()); }
   BlockNumber& set(BlockNumber own) { return _set[_tree.index(own) - _tree.first()]; }
-  std::vector<Joint> deliver(const parallel::Communicator& communicator, std::vector<Joint> joints) const {
-    return mesh::deliver(communicator, std::move(joints),
+  std::vector<Joint> deliver(std::vector<Joint> joints) const {
+    return mesh::deliver(_tree.communicator(), std::move(joints),
                          [&](const Joint& joint) { return _tree.owner(joint.with); });
   }
-  static void keep_each_once(std::vector<Joint>& joints) { geometry::sort_unique(joints); }
 
   const LatticeTree& _tree;
   geometry::DisjointSets<BlockIndex> _own;  // of this rank's blocks, from the first on
@@ -236,11 +236,10 @@ std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witn
 }
 
 /// The contradiction of the lowest set on all ranks. Collective.
-std::optional<Contradiction> lowest_of(const parallel::Communicator& communicator,
-                                       const std::optional<Contradiction>& mine) {
+std::optional<Contradiction> lowest_of(const LatticeTree& tree, const std::optional<Contradiction>& mine) {
   std::vector<Contradiction> all;
   if (mine) all.push_back(*mine);
-  all = communicator.all_gather_items<Contradiction>(all);
+  all = tree.communicator().all_gather_items<Contradiction>(all);
   if (all.empty()) return std::nullopt;
   return *std::min_element(all.begin(), all.end(),
                            [](const Contradiction& a, const Contradiction& b) { return a.set < b.set; });
@@ -282,19 +281,18 @@ private:
 
 BlockRegions find_block_regions(const Lattice& lattice, std::span<const SurfaceTriangle> triangles,
                                 const NearSurface& surface) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   const LatticeTree& tree = lattice.tree;
   const SurfaceTable& table = lattice.table;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   BlockSets sets(tree, table);
-  sets.join_those_of_all_ranks(communicator);
-  const std::vector<Contact> contacts = sets.take_contacts(communicator);
+  sets.join_over_ranks();
+  const std::vector<Contact> contacts = sets.take_contacts();
   Look look(lattice, surface);
   const std::vector<Witness> witnesses =
-      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, triangles, look),
+      unite(mesh::deliver(tree.communicator(), witnesses_of(contacts, tree, triangles, look),
                           [&](const Witness& witness) { return tree.owner(witness.set); }));
   BlockRegions found{std::vector<RegionId>(tree.last() - tree.first(), mesh::no_region),
-                     lowest_of(communicator, find_contradiction(witnesses))};
+                     lowest_of(tree, find_contradiction(witnesses))};
   std::vector<BlockNumber> of_blocks;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b)
     of_blocks.push_back(table.is_met(b) ? 0 : sets.set_of(tree.number(b)));

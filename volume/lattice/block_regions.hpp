@@ -1,8 +1,6 @@
 /// Which region the blocks lie in that the surface does not meet.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/lattice.hpp"
 #include "volume/lattice/near_surface.hpp"
 

@@ -52,8 +52,7 @@ Columns columns_of(const Octants& leaves, int tree_level, std::span<const std::i
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const int tree = static_cast<int>(leaves.keys[i] >> shift);
     const int level = leaves.levels[i] - tree_level;
-    const std::int32_t weight = weights.empty() ? 1 : weights[i];
-    columns.add(tree, leaves.keys[i] & ((1ULL << shift) - 1), std::max(level, 0), weight);
+    columns.add(tree, leaves.keys[i] & ((1ULL << shift) - 1), std::max(level, 0), weights[i]);
     for (int t = 1; t < 1 << 3 * std::max(-level, 0); ++t) columns.add(tree + t, 0, 0, 0);
   }
   return columns;
@@ -67,19 +66,18 @@ Brick::Brick(const parallel::Communicator& communicator, int tree_level)
                               nullptr, nullptr));
 }
 
-Brick::Brick(const parallel::Communicator& communicator, const Forest& forest,
-             std::span<const std::int32_t> weights)
-    : _communicator(communicator),
+Brick::Brick(const Forest& forest, std::span<const std::int32_t> weights)
+    : _communicator(forest._communicator),
       _tree_level(forest._tree_level),
       _within(forest._within),
       _connectivity(connect(_tree_level)) {
   Columns columns = columns_of(forest._local, _tree_level, weights);
   std::vector<p4est_gloidx_t> firsts{0};
   const std::vector<std::int64_t> mine{columns.count()};
-  for (const std::int64_t count : communicator.all_gather_items<std::int64_t>(mine))
+  for (const std::int64_t count : _communicator.all_gather_items<std::int64_t>(mine))
     firsts.push_back(firsts.back() + count);
-  for (std::size_t i = 1; i < columns.trees.size(); i += 2) columns.trees[i] += firsts[communicator.rank()];
-  const std::vector<std::int64_t> begins = communicator.all_gather_items<std::int64_t>(columns.trees);
+  for (std::size_t i = 1; i < columns.trees.size(); i += 2) columns.trees[i] += firsts[_communicator.rank()];
+  const std::vector<std::int64_t> begins = _communicator.all_gather_items<std::int64_t>(columns.trees);
   std::array<p4est_gloidx_t, tree_count + 1> of_trees{};
   for (std::size_t i = 0; i < begins.size(); i += 2) of_trees[begins[i]] = begins[i + 1];
   of_trees[begins.size() / 2] = firsts.back();
@@ -116,6 +114,7 @@ TreeSet Brick::split_trees() const {
 
 Forest Brick::take() const {
   Forest result;
+  result._communicator = _communicator;
   result._tree_level = _tree_level;
   result._within = _within;
   Octants& local = result._local;

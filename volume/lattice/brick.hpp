@@ -29,10 +29,10 @@ public:
   /// Each tree a leaf. Collective.
   Brick(const parallel::Communicator& communicator, int tree_level);
   /// The leaves of a forest, larger ones as the trees in them. Each leaf of this rank has its weight in
-  /// p.user_int, where there are weights. Collective.
-  Brick(const parallel::Communicator& communicator, const Forest& forest,
-        std::span<const std::int32_t> weights = {});
+  /// p.user_int. Collective.
+  Brick(const Forest& forest, std::span<const std::int32_t> weights);
 
+  const parallel::Communicator& communicator() const { return _communicator; }
   p8est_t& forest() { return *_forest; }
   int tree_level() const { return _tree_level; }
   /// The level of the smallest leaves there may be.

@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/brick.hpp"
 #include "volume/lattice/p4est_library.hpp"
 
@@ -130,7 +131,8 @@ std::int64_t most_octants(const Communicator& communicator, const Limits& limits
 
 /// Splits what is judged so; on several ranks level by level, distributed anew after each. False: the trees
 /// have too few levels.
-bool refine(const Communicator& communicator, Brick& brick, Growth& growth) {
+bool refine(Brick& brick, Growth& growth) {
+  const Communicator& communicator = brick.communicator();
   p8est_t& forest = brick.forest();
   const bool is_alone = communicator.size() == 1;
   for (int level = brick.tree_level(); level < brick.finest(); ++level) {
@@ -165,7 +167,7 @@ std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, 
   Brick brick(communicator, tree_level);
   Growth growth{judge, brick, crown.open, limit};
   brick.forest().user_pointer = &growth;
-  if (!refine(communicator, brick, growth)) return std::nullopt;
+  if (!refine(brick, growth)) return std::nullopt;
   library.now("balancing");
   growth.count = brick.forest().local_num_quadrants;
   {
@@ -192,11 +194,10 @@ Forest grow(const Communicator& communicator, const Judge& judge, Limits limits)
   return *grow_in(communicator, many_trees, crown, judge, limit);
 }
 
-Forest partition_by_weight(const Communicator& communicator, const Forest& forest,
-                           std::span<const std::int32_t> weights) {
-  const LibraryScope library(communicator.rank(), "partitioning");
+Forest partition_by_weight(const Forest& forest, std::span<const std::int32_t> weights) {
+  const LibraryScope library(forest.communicator().rank(), "partitioning");
   const ScopedCpu task(ScopedCpu::As::task);
-  Brick brick(communicator, forest, weights);
+  Brick brick(forest, weights);
   p8est_partition_ext(&brick.forest(), 1, given_weight);
   return brick.take();
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/octants.hpp"
 
 #include <cstdint>
@@ -26,6 +25,7 @@ using Judge = std::function<Verdict(const geometry::GridCube&)>;
 /// number of ranks. Immutable.
 class Forest {
 public:
+  const parallel::Communicator& communicator() const { return _communicator; }
   std::int64_t count() const { return _firsts.back(); }
   std::int64_t first(parallel::Rank r) const { return _firsts[r]; }
   /// Leaf i of this rank has the number first(rank) + i.
@@ -37,6 +37,7 @@ public:
 
 private:
   friend class Brick;
+  parallel::Communicator _communicator;
   Octants _local;
   std::vector<std::int64_t> _firsts;  // per rank, and the end
   std::vector<std::uint64_t>
@@ -56,7 +57,6 @@ Forest grow(const parallel::Communicator& communicator, const Judge& judge, Limi
 
 /// A forest with the same leaves, partitioned by weights, one per leaf of this rank, none negative.
 /// Collective.
-Forest partition_by_weight(const parallel::Communicator& communicator, const Forest& forest,
-                           std::span<const std::int32_t> weights);
+Forest partition_by_weight(const Forest& forest, std::span<const std::int32_t> weights);
 
 }  // namespace aeroloom::forest

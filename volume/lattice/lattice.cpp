@@ -1,6 +1,7 @@
 #include "volume/lattice/lattice.hpp"
 
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/neighbourhood.hpp"
 #include "volume/volume_mesher.hpp"
 
@@ -47,7 +48,7 @@ Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   SurfaceTable table = tabulate_surface(frame, tree, triangles);
   Lattice lattice{input.field,
-                  {input.options.lattice_clearance, input.options.perturbation},
+                  input.options,
                   frame,
                   std::move(tree),
                   std::move(table),

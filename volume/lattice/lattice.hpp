@@ -7,6 +7,7 @@
 #include "volume/lattice/lattice_tree.hpp"
 #include "volume/lattice/near_surface.hpp"
 #include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/volume_options.hpp"
 
 #include <memory>
 #include <vector>
@@ -15,21 +16,11 @@ namespace aeroloom::volume {
 
 struct VolumeInput;
 
-struct LatticeOptions {
-  /// Distance from the surface, in local sizes: fewest bad tetrahedra of seven values on two aircraft
-  /// (benchmarks/results/volume_pieces.md).
-  double clearance = 0.5;
-  /// In mean edges of the lattice: enough for general position, and so little that no triangle of the core's
-  /// border was missing in the mesh of the shell of nineteen aircraft and parts
-  /// (benchmarks/results/volume_pieces.md).
-  double perturbation = 0.005;
-};
-
 /// A rank's own blocks, the ghosts that these need, and the surface there. Frame, tree and table are the same
 /// on every rank as far as it has the blocks. Immutable once it is made. Refers to the field.
 struct Lattice {
   const sizing::SizeField& field;
-  LatticeOptions options;
+  VolumeOptions options;
   LatticeFrame frame;
   LatticeTree tree;
   SurfaceTable table;

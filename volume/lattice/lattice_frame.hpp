@@ -7,7 +7,6 @@
 #include "sizing/field/size_field.hpp"
 
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <tuple>
 

@@ -3,6 +3,7 @@
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/forest.hpp"
 
 #include <cmath>
@@ -72,7 +73,7 @@ std::vector<PackedBlock> blocks_of(const forest::Octants& leaves) {
   return blocks;
 }
 
-std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, const forest::Forest& forest,
+std::vector<std::int32_t> weigh(const forest::Forest& forest,
                                 const std::vector<std::uint64_t>& triangle_keys) {
   struct Key {
     std::uint64_t key;
@@ -82,8 +83,8 @@ std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, cons
   keys.reserve(triangle_keys.size());
   for (const std::uint64_t key : triangle_keys) keys.push_back({key});
   std::vector<std::int32_t> weights(forest.local().size(), leaf_work);
-  for (const Key& key :
-       mesh::deliver(communicator, std::move(keys), [&](const Key& k) { return forest.owner_of(k.key); })) {
+  for (const Key& key : mesh::deliver(forest.communicator(), std::move(keys),
+                                      [&](const Key& k) { return forest.owner_of(k.key); })) {
     std::int32_t& weight = weights[forest.local().find(key.key)];
     weight += triangle_work + (weight == leaf_work ? met_work : 0);
   }
@@ -99,8 +100,7 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   std::vector<PackedBlock> mine;
   {
     forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box));
-    if (communicator.size() > 1)
-      forest = forest::partition_by_weight(communicator, forest, weigh(communicator, forest, triangle_keys));
+    if (communicator.size() > 1) forest = forest::partition_by_weight(forest, weigh(forest, triangle_keys));
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     mine = blocks_of(forest.local());
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/field/octree.hpp"
 #include "sizing/field/size_field.hpp"
 #include "volume/lattice/lattice_frame.hpp"

@@ -4,7 +4,6 @@
 #include "volume/lattice/boundary_distance.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <optional>
 #include <vector>
 

@@ -2,40 +2,53 @@
 #pragma once
 
 #include "geometry/runs.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
+#include "mesh/exchange/delivery.hpp"
 #include "volume/lattice/lattice.hpp"
 
 #include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::volume {
 
-/// A rank asks another for what touches a box, or is near it.
-struct Question {
+/// A query of a rank to another for what touches a box, or is near it.
+struct BlockQuery {
   GridBox box;
   double least = 0, most = 0;  ///< see BlockSearchRadii
-  std::int32_t level = 0;      ///< of the block for which it is asked
+  std::int32_t level = 0;      ///< of the block that it is for
   parallel::Rank to = 0, from = 0;
 
   static constexpr auto fields() {
-    return std::tuple(&Question::box, &Question::least, &Question::most, &Question::level, &Question::to,
-                      &Question::from);
+    return std::tuple(&BlockQuery::box, &BlockQuery::least, &BlockQuery::most, &BlockQuery::level,
+                      &BlockQuery::to, &BlockQuery::from);
   }
 };
-/// Asks all other ranks that have blocks where `where` is.
-void ask(const LatticeTree& tree, const GridBox& where, Question question, std::vector<Question>& questions);
-/// The questions to this rank, rank by rank. Collective.
-std::vector<Question> take_questions(const parallel::Communicator& communicator,
-                                     std::vector<Question> questions);
-/// Calls visit(questions) for those of each rank in turn.
-template <class Visit>
-void for_each_asker(std::span<const Question> questions, const Visit& visit) {
-  geometry::for_each_run(
-      questions, [](const Question& a, const Question& b) { return a.from == b.from; },
-      [&](std::size_t first, std::size_t last) { visit(questions.subspan(first, last - first)); });
-}
+
+/// The queries of a rank, and those that it gets.
+class BlockQueries {
+public:
+  /// Refers to the tree.
+  explicit BlockQueries(const LatticeTree& tree) : _tree(tree) {}
+
+  /// A query to all other ranks with blocks that touch `where`.
+  void add(const GridBox& where, BlockQuery query);
+  /// Sends the queries, and calls answer(queries) for those that arrive from each rank, in ascending rank.
+  /// Collective.
+  template <class Answer>
+  void exchange(const Answer& answer) {
+    const std::vector<BlockQuery> arrived =
+        mesh::deliver(_tree.communicator(), std::move(_queries), [](const BlockQuery& q) { return q.to; });
+    const std::span<const BlockQuery> all(arrived);
+    geometry::for_each_run(
+        all, [](const BlockQuery& a, const BlockQuery& b) { return a.from == b.from; },
+        [&](std::size_t first, std::size_t last) { answer(all.subspan(first, last - first)); });
+  }
+
+private:
+  const LatticeTree& _tree;
+  std::vector<BlockQuery> _queries;
+};
 
 /// A block that another rank owns.
 struct GhostBlock {

@@ -2,6 +2,7 @@
 
 #include "parallel/communication/environment.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "volume/lattice/p4est_version.hpp"
 
 #include <cstdio>
 #include <cstring>
@@ -82,6 +83,10 @@ LibraryScope::~LibraryScope() {
 
 void LibraryScope::now(const char* doing) {
   last_words().doing = doing;
+}
+
+std::string p4est_version() {
+  return P4EST_PACKAGE_VERSION;
 }
 
 void end_without_memory() {

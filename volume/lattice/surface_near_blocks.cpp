@@ -2,6 +2,7 @@
 
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/boundary_distance.hpp"
 #include "volume/lattice/near_boxes.hpp"
 #include "volume/lattice/neighbourhood.hpp"
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -34,8 +34,7 @@ double longest_edge(const std::array<Vec3, 3>& p) {
 
 /// How far a triangle is from the middle of a block, in space, rounded up.
 float distance_from_middle(const LatticeFrame& frame, const GridCube& block, const std::array<Vec3, 3>& p) {
-  const GridBox box = GridBox::of(block);
-  const Vec3 middle = frame.to_space(0.5 * (box.low + box.high));
+  const Vec3 middle = frame.middle_of(block);
   const double distance = std::sqrt(BoundaryDistance::squared_distance(middle, {p[0], p[1], p[2]}).squared);
   return std::nextafter(static_cast<float>(distance), std::numeric_limits<float>::infinity());
 }
@@ -68,10 +67,10 @@ struct Parcel {
 };
 
 /// The triangles that arrive here, each once, with those that are here, by number. Collective.
-std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, std::vector<Parcel> outgoing,
+std::vector<SurfaceTriangle> send(const LatticeTree& tree, std::vector<Parcel> outgoing,
                                   const std::vector<SurfaceTriangle>& here) {
   const std::vector<Parcel> arrived =
-      mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; });
+      mesh::deliver(tree.communicator(), std::move(outgoing), [](const Parcel& q) { return q.rank; });
   // Triangles are large: pointers to them are sorted, and each is copied once.
   std::vector<const SurfaceTriangle*> order;
   order.reserve(here.size() + arrived.size());
@@ -102,7 +101,6 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
 std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const LatticeTree& tree,
                                              const mesh::DistributedMesh& surface,
                                              const mesh::Numbering& numbering) {
-  const parallel::Communicator& communicator = surface.communicator;
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
   {
@@ -120,7 +118,7 @@ std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const La
       }
     }
   }
-  return send(communicator, std::move(outgoing), {});
+  return send(tree, std::move(outgoing), {});
 }
 
 void SurfaceTable::note_levels_met(const LatticeTree& tree) {
@@ -160,26 +158,22 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
 
 std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const LatticeTree& tree,
                                             const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
-  const parallel::Communicator& communicator = tree.communicator();
-  if (communicator.size() == 1) return own;
+  if (tree.communicator().size() == 1) return own;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-  std::vector<Question> questions;
+  BlockQueries queries(tree);
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     const BlockSearchRadii& of_block = radii.of_blocks[b - tree.first()];
     const double least = std::max(of_block.least, of_block.nearest), most = std::max(of_block.most, least);
-    const GridBox box = GridBox::of(tree.cube(b)), around = box.dilated(most);
-    if (!tree.is_within_own(around))
-      ask(tree, around, {box, least, most, 0, 0, communicator.rank()}, questions);
+    const GridBox box = GridBox::of(tree.cube(b));
+    queries.add(box.dilated(most), {box, least, most});
   }
-  questions = take_questions(communicator, std::move(questions));
   std::vector<Parcel> outgoing;
-  constexpr std::size_t batch =
-      32;  // triangles that follow each other are near each other; chosen, not measured
-  for_each_asker(questions, [&](std::span<const Question> asked) {
+  constexpr std::size_t batch = 32;  // triangles, near each other; chosen, not measured
+  queries.exchange([&](std::span<const BlockQuery> of_rank) {
     NearBoxes of_all, of_large;  // triangles
-    for (const Question& question : asked) {
-      of_all.add(question.box.dilated(question.least));
-      of_large.add(question.box.dilated(question.most));
+    for (const BlockQuery& query : of_rank) {
+      of_all.add(query.box.dilated(query.least));
+      of_large.add(query.box.dilated(query.most));
     }
     of_all.build();
     of_large.build();
@@ -197,11 +191,11 @@ std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const Lat
         const GridBox box = grid_box(frame, triangle.points);
         if (of_large.any_within(box, 0) &&
             of_all.any_within(box, radii.per_edge * longest_edge(triangle.points)))
-          outgoing.push_back({triangle, asked.front().from});
+          outgoing.push_back({triangle, of_rank.front().from});
       }
     }
   });
-  return send(communicator, std::move(outgoing), own);
+  return send(tree, std::move(outgoing), own);
 }
 
 }  // namespace aeroloom::volume

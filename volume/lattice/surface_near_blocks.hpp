@@ -3,8 +3,6 @@
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/lattice_tree.hpp"
 #include "volume/lattice/range_maximum.hpp"
 

@@ -61,4 +61,8 @@ private:
   std::vector<NearZone> _near;
 };
 
+/// The cubes of blocks across the borders of zones that halos of a width are told by (ZonesAround).
+/// Collective.
+std::vector<GridCube> fetch_cut_ghosts(const Lattice& lattice, const ZoneCuts& cuts, double width);
+
 }  // namespace aeroloom::volume

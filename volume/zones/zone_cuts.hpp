@@ -1,7 +1,6 @@
 /// Where space is cut into zones of equal load.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "volume/core/core_border.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/lattice_tree.hpp"

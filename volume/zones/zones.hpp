@@ -22,7 +22,7 @@ struct ReassignedLeaf {
 /// same on every rank that a block is local to.
 class Zones {
 public:
-  /// Refers to `tree`. `cut_ghosts`: see fetch_cut_ghosts.
+  /// Refers to `tree`. `cut_ghosts`: see fetch_cut_ghosts (halo.hpp).
   Zones(const LatticeTree& tree, ZoneCuts cuts, std::vector<GridCube> cut_ghosts = {});
 
   ZoneIndex count() const { return _cuts.count(); }
@@ -44,6 +44,9 @@ public:
   ZoneIndex name(ZoneIndex cut) const { return _names[cut]; }
   std::span<const ReassignedLeaf> reassigned() const { return _reassigned; }
 
+  /// Sums over all ranks. `mine` has an entry per zone; those that are not 0 travel. Collective.
+  std::vector<std::int64_t> sum(std::vector<std::int64_t> mine) const;
+
 private:
   ZoneIndex find(BlockIndex b, int child) const;
 
@@ -54,10 +57,6 @@ private:
   std::vector<ZoneIndex> _of_block;         // without what was reassigned
   std::vector<ReassignedLeaf> _reassigned;  // by leaf
 };
-
-/// Sums over all ranks. `mine` has an entry per zone; those that are not 0 travel. Collective.
-std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator,
-                                      std::vector<std::int64_t> mine);
 
 /// How many zones of about `piece_tets` tetrahedra: a volume of less than one and a half is one zone, and
 /// others are rounded to three leading binary digits, so that zones of equal load divide well among ranks.

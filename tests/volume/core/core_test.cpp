@@ -10,7 +10,6 @@
 namespace aeroloom::volume {
 namespace {
 
-using geometry::Vec3;
 using parallel::Communicator;
 
 // --- the squares

@@ -42,7 +42,7 @@ struct Made {
       : surface(std::move(of)),
         problem(communicator, surface, field, options),
         lattice(problem, box_of(surface)),
-        around(problem, lattice) {}
+        around(lattice) {}
 
   BlockPoints make() const { return make(lattice.tree.first(), lattice.tree.last()); }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
@@ -194,8 +194,8 @@ TEST(LatticePointsLocal, keep_off_triangles_of_any_size) {
   for (const double size : {0.1, 0.14}) {
     const Made made(Communicator::self(), uneven(), fields::uniform(size));
     const double least = least_clearance(made, made.make());
-    EXPECT_GE(least, LatticeOptions{}.clearance);
-    EXPECT_LT(least, 1.3 * LatticeOptions{}.clearance);
+    EXPECT_GE(least, VolumeOptions{}.lattice_clearance);
+    EXPECT_LT(least, 1.3 * VolumeOptions{}.lattice_clearance);
   }
 }
 
@@ -269,7 +269,7 @@ TEST(LatticePointsLocal, keep_farther_off_where_a_retry_wants_it) {
   for (BlockChange& change : made.lattice.changes) change.farther = 1;
   const BlockPoints after = made.make();
   EXPECT_LT(after.points.size(), before.points.size());
-  EXPECT_GE(least_clearance(made, after), 1.6 * LatticeOptions{}.clearance);
+  EXPECT_GE(least_clearance(made, after), 1.6 * VolumeOptions{}.lattice_clearance);
   // In its own blocks only.
   const BlockIndex changed = made.lattice.tree.block_count() / 2;
   for (BlockIndex b = 0; b < changed; ++b) made.lattice.changes[b].farther = 0;

@@ -150,7 +150,7 @@ TEST(Forest, IsPartitionedByWeight) {
     for (std::size_t i = 0; i < grown.local().size(); ++i)
       weights.push_back(grown.first(world.rank()) + static_cast<std::int64_t>(i) >= grown.count() / 2 ? 100
                                                                                                       : 0);
-    const Forest forest = partition_by_weight(world, grown, weights);
+    const Forest forest = partition_by_weight(grown, weights);
     const Octants expected = splits.leaves();
     expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);

@@ -43,7 +43,7 @@ std::int64_t grow_ours(const parallel::Communicator& communicator) {
                                                                : forest::Verdict::keep;
   };
   const forest::Forest grown = forest::grow(communicator, judge);
-  partition_by_weight(communicator, grown, std::vector<std::int32_t>(grown.local().size(), 1));
+  partition_by_weight(grown, std::vector<std::int32_t>(grown.local().size(), 1));
   return grown.count();
 }
 

@@ -147,7 +147,7 @@ TEST(DeliverSurface, leaves_a_body_to_the_ranks_around_it) {
   const Problem problem(world, surface,
                         fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}}));
   GrownLattice lattice(problem, box_of(surface));
-  const auto delivered = static_cast<std::int64_t>(Surroundings::deliver(problem, lattice).size());
+  const auto delivered = static_cast<std::int64_t>(Surroundings::deliver(lattice).size());
   const auto all = static_cast<std::int64_t>(surface.triangles.size());
   EXPECT_GE(world.sum(delivered), all);
   if (world.size() > 1) {
