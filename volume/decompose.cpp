@@ -2,7 +2,7 @@
 #include "parallel/observation/timers.hpp"
 #include "volume/filling/decomposition_data.hpp"
 #include "volume/filling/failure_diagnostics.hpp"
-#include "volume/filling/filling_limits.hpp"
+#include "volume/filling/retry_policy.hpp"
 #include "volume/lattice/block_regions.hpp"
 #include "volume/zones/halo.hpp"
 
@@ -15,21 +15,19 @@
 
 namespace aeroloom::volume {
 
-using parallel::Communicator;
 using parallel::ScopedCpu;
 
 namespace {
 
 /// The box of the surface, the same on every rank.
 geometry::Box box_of(const mesh::DistributedMesh& surface) {
-  const Communicator& communicator = surface.communicator;
   geometry::Box box;
   for (const mesh::Piece& piece : surface.pieces) {
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
   }
   for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = communicator.minimum(box.low[axis]);
-    box.high[axis] = communicator.maximum(box.high[axis]);
+    box.low[axis] = surface.communicator.minimum(box.low[axis]);
+    box.high[axis] = surface.communicator.maximum(box.high[axis]);
   }
   return box;
 }
@@ -50,11 +48,11 @@ struct NewLattice {
 };
 
 NewLattice make_lattice(const VolumeInput& input) {
-  const Communicator& communicator = input.surface.communicator;
+  const bool is_alone = input.surface.communicator.size() == 1;
   auto lattice = std::make_unique<Lattice>(grow_lattice(input, box_of(input.surface)));
   // One rank has the whole surface at hand. Which triangles are looked at decides no region: any of them that
   // is seen first tells the same.
-  if (communicator.size() > 1) {
+  if (!is_alone) {
     const ScopedCpu task(ScopedCpu::As::task);
     lattice->radii = search_radii_of_blocks(*lattice, lattice->tree.first(), lattice->tree.last());
   }
@@ -69,7 +67,7 @@ NewLattice make_lattice(const VolumeInput& input) {
   if (regions.contradiction) refuse_surface(*regions.contradiction, near, *surface, input.surface);
   lattice->regions = std::move(regions.of_block);
   const ScopedCpu task(ScopedCpu::As::task);
-  if (communicator.size() > 1) keep_own_triangles(*lattice, near);
+  if (!is_alone) keep_own_triangles(*lattice, near);
   lattice->triangles = std::move(near);
   return {std::move(lattice), std::move(surface)};
 }
@@ -90,8 +88,7 @@ std::int64_t piece_tets_of(double tetrahedra, const VolumeOptions& options) {
 
 /// Planes between zones of equal load.
 ZoneCuts cut_zones(const Lattice& lattice, std::span<const Load> loads, const VolumeOptions& options) {
-  const Communicator& communicator = lattice.tree.communicator();
-  const Load all = communicator.sum(std::accumulate(loads.begin(), loads.end(), Load{0}));
+  const Load all = lattice.tree.communicator().sum(std::accumulate(loads.begin(), loads.end(), Load{0}));
   const double tetrahedra = tetrahedra_of(all);
   const ZoneIndex count = wanted_zones(tetrahedra, piece_tets_of(tetrahedra, options));
   const std::vector<CoarseCell> cells =
@@ -135,7 +132,7 @@ ZonePlan plan_all_zones(const Lattice& lattice, const Shell& shell, double halo)
 }
 
 DecompositionReport report_of(const Lattice& lattice, const Shell& shell, const ZonePlan& plan) {
-  const Communicator& communicator = lattice.tree.communicator();
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   DecompositionReport report;
   report.blocks = lattice.tree.total();
   report.lattice_points = communicator.sum(shell.local.lattice_points);

@@ -6,7 +6,6 @@
 #include "parallel/sandbox/fault.hpp"
 #include "volume/filling/core_pieces.hpp"
 #include "volume/filling/decomposition_data.hpp"
-#include "volume/filling/filling_limits.hpp"
 #include "volume/filling/retry_policy.hpp"
 
 #include <algorithm>

@@ -21,11 +21,6 @@ inline std::vector<double> flat(const std::vector<Vec3>& points) {
   return coordinates;
 }
 
-inline LocalTriangle face_of(const LocalCell& cell, int face) {
-  const int* corner = mesh::tetrahedron_faces[face];
-  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
-}
-
 template <std::size_t n>
 std::array<LocalIndex, n> sorted(std::array<LocalIndex, n> indices) {
   std::sort(indices.begin(), indices.end());

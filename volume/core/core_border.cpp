@@ -79,10 +79,9 @@ void find_shell(const LatticeTree& tree, const BlockPoints& points, LocalShell& 
 
 LocalShell make_local_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
                             std::vector<BlockChange> changes) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   using parallel::ScopedCpu;
   BlockPoints points;
-  parallel::agree(communicator, [&] {
+  parallel::agree(lattice.tree.communicator(), [&] {
     const ScopedCpu task(ScopedCpu::As::task);
     points =
         make_points(lattice, changes, lattice.tree.first(), lattice.tree.last(), *surface, lattice.radii);

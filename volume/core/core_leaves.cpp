@@ -176,7 +176,6 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
 }
 
 void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
-  const parallel::Communicator& communicator = tree.communicator();
   LeafSurroundings around(tree);
   std::vector<std::size_t> open;  // own blocks that leaves may have to leave
   _beside_shell.assign(_ghosts.own_count(), 0);
@@ -214,8 +213,8 @@ void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
         open_beside(around.block());
       }
     }
-    changed = communicator.maximum(std::int64_t{changed}) > 0;
-    if (!changed || communicator.size() == 1) continue;
+    changed = tree.communicator().maximum(std::int64_t{changed}) > 0;
+    if (!changed || tree.communicator().size() == 1) continue;
     const std::vector<std::uint8_t> before(_core.begin() + static_cast<std::ptrdiff_t>(_ghosts.own_count()),
                                            _core.end());
     _ghosts.update(_core);

@@ -199,8 +199,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
     std::array<LocalIndex, 4> cell;
     for (int k = 0; k < 4; ++k) cell[k] = locals(parcel.points[k], local_of);
     add_cell(cell, piece);
-    for (const auto& corners : mesh::tetrahedron_faces)
-      faces.push_back({cell[corners[0]], cell[corners[1]], cell[corners[2]]});
+    for (int face = 0; face < 4; ++face) faces.push_back(face_of(cell, face));
   }
   const std::vector<std::uint8_t> shared = find_open_vertices(std::move(faces), piece.vertex_count());
   std::vector<LocalIndex> vertices;

@@ -21,11 +21,6 @@ bool same_orientation(const LocalTriangle& face, const LocalTriangle& triangle) 
   return triangle[(at + 1) % 3] == face[1];
 }
 
-LocalTriangle face_of(const LocalCell& cell, int face) {
-  const int* corner = mesh::tetrahedron_faces[face];
-  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
-}
-
 /// The triangles that bound cells: those of the surface, then those of the core's border, with nothing behind
 /// them.
 class Bounds {

@@ -15,6 +15,11 @@ namespace aeroloom::volume {
 
 using LocalTriangle = std::array<mesh::LocalIndex, 3>;
 using LocalCell = std::array<mesh::LocalIndex, 4>;
+/// The vertices of the face opposite to a vertex.
+inline LocalTriangle face_of(const LocalCell& cell, int face) {
+  const int* corner = mesh::tetrahedron_faces[face];
+  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
+}
 
 /// Whose a vertex is, seen from a zone.
 enum class Owner : std::int8_t { mine, lower, higher };

@@ -4,7 +4,6 @@
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
-#include "volume/filling/filling_limits.hpp"
 #include "volume/zones/halo.hpp"
 
 #include <algorithm>

@@ -52,12 +52,10 @@ public:
   std::vector<ZoneFace> faces() const {
     std::vector<ZoneFace> result;
     for (const Crossing& crossing : _filling.owned.crossings) {
-      const int* corner = mesh::tetrahedron_faces[crossing.face];
       ZoneFace face{};
       face.zone = _input.zone;
       face.region = _filling.owned.regions[crossing.cell];
-      std::array<LocalIndex, 3> v;
-      for (int k = 0; k < 3; ++k) v[k] = _filling.owned.cells[crossing.cell][corner[k]];
+      LocalTriangle v = face_of(_filling.owned.cells[crossing.cell], crossing.face);
       const auto order = [&](int i, int j) {
         if (vertex_key(v[j]) < vertex_key(v[i])) std::swap(v[i], v[j]), face.odd ^= 1;
       };
@@ -81,9 +79,8 @@ private:
     }
     for (const Crossing& border : _filling.owned.borders) {
       if (_filling.owned.regions[border.cell] != region) continue;
-      const int* corner = mesh::tetrahedron_faces[border.face];
-      const LocalCell& cell = _filling.owned.cells[border.cell];
-      side.borders.push_back({number[cell[corner[0]]], number[cell[corner[1]]], number[cell[corner[2]]]});
+      const auto [a, b, c] = face_of(_filling.owned.cells[border.cell], border.face);
+      side.borders.push_back({number[a], number[b], number[c]});
     }
   }
 
@@ -99,11 +96,8 @@ private:
   /// Vertices on faces to other zones, and where triangles of several regions meet.
   void mark_shared() {
     for (const Crossing& crossing : _filling.owned.crossings) {
-      const int* corner = mesh::tetrahedron_faces[crossing.face];
-      for (int k = 0; k < 3; ++k) {
-        const LocalIndex v = _filling.owned.cells[crossing.cell][corner[k]];
+      for (const LocalIndex v : face_of(_filling.owned.cells[crossing.cell], crossing.face))
         if (static_cast<std::size_t>(v) < given()) _shared[v] = 1;
-      }
     }
     for (const LocalIndex v : _filling.owned.touched) _shared[v] = 1;
     const ZoneProblem& problem = _input.problem;

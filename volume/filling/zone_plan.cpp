@@ -143,15 +143,15 @@ void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments
 
 ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
                     std::span<const double> widths) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   SendPlan mine;
-  parallel::agree(communicator, [&] {
+  parallel::agree(lattice.tree.communicator(), [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     mine = std::move(Finding(lattice, shell, zones, widths).found);
   });
   ZonePlan plan;
   plan.loads = add_up(shell.zones, mine, zones);
-  const std::vector<Assignment> assignments = schedule_zones(plan.loads, communicator.size(), widths.size());
+  const std::vector<Assignment> assignments =
+      schedule_zones(plan.loads, lattice.tree.communicator().size(), widths.size());
   std::size_t batches = 0;
   for (const ZoneLoad& load : plan.loads) batches = std::max(batches, assignments[load.zone].batch + 1);
   plan.batches.resize(batches);

@@ -142,10 +142,8 @@ private:
     const LatticeTree& tree = _lattice.tree;
     if (!may_have_core(_lattice, _block)) return 0;
     const double radius = core_distance(_lattice, _block);
-    const GridBox whole = GridBox::of(tree.cube(_block));
     if (_surface.empty()) return tree.all_leaves(_block);
-    geometry::Box box;
-    for (int corner = 0; corner < 8; ++corner) box.add(_lattice.frame.to_space(whole.corner(corner)));
+    const geometry::Box box = _lattice.frame.space_box(GridBox::of(tree.cube(_block)));
     if (!_surface.distance().any_in(box.dilated(radius))) return tree.all_leaves(_block);
     _around.collect(_surface.distance(), box, radius);
     std::uint8_t clear = 0;

@@ -122,8 +122,8 @@ int given_weight(p8est_t*, p4est_topidx_t, p8est_quadrant_t* octant) {
   return octant->p.user_int;
 }
 
-std::int64_t most_octants(const Communicator& communicator, const Limits& limits) {
-  if (limits.octants > 0) return limits.octants;
+/// How many octants the memory of a rank allows, as far as p4est can count.
+std::int64_t most_octants(const Communicator& communicator) {
   const int ranks_here = parallel::find_node_shape(communicator).ranks_here;
   const std::int64_t bytes = parallel::allowed_for_child(parallel::node_memory_bytes() / ranks_here);
   return std::min<std::int64_t>(bytes / bytes_per_octant, std::numeric_limits<p4est_locidx_t>::max());
@@ -183,8 +183,8 @@ std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, 
 
 }  // namespace
 
-Forest grow(const Communicator& communicator, const Judge& judge, Limits limits) {
-  const std::int64_t limit = most_octants(communicator, limits);
+Forest grow(const Communicator& communicator, const Judge& judge, std::int64_t octants) {
+  const std::int64_t limit = octants > 0 ? octants : most_octants(communicator);
   Crown crown;
   if (auto grown = grow_in(communicator, one_tree, crown, judge, limit)) return std::move(*grown);
   parallel::agree(communicator, [&] {

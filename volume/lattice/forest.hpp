@@ -46,14 +46,10 @@ private:
   std::uint64_t _within = 0;  // trees of the brick that lie in leaves that begin in another
 };
 
-/// What a rank may hold at a time.
-struct Limits {
-  std::int64_t octants = 0;  ///< 0: as many as p4est can count and its memory lets expect
-};
-
 /// The smallest balanced octree that has all cubes split which are judged so. Ranks share the judging, level
-/// by level. Throws CollectiveError (resources) where it takes more than the limits. Collective.
-Forest grow(const parallel::Communicator& communicator, const Judge& judge, Limits limits = {});
+/// by level. A rank holds at most `octants` of them; 0: as many as p4est can count and its memory allows.
+/// Throws CollectiveError (resources) where it takes more. Collective.
+Forest grow(const parallel::Communicator& communicator, const Judge& judge, std::int64_t octants = 0);
 
 /// A forest with the same leaves, partitioned by weights, one per leaf of this rank, none negative.
 /// Collective.

@@ -41,9 +41,8 @@ void add_ghosts(std::vector<GhostBlock> ghosts, LatticeTree& tree, SurfaceTable&
 }  // namespace
 
 Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
-  const parallel::Communicator& communicator = input.surface.communicator;
   const LatticeFrame frame(input.field, box);
-  LatticeTree tree(communicator, frame, input.field, box, keys_of(frame, input.surface));
+  LatticeTree tree(input.surface.communicator, frame, input.field, box, keys_of(frame, input.surface));
   std::vector<SurfaceTriangle> triangles = deliver_surface(frame, tree, input.surface, input.numbering);
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   SurfaceTable table = tabulate_surface(frame, tree, triangles);
@@ -59,16 +58,15 @@ Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
   std::vector<GhostBlock> ghosts = fetch_ghosts(lattice);
   const std::vector<GhostBlock> finer = fetch_finer_ghosts(lattice);
   ghosts.insert(ghosts.end(), finer.begin(), finer.end());
-  if (communicator.size() > 1) add_ghosts(std::move(ghosts), lattice.tree, lattice.table);
+  if (lattice.tree.communicator().size() > 1) add_ghosts(std::move(ghosts), lattice.tree, lattice.table);
   return lattice;
 }
 
 std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   const std::vector<SurfaceTriangle> near =
       add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   std::unique_ptr<const NearSurface> surface;
-  parallel::agree(communicator, [&] {
+  parallel::agree(lattice.tree.communicator(), [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     surface = std::make_unique<NearSurface>(near);
   });

@@ -57,9 +57,7 @@ LatticeFrame::LatticeFrame(const sizing::SizeField& field, const Box& box)
 
   double extent = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 x{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                 corner & 4 ? box.high.z : box.low.z};
-    const Vec3 g = apply(inverse, x - _anchor);
+    const Vec3 g = apply(inverse, GridBox{box.low, box.high}.corner(corner) - _anchor);
     extent = std::max({extent, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
   }
   double root_edge = reference_size(field) / mean_edge_of_cell;
@@ -87,11 +85,14 @@ sizing::GridPoint LatticeFrame::cell_at(Vec3 grid) const {
 
 GridBox LatticeFrame::grid_box(const Box& box) const {
   Box image;
-  for (int corner = 0; corner < 8; ++corner) {
-    image.add(to_grid({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                       corner & 4 ? box.high.z : box.low.z}));
-  }
+  for (int corner = 0; corner < 8; ++corner) image.add(to_grid(GridBox{box.low, box.high}.corner(corner)));
   return {image.low, image.high};
+}
+
+Box LatticeFrame::space_box(const GridBox& box) const {
+  Box image;
+  for (int corner = 0; corner < 8; ++corner) image.add(to_space(box.corner(corner)));
+  return image;
 }
 
 }  // namespace aeroloom::volume

@@ -80,8 +80,9 @@ public:
     const geometry::Vec3 middle = middle_of(cube), half = 0.5 * cube.edge() * _spread;
     return {middle - half, middle + half};
   }
-  /// The box in the grid that holds a box of space.
+  /// The box in the grid that holds a box of space, and the other way round.
   GridBox grid_box(const geometry::Box& box) const;
+  geometry::Box space_box(const GridBox& box) const;
 
 private:
   using Matrix = std::array<geometry::Vec3, 3>;  // rows

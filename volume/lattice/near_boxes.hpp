@@ -10,7 +10,6 @@ namespace aeroloom::volume {
 /// A tree over boxes of the grid that tells whether one is near.
 class NearBoxes {
 public:
-  void clear() { _boxes.clear(), _nodes.clear(); }
   /// Boxes that are near each other should follow each other.
   void add(const GridBox& box) { _boxes.push_back(box); }
   void build();

@@ -6,24 +6,12 @@ namespace aeroloom::volume {
 
 using geometry::Vec3;
 
-namespace {
-
-geometry::Box box_in_space(const LatticeFrame& frame, const GridBox& box) {
-  geometry::Box around;
-  for (int corner = 0; corner < 8; ++corner)
-    around.add(frame.to_space({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                               corner & 4 ? box.high.z : box.low.z}));
-  return around;
-}
-
-}  // namespace
-
 void WithinBlocks::find_targets(BlockIndex b) {
   _block = b;
   _targets.clear();
   const GridBox cube = GridBox::of(_lattice.tree.cube(b));
   // The box of a triangle in the grid may meet the block where its box in space does not.
-  const geometry::Box around = box_in_space(_lattice.frame, cube).dilated(_lattice.table.longest_edge[b]);
+  const geometry::Box around = _lattice.frame.space_box(cube).dilated(_lattice.table.longest_edge[b]);
   _surface.distance().for_each_in(around, [&](const BoundaryDistance::Measured& found) {
     const auto& [a, second, c] = found.corners;
     if (grid_box(_lattice.frame, {a, second, c}).overlaps(cube))

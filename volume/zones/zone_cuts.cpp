@@ -7,7 +7,6 @@
 namespace aeroloom::volume {
 
 std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> loads, Load most) {
-  const parallel::Communicator& communicator = tree.communicator();
   const BlockIndex first = tree.first(), last = tree.last();
   std::vector<CoarseCell> cells, open{{0, 0, 0, 0, 0}};
   while (!open.empty()) {
@@ -24,7 +23,7 @@ std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> l
       }
       if (cell.load > 0) mine.push_back(cell);
     }
-    std::vector<CoarseCell> all = communicator.all_gather_items<CoarseCell>(mine);
+    std::vector<CoarseCell> all = tree.communicator().all_gather_items<CoarseCell>(mine);
     open.clear();
     for (std::size_t i = 0; i < all.size();) {
       CoarseCell cell = all[i];

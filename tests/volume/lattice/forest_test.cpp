@@ -205,7 +205,7 @@ TEST(Forest, StopsBeforeItIsTooLarge) {
   const Communicator world = Communicator::world();
   const auto endless = [](const GridCube&) { return Verdict::split; };
   try {
-    grow(world, endless, {5000});
+    grow(world, endless, 5000);
     ADD_FAILURE() << "nothing was thrown";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::resources);

@@ -204,8 +204,6 @@ TEST(NearBoxes, tell_whether_one_is_near) {
   };
   for (const int count : {0, 1, 2, 3, 7, 40}) {
     NearBoxes near;
-    near.add(box());
-    near.clear();
     std::vector<GridBox> boxes;
     for (int i = 0; i < count; ++i) {
       boxes.push_back(box());
