@@ -32,7 +32,7 @@ geometry::Box box_of(const mesh::DistributedMesh& surface) {
   return box;
 }
 
-/// Once regions are known, the triangles that do not meet this rank's blocks have served.
+/// Drops the triangles that meet no block of this rank. They are needed until regions are known.
 void keep_own_triangles(const Lattice& lattice, std::vector<SurfaceTriangle>& triangles) {
   std::erase_if(triangles, [&](const SurfaceTriangle& triangle) {
     return !lattice.tree.any_own_block_in(grid_box(lattice.frame, triangle.points),
@@ -41,27 +41,26 @@ void keep_own_triangles(const Lattice& lattice, std::vector<SurfaceTriangle>& tr
   triangles.shrink_to_fit();
 }
 
-/// The lattice, and the surface that its points are made with first.
+/// The lattice, and the triangles near this rank's blocks for the first points.
 struct NewLattice {
   std::unique_ptr<const Lattice> lattice;
-  std::unique_ptr<const NearSurface> surface;
+  std::unique_ptr<const LocalSurface> surface;
 };
 
 NewLattice make_lattice(const VolumeInput& input) {
   const bool is_alone = input.surface.communicator.size() == 1;
   auto lattice = std::make_unique<Lattice>(grow_lattice(input, box_of(input.surface)));
-  // One rank has the whole surface at hand. Which triangles are looked at decides no region: any of them that
-  // is seen first tells the same.
+  // One rank has the whole surface. The search radii do not change the regions: all triangles give the same.
   if (!is_alone) {
     const ScopedCpu task(ScopedCpu::As::task);
     lattice->radii = search_radii_of_blocks(*lattice, lattice->tree.first(), lattice->tree.last());
   }
   std::vector<SurfaceTriangle> near =
-      add_those_near(lattice->frame, lattice->tree, lattice->radii, std::move(lattice->triangles));
-  std::unique_ptr<const NearSurface> surface;
+      add_ghost_triangles(lattice->frame, lattice->tree, lattice->radii, std::move(lattice->triangles));
+  std::unique_ptr<const LocalSurface> surface;
   {
     const ScopedCpu task(ScopedCpu::As::task);
-    surface = std::make_unique<NearSurface>(near);
+    surface = std::make_unique<LocalSurface>(near);
   }
   BlockRegions regions = find_block_regions(*lattice, near, *surface);
   if (regions.contradiction) refuse_surface(*regions.contradiction, near, *surface, input.surface);
@@ -72,7 +71,7 @@ NewLattice make_lattice(const VolumeInput& input) {
   return {std::move(lattice), std::move(surface)};
 }
 
-/// What is expected of this rank's blocks.
+/// The loads of this rank's blocks.
 std::vector<Load> loads_of_blocks(const Lattice& lattice, const LocalShell& shell) {
   std::vector<Load> loads;
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
@@ -81,7 +80,7 @@ std::vector<Load> loads_of_blocks(const Lattice& lattice, const LocalShell& shel
   return loads;
 }
 
-/// Wanted size of a piece of a mesh.
+/// The wanted number of tetrahedra of a piece.
 std::int64_t piece_tets_of(double tetrahedra, const VolumeOptions& options) {
   return options.piece_tets.value_or(partition::suitable_piece_tets(tetrahedra));
 }
@@ -102,13 +101,13 @@ double widest_halo(const VolumeOptions& options) {
   return options.halo * std::pow(wider, std::min<int>(options.retries, std::size(retry_steps)));
 }
 
-/// With the core's. Eighths: the sum is exact. Collective.
+/// Of shell and core. All are multiples of 1/8, so the sum is exact. Collective.
 double expected_tetrahedra(const Lattice& lattice, const Shell& shell) {
   return std::accumulate(shell.expected.begin(), shell.expected.end(),
                          static_cast<double>(lattice.tree.communicator().sum(shell.local.core_cells())));
 }
 
-Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
+Shell make_shell(const Lattice& lattice, std::unique_ptr<const LocalSurface> surface,
                  const VolumeOptions& options) {
   LocalShell local =
       make_local_shell(lattice, std::move(surface), std::vector<BlockChange>(lattice.tree.block_count()));
@@ -124,7 +123,7 @@ Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surf
   return shell;
 }
 
-/// Who fills which zone at first.
+/// The plan of the first filling.
 ZonePlan plan_all_zones(const Lattice& lattice, const Shell& shell, double halo) {
   std::vector<ZoneIndex> all(shell.zones.count());
   std::iota(all.begin(), all.end(), 0);

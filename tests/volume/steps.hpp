@@ -4,8 +4,8 @@
 #include "tests/meshes/surfaces.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/block_regions.hpp"
-#include "volume/lattice/near_surface.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
+#include "volume/lattice/local_surface.hpp"
 #include "volume/volume_mesher.hpp"
 #include "volume/zones/zones.hpp"
 
@@ -79,11 +79,11 @@ struct Surroundings {
 
   static std::vector<SurfaceTriangle> deliver(GrownLattice& lattice) {
     lattice.radii = search_radii_of_blocks(lattice, lattice.tree.first(), lattice.tree.last());
-    return add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
+    return add_ghost_triangles(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   }
 
   std::vector<SurfaceTriangle> triangles;
-  NearSurface surface;
+  LocalSurface surface;
   BlockRegions found;
 };
 

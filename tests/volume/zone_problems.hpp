@@ -39,8 +39,8 @@ ZoneProblem make_problem(const surfaces::Surface& surface, int inner, double cle
   problem.points = surface.points;
   problem.triangles = surface.triangles;
   for (const std::int32_t f : surface.face) {
-    problem.front.push_back(surface.sides[f].front);
-    problem.back.push_back(surface.sides[f].back);
+    problem.inside.push_back(surface.sides[f].front);
+    problem.outside.push_back(surface.sides[f].back);
   }
   geometry::Box box;
   for (const Vec3& p : surface.points) box.add(p);

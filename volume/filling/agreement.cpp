@@ -12,7 +12,7 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// A face as it travels to the rank that matches it.
+/// A face as it is sent to the rank that matches it.
 struct WireFace {
   std::array<mesh::SharedVertexKey, 3> vertices;
   ZoneIndex zone;

@@ -45,7 +45,7 @@ void add_triangle(const std::array<Vec3, 3>& corners, std::vector<Vec3>& points,
   points.insert(points.end(), corners.begin(), corners.end());
 }
 
-/// Those of all ranks, by number, each once. Collective.
+/// The triangles of all ranks, by number, each once. Collective.
 std::vector<SurfaceTriangle> gather_triangles(const mesh::DistributedMesh& surface,
                                               std::span<const SurfaceTriangle> mine) {
   std::vector<SurfaceTriangle> all = surface.communicator.all_gather_items<SurfaceTriangle>(mine);
@@ -146,7 +146,7 @@ void FailureDiagnostics::give_up(ZoneIndex zone, const std::vector<Retry>& tried
 }
 
 void refuse_surface(const Contradiction& contradiction, std::span<const SurfaceTriangle> triangles,
-                    const NearSurface& near, const mesh::DistributedMesh& surface) {
+                    const LocalSurface& near, const mesh::DistributedMesh& surface) {
   std::vector<SurfaceTriangle> mine;
   if (!near.empty()) {
     const SurfaceDefect defect = find_intersections({near.points(), near.triangles()}, near.distance());

@@ -16,10 +16,10 @@
 
 namespace aeroloom::volume {
 
-/// What a retry does differently to get a stubborn zone filled. Each makes its halo wider.
+/// What a retry of a zone changes. Each retry also makes its halo wider.
 struct RetryStep {
   const char* name;
-  bool other_points;     ///< or only this zone is filled again, and the mesh stays what it was to be
+  bool other_points;     ///< false: only this zone is filled again, and the mesh does not change
   std::uint8_t farther;  ///< see BlockChange
 };
 inline constexpr RetryStep retry_steps[] = {
@@ -27,15 +27,15 @@ inline constexpr RetryStep retry_steps[] = {
     {"a wider halo, other perturbations of its points", true, 0},
     {"a wider halo, points farther off the surface", true, 1},
 };
-inline constexpr double wider = 1.5;  // the halo, each time
+inline constexpr double wider = 1.5;  // factor of the halo's width, for each retry
 
-/// Zones that know too little of their neighbours disagree nearly everywhere, and so do those that are made
-/// of them. A real aircraft takes less than one filling again in all. The same on every rank.
+/// Limits how often zones are filled. With halos that are too narrow, zones disagree nearly everywhere, and
+/// so do merged ones. Real aircraft need less than one further filling in all. The same on every rank.
 class FillingBudget {
 public:
   explicit FillingBudget(std::size_t zones) : _zones(zones) {}
 
-  /// Throws CollectiveError (input) where this is more than there is.
+  /// `zones` more zones are filled. Throws CollectiveError (input) above the limit.
   void spend(std::size_t zones, std::int64_t rounds, double halo) {
     constexpr std::size_t most_on_average = 10, few = 50;
     _again += zones;
@@ -52,8 +52,7 @@ private:
   std::size_t _zones, _again = 0;
 };
 
-/// Which retries zones have had. The same on every rank; it alone changes the shell. Refers to all it is made
-/// from.
+/// Chooses the remedies, and applies them to the shell. The same on every rank. Refers to its arguments.
 class RetryPolicy {
 public:
   RetryPolicy(const VolumeOptions& options, const Lattice& lattice, Shell& shell, VolumeReport& report)
@@ -67,28 +66,28 @@ public:
         _merged(shell.zones.count(), 0),
         _is_gone(shell.zones.count(), 0) {}
 
-  /// Retries that a zone has had since it was merged last.
+  /// The number of retries of a zone since it was last merged.
   int changes_of(ZoneIndex zone) const { return _changes_of[zone]; }
   bool is_merged(ZoneIndex zone) const { return _merged[zone] != 0; }
-  /// Whether another zone has all that was the zone's.
+  /// Whether the zone was merged into another one.
   bool is_gone(ZoneIndex zone) const { return _is_gone[zone] != 0; }
-  /// Of the halos of all zones.
+  /// The width of the halo of each zone, in sizes.
   std::vector<double> widths() const;
 
-  /// Changes what zones that failed are made of, and demotes leaves of the core to the shell; returns the
-  /// zones to be filled again. `failures` and `demoted` are those of this rank. Collective. Throws
-  /// VolumeFailure.
+  /// Applies the next remedy to zones that failed, and demotes core leaves to the shell. Returns the zones to
+  /// be filled again. `failures` and `demoted` are those of this rank. Throws VolumeFailure. Collective.
   std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& failures,
                                        const std::vector<DemotedLeaf>& demoted,
                                        const FailureDiagnostics& diagnostics);
-  /// Where zones disagree the lowest gets the leaves; returns the zones to be filled again. `faces` are those
-  /// of this rank's zones. Collective. Throws CollectiveError.
+  /// Where zones disagree, gives the leaves to the lowest zone, and after several rounds merges the zones.
+  /// Returns the zones to be filled again. `faces` are those of this rank's zones. Throws CollectiveError.
+  /// Collective.
   std::vector<ZoneIndex> resolve_disputes(std::span<const ZoneFace> faces);
 
 private:
-  /// A leaf where zones disagree, or beside one.
+  /// A leaf where zones disagree, or near such a leaf.
   struct LeafOfPlace;
-  /// Blocks of this rank and zones that a remedy has touched: all zones that see them are filled again.
+  /// Own blocks and zones that a remedy changed. All zones with a halo there are filled again.
   struct Changed {
     std::vector<std::uint8_t> blocks;
     std::vector<ZoneIndex> zones;
@@ -102,12 +101,12 @@ private:
   ZoneIndex widest_neighbour(ZoneIndex zone) const;
   void merge(ZoneIndex a, ZoneIndex b);
   void touch_all(ZoneIndex zone, Changed& changed) const;
-  std::vector<ZoneIndex> those_that_see(Changed changed);
+  std::vector<ZoneIndex> zones_reached(Changed changed);
   std::vector<LeafOfPlace> leaves_around(std::span<const DisputedPlace> places, int rings) const;
   LeafNumber lowest_leaf(ZoneIndex zone) const;
   void note_places(std::span<const DisputedPlace> places);
   void reassign(std::span<const DisputedPlace> places, Changed& changed);
-  void merge_those_around(std::span<const DisputedPlace> places, Changed& changed);
+  void merge_around(std::span<const DisputedPlace> places, Changed& changed);
 
   const parallel::Communicator& _communicator;
   const VolumeOptions& _options;

@@ -41,7 +41,7 @@ public:
       for (const LocalIndex v : owned.cells[c]) piece.cells.push_back(number[v]);
     }
     for (const std::int32_t t : owned.triangles) {
-      if (_input.problem.front[t] != region) continue;
+      if (_input.problem.inside[t] != region) continue;
       for (const LocalIndex v : _input.problem.triangles[t]) piece.boundary.push_back(number[v]);
       piece.triangle_face.push_back(_input.face[t]);
       piece.triangle_patch.push_back(_input.patch[t]);
@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  /// `number` has the piece's vertices by those of the zone.
+  /// `number` has the local index in the piece for each vertex of the zone.
   void note_core_side(RegionId region, const std::vector<LocalIndex>& number, CoreSide& side) const {
     for (std::size_t v = _input.problem.surface_points(); v < given(); ++v) {
       if (number[v] < 0) continue;
@@ -93,7 +93,7 @@ private:
     return static_cast<std::size_t>(v) < given() ? _input.leaves[v] : -1;
   }
 
-  /// Vertices on faces to other zones, and where triangles of several regions meet.
+  /// Marks vertices on faces to other zones, and where triangles of several regions meet.
   void mark_shared() {
     for (const Crossing& crossing : _filling.owned.crossings) {
       for (const LocalIndex v : face_of(_filling.owned.cells[crossing.cell], crossing.face))
@@ -103,7 +103,7 @@ private:
     const ZoneProblem& problem = _input.problem;
     std::vector<RegionId> first(problem.surface_points(), mesh::no_region);
     for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
-      for (const RegionId region : {problem.front[t], problem.back[t]}) {
+      for (const RegionId region : {problem.inside[t], problem.outside[t]}) {
         if (region == mesh::no_region) continue;
         for (const LocalIndex v : problem.triangles[t]) {
           if (first[v] == mesh::no_region) first[v] = region;
@@ -113,7 +113,7 @@ private:
     }
   }
 
-  /// Numbers the vertices that are used, in their order.
+  /// Adds the vertices that are used, in their order.
   void add_vertices(RegionId region, std::vector<LocalIndex>& number, Piece& piece) const {
     const std::size_t surface_points = _input.problem.surface_points();
     const auto used = static_cast<std::size_t>(std::count(number.begin(), number.end(), 0));

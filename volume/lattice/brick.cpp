@@ -22,13 +22,13 @@ p8est_connectivity_t* connect(int tree_level) {
   return p8est_connectivity_new_brick(per_axis, per_axis, per_axis, 0, 0, 0);
 }
 
-/// Leaves as p4est reads them: x, y, z, level, of their tree.
+/// Leaves as p4est reads them: x, y, z in their tree, level.
 struct Columns {
   static constexpr int width = 4;
   int tree_level;
   std::vector<p4est_qcoord_t> places;
   std::vector<std::int32_t> weights;
-  std::vector<std::int64_t> trees;  // those that begin here, and after how many leaves of this rank
+  std::vector<std::int64_t> trees;  // pairs: a tree that begins on this rank, number of own leaves before it
 
   std::int64_t count() const { return static_cast<std::int64_t>(places.size() / width); }
   void add(int tree, std::uint64_t in_tree, int level, std::int32_t weight) {
@@ -120,7 +120,7 @@ Forest Brick::take() const {
   Octants& local = result._local;
   local.keys.reserve(_forest->local_num_quadrants);
   local.levels.reserve(_forest->local_num_quadrants);
-  // Where eight trees with a parent are leaves they go with the first.
+  // Eight unsplit trees with one parent go to the rank of the first.
   const TreeSet split = _tree_level == one_tree ? ~TreeSet{0} : split_trees();
   for_each_octant([&](int tree, const p8est_quadrant_t& octant) {
     if ((split >> (tree & ~7) & 0xff) != 0)

@@ -1,8 +1,8 @@
-/// How a rank gets ghosts: queries to other ranks, and the blocks that these send.
+/// Fetches ghosts, blocks of other ranks, by queries to their owners.
 #pragma once
 
-#include "volume/lattice/near_boxes.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
+#include "volume/lattice/grid_box_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,9 @@
 
 namespace aeroloom::volume {
 
-/// Sends the queries, and returns the blocks that other ranks send for them. add_blocks(queries of a rank,
-/// add) calls add(b) for the blocks of this rank that go to that rank. Collective.
+/// Sends the queries and returns the blocks that other ranks send back. The function
+/// add_blocks(queries, add) gets the queries of one rank. It calls add(b) for each block b that goes there.
+/// Collective.
 template <class AddBlocks>
 std::vector<GhostBlock> fetch_blocks(const Lattice& lattice, BlockQueries& queries,
                                      const AddBlocks& add_blocks) {
@@ -36,8 +37,8 @@ std::vector<GhostBlock> fetch_blocks(const Lattice& lattice, BlockQueries& queri
   return fetched;
 }
 
-/// Calls add(b) for this rank's blocks whose cubes are wanted. is_wanted(cube) has to hold for all cubes that
-/// contain a wanted one.
+/// Calls add(b) for this rank's blocks with is_wanted(cube of b). is_wanted must also hold for all cubes that
+/// contain such a block.
 template <class IsWanted, class Add>
 void add_own_blocks(const LatticeTree& tree, const IsWanted& is_wanted, const Add& add) {
   const auto add_if_wanted = [&](BlockIndex b) {
@@ -50,14 +51,14 @@ void add_own_blocks(const LatticeTree& tree, const IsWanted& is_wanted, const Ad
                     });
 }
 
-/// Boxes of blocks, by their level.
+/// The boxes of queries, by the level of the block that they are for.
 class BoxesByLevel {
 public:
   explicit BoxesByLevel(std::span<const BlockQuery> queries) {
     for (const BlockQuery& query : queries) _of_level[query.level].add(query.box);
-    for (NearBoxes& boxes : _of_level) boxes.build();
+    for (GridBoxTree& boxes : _of_level) boxes.build();
   }
-  /// Whether one of at least this level touches a box.
+  /// Whether a box of this level or a finer one touches `box`.
   bool any_from(int level, const GridBox& box) const {
     for (std::size_t l = std::max(level, 0); l < _of_level.size(); ++l) {
       if (_of_level[l].any_within(box, 0)) return true;
@@ -66,7 +67,7 @@ public:
   }
 
 private:
-  std::array<NearBoxes, sizing::finest_level + 1> _of_level;
+  std::array<GridBoxTree, sizing::finest_level + 1> _of_level;
 };
 
 }  // namespace aeroloom::volume

@@ -2,7 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <utility>
@@ -11,7 +11,7 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// The finest cubes that hold the centres of this rank's triangles.
+/// The Morton keys of the finest cubes that contain the centres of this rank's triangles.
 std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::DistributedMesh& surface) {
   std::vector<std::uint64_t> keys;
   for (const mesh::Piece& piece : surface.pieces) {
@@ -24,7 +24,7 @@ std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::Distri
   return keys;
 }
 
-/// Tree and table grow by ghosts.
+/// Adds ghosts to tree and table.
 void add_ghosts(std::vector<GhostBlock> ghosts, LatticeTree& tree, SurfaceTable& table) {
   std::vector<PackedBlock> blocks;
   blocks.reserve(ghosts.size());
@@ -62,13 +62,13 @@ Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
   return lattice;
 }
 
-std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice) {
+std::unique_ptr<const LocalSurface> gather_local_surface(const Lattice& lattice) {
   const std::vector<SurfaceTriangle> near =
-      add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
-  std::unique_ptr<const NearSurface> surface;
+      add_ghost_triangles(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
+  std::unique_ptr<const LocalSurface> surface;
   parallel::agree(lattice.tree.communicator(), [&] {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    surface = std::make_unique<NearSurface>(near);
+    surface = std::make_unique<LocalSurface>(near);
   });
   return surface;
 }

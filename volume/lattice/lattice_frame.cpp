@@ -9,17 +9,16 @@ using geometry::Vec3;
 
 namespace {
 
-/// The shear, and how it mixes the axes: any numbers without symmetry would do.
+/// The size of the shear, and its matrix: any numbers without symmetry would do.
 constexpr double shear = 0.03;
 constexpr Vec3 mixing[3] = {{0, 0.6, 0.35}, {0.45, 0, -0.5}, {0.4, -0.3, 0}};
-/// Samples of the field that choose the scale of the lattice. Chosen, not measured.
+/// The number of samples of the field from which the scale is chosen. Chosen, not measured.
 constexpr std::int64_t scale_samples = 4096;
 /// The width of the root over that of the domain. Chosen, not measured.
 constexpr double root_margin = 1.02;
 
-/// The size the coarsest lattice is scaled to: maximum, or up to half an octave off, so that the levels suit
-/// the sizes at which most of the mesh will have its elements (circular mean of log2 h, weighted by predicted
-/// tetrahedra).
+/// The size of the coarsest level: the maximum of the field, or up to half an octave off. Levels then match
+/// the most frequent sizes of the mesh (circular mean of log2 h, weighted by predicted tetrahedra).
 double reference_size(const sizing::SizeField& field) {
   const std::int64_t leaves = field.leaf_count();
   const std::int64_t stride = std::max<std::int64_t>(1, leaves / scale_samples);

@@ -17,7 +17,7 @@ double largest_size_around(const Lattice& lattice, BlockIndex b) {
   return size;
 }
 
-bool NearZone::knows(const GridBox& box) const {
+bool HaloZone::reaches(const GridBox& box) const {
   return std::any_of(boxes.begin(), boxes.end(),
                      [&](const GridBox& place) { return place.gap_to(box) <= radius; });
 }
@@ -61,13 +61,13 @@ void ZonesAround::move_to(BlockIndex b) {
   std::stable_sort(_places.begin(), _places.end(),
                    [](const ZoneBox& a, const ZoneBox& b) { return a.zone < b.zone; });
   _boxes.clear();
-  _near.clear();
+  _halos.clear();
   for (const ZoneBox& place : _places) _boxes.push_back(place.box);
   for (std::size_t first = 0, last; first < _places.size(); first = last) {
     const ZoneIndex zone = _places[first].zone;
     for (last = first + 1; last < _places.size() && _places[last].zone == zone;) ++last;
-    _near.push_back({zone, _lattice.frame.grid_distance(_widths[zone] * size),
-                     std::span<const GridBox>(_boxes).subspan(first, last - first)});
+    _halos.push_back({zone, _lattice.frame.grid_distance(_widths[zone] * size),
+                      std::span<const GridBox>(_boxes).subspan(first, last - first)});
   }
 }
 

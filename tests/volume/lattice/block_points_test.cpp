@@ -200,14 +200,15 @@ TEST(LatticePointsLocal, keep_off_triangles_of_any_size) {
 }
 
 /// Regions told from within blocks, by what meets these, are those that the nearest triangle tells.
-TEST(LatticePointsLocal, have_their_regions_from_within_blocks_too) {
+TEST(LatticePointsLocal, have_their_regions_from_their_block_too) {
   surfaces::Surface body = surfaces::cube({0, 0, 0}, 20, 8);
   surfaces::append(body, surfaces::sphere({0, 0, 0}, 1, 24), surfaces::Turn::inward);
   const auto far = fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}});
   for (const Made& made : {Made(Communicator::self(), body, far), Made(Communicator::self())}) {
     const BlockIndex count = made.lattice.tree.block_count();
     SearchRadii radii = search_radii_of_blocks(made.lattice, 0, count);
-    for (BlockIndex b = 0; b < count; ++b) radii.of_blocks[b].from_within = made.lattice.table.is_met(b);
+    for (BlockIndex b = 0; b < count; ++b)
+      radii.of_blocks[b].region_from_block = made.lattice.table.is_met(b);
     const BlockPoints near = make_points(made.lattice, made.lattice.changes, 0, count, made.around.surface);
     const BlockPoints within =
         make_points(made.lattice, made.lattice.changes, 0, count, made.around.surface, radii);
@@ -251,7 +252,7 @@ TEST_P(WithinRadiiLocal, are_all_triangles_that_points_need) {
       for (const std::int32_t t : known) triangles.push_back(made.around.triangles[t]);
       fewest = std::min(fewest, triangles.size());
       const BlockPoints part =
-          make_points(made.lattice, made.lattice.changes, first, last, NearSurface(triangles), radii);
+          make_points(made.lattice, made.lattice.changes, first, last, LocalSurface(triangles), radii);
       const auto from = static_cast<std::ptrdiff_t>(whole.starts[first]);
       ASSERT_EQ(static_cast<std::int64_t>(part.points.size()), whole.starts[last] - whole.starts[first]);
       EXPECT_TRUE(std::equal(part.points.begin(), part.points.end(), whole.points.begin() + from));

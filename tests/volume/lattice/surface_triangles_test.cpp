@@ -33,7 +33,7 @@ struct Shared {
   std::vector<SurfaceTriangle> deliver(double radius) {
     const SearchRadii radii{
         std::vector<BlockSearchRadii>(lattice.tree.last() - lattice.tree.first(), {radius, radius}), 0};
-    return add_those_near(lattice.frame, lattice.tree, radii, lattice.triangles);
+    return add_ghost_triangles(lattice.frame, lattice.tree, radii, lattice.triangles);
   }
 
   surfaces::Surface surface;
@@ -180,8 +180,8 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
       }
       t.face = piece.triangle_face[c];
       t.patch = piece.triangle_patch[c];
-      t.front = shared.surface.sides[t.face].front;
-      t.back = shared.surface.sides[t.face].back;
+      t.inside = shared.surface.sides[t.face].front;
+      t.outside = shared.surface.sides[t.face].back;
       mine.push_back({t});
     }
   }
@@ -200,8 +200,8 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
     EXPECT_EQ(t.dimension, expected.dimension);
     EXPECT_EQ(t.face, expected.face);
     EXPECT_EQ(t.patch, expected.patch);
-    EXPECT_EQ(t.front, expected.front);
-    EXPECT_EQ(t.back, expected.back);
+    EXPECT_EQ(t.inside, expected.inside);
+    EXPECT_EQ(t.outside, expected.outside);
   }
 }
 

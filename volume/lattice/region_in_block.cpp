@@ -1,4 +1,4 @@
-#include "volume/lattice/within_blocks.hpp"
+#include "volume/lattice/region_in_block.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace aeroloom::volume {
 
 using geometry::Vec3;
 
-void WithinBlocks::find_targets(BlockIndex b) {
+void RegionInBlock::find_targets(BlockIndex b) {
   _block = b;
   _targets.clear();
   const GridBox cube = GridBox::of(_lattice.tree.cube(b));
@@ -19,7 +19,7 @@ void WithinBlocks::find_targets(BlockIndex b) {
   });
 }
 
-std::optional<WithinBlocks::Seen> WithinBlocks::look(BlockIndex b, Vec3 p) {
+std::optional<RegionInBlock::Found> RegionInBlock::find(BlockIndex b, Vec3 p) {
   if (_surface.empty()) return std::nullopt;
   if (b != _block) find_targets(b);
   std::sort(_targets.begin(), _targets.end(), [&](const Target& left, const Target& right) {
@@ -27,7 +27,7 @@ std::optional<WithinBlocks::Seen> WithinBlocks::look(BlockIndex b, Vec3 p) {
   });
   for (const Target& target : _targets) {
     if (const auto region = _surface.region_towards(p, target.center, target.triangle))
-      return Seen{*region, target.triangle};
+      return Found{*region, target.triangle};
   }
   return std::nullopt;
 }

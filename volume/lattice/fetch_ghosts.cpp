@@ -1,4 +1,4 @@
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
 
 #include "geometry/sort_unique.hpp"
 #include "parallel/observation/timers.hpp"
@@ -50,7 +50,7 @@ std::vector<GhostBlock> fetch_finer_ghosts(const Lattice& lattice) {
   const ScopedCpu task(ScopedCpu::As::task);
   BlockQueries queries(tree);
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
-    for (const double radius : looks_of_block(lattice, b)) {
+    for (const double radius : finer_search_radii(lattice, b)) {
       const GridBox box = GridBox::of(tree.cube(b)).dilated(radius);
       queries.add(box, {.box = box, .level = tree.level(b)});
     }

@@ -1,11 +1,11 @@
-#include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/lattice/surface_triangles.hpp"
 
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/observation/timers.hpp"
 #include "volume/lattice/boundary_distance.hpp"
-#include "volume/lattice/near_boxes.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
+#include "volume/lattice/grid_box_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ double longest_edge(const std::array<Vec3, 3>& p) {
   return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
 }
 
-/// How far a triangle is from the middle of a block, in space, rounded up.
+/// The distance in space from the middle of a block to a triangle, rounded up.
 float distance_from_middle(const LatticeFrame& frame, const GridCube& block, const std::array<Vec3, 3>& p) {
   const Vec3 middle = frame.middle_of(block);
   const double distance = std::sqrt(BoundaryDistance::squared_distance(middle, {p[0], p[1], p[2]}).squared);
@@ -53,12 +53,12 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
   triangle.face = piece.triangle_face[t];
   triangle.patch = piece.triangle_patch[t];
   const mesh::FaceSides sides = surface.sides_of(triangle.face);
-  triangle.front = sides.front;
-  triangle.back = sides.back;
+  triangle.inside = sides.front;
+  triangle.outside = sides.back;
   return triangle;
 }
 
-/// A triangle on its way.
+/// A triangle and the rank that it is sent to.
 struct Parcel {
   SurfaceTriangle triangle;
   parallel::Rank rank;
@@ -66,7 +66,7 @@ struct Parcel {
   static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
 };
 
-/// The triangles that arrive here, each once, with those that are here, by number. Collective.
+/// Sends triangles. Returns those that arrive and those of `here`, by number, each once. Collective.
 std::vector<SurfaceTriangle> send(const LatticeTree& tree, std::vector<Parcel> outgoing,
                                   const std::vector<SurfaceTriangle>& here) {
   const std::vector<Parcel> arrived =
@@ -156,8 +156,8 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
   return table;
 }
 
-std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const LatticeTree& tree,
-                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
+std::vector<SurfaceTriangle> add_ghost_triangles(const LatticeFrame& frame, const LatticeTree& tree,
+                                                 const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
   if (tree.communicator().size() == 1) return own;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   BlockQueries queries(tree);
@@ -170,7 +170,7 @@ std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const Lat
   std::vector<Parcel> outgoing;
   constexpr std::size_t batch = 32;  // triangles, near each other; chosen, not measured
   queries.exchange([&](std::span<const BlockQuery> of_rank) {
-    NearBoxes of_all, of_large;  // triangles
+    GridBoxTree of_all, of_large;  // triangles
     for (const BlockQuery& query : of_rank) {
       of_all.add(query.box.dilated(query.least));
       of_large.add(query.box.dilated(query.most));

@@ -1,4 +1,4 @@
-/// Ghosts: blocks of other ranks, as far as they matter to those of this one.
+/// Ghosts: the blocks of other ranks that this rank needs.
 #pragma once
 
 #include "geometry/runs.hpp"
@@ -12,11 +12,11 @@
 
 namespace aeroloom::volume {
 
-/// A query of a rank to another for what touches a box, or is near it.
+/// A query of one rank to another, for blocks or triangles that touch a box or are near it.
 struct BlockQuery {
   GridBox box;
-  double least = 0, most = 0;  ///< see BlockSearchRadii
-  std::int32_t level = 0;      ///< of the block that it is for
+  double least = 0, most = 0;  ///< radii, see BlockSearchRadii
+  std::int32_t level = 0;      ///< of the block that the query is for
   parallel::Rank to = 0, from = 0;
 
   static constexpr auto fields() {
@@ -25,16 +25,16 @@ struct BlockQuery {
   }
 };
 
-/// The queries of a rank, and those that it gets.
+/// Collects the queries of a rank, and exchanges them.
 class BlockQueries {
 public:
   /// Refers to the tree.
   explicit BlockQueries(const LatticeTree& tree) : _tree(tree) {}
 
-  /// A query to all other ranks with blocks that touch `where`.
+  /// Adds a query to each other rank with blocks that touch `where`.
   void add(const GridBox& where, BlockQuery query);
-  /// Sends the queries, and calls answer(queries) for those that arrive from each rank, in ascending rank.
-  /// Collective.
+  /// Sends the queries. Calls answer(queries) once for each rank that sends some here, in ascending order of
+  /// ranks. Collective.
   template <class Answer>
   void exchange(const Answer& answer) {
     const std::vector<BlockQuery> arrived =
@@ -50,7 +50,7 @@ private:
   std::vector<BlockQuery> _queries;
 };
 
-/// A block that another rank owns.
+/// A block of another rank.
 struct GhostBlock {
   PackedBlock block;
   float longest_edge;  ///< see SurfaceTable
@@ -58,9 +58,10 @@ struct GhostBlock {
   static constexpr auto fields() { return std::tuple(&GhostBlock::block, &GhostBlock::longest_edge); }
 };
 
-/// All blocks that touch this rank's, or hold corners of its triangles. Collective.
+/// All blocks that touch blocks of this rank or contain corners of its triangles. Collective.
 std::vector<GhostBlock> fetch_ghosts(const Lattice& lattice);
-/// Where there are far finer blocks on the surface (see looks_of_block), one of them. Collective.
+/// For each block of this rank, one far finer block on the surface, if there is any (see
+/// finer_search_radii). Collective.
 std::vector<GhostBlock> fetch_finer_ghosts(const Lattice& lattice);
 
 }  // namespace aeroloom::volume
