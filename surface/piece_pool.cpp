@@ -3,6 +3,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "surface/charts/support_mesher.hpp"
 #include "surface/piece_mesher.hpp"
 #include "surface/surface_error.hpp"
@@ -45,9 +46,8 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Mode
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
   for (const auto& loop : _model.face(face).loops) {
-    for (const cad::Coedge& use : loop) {
+    for (const cad::Coedge& use : loop)
       counts.push_back(curves.first_interior[use.edge + 1] - curves.first_interior[use.edge]);
-    }
   }
   return counts;
 }
@@ -75,18 +75,16 @@ std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const Size
   std::vector<std::int32_t> kept(_model.face_count(), 0);
   {
     const ScopedCpu cpu(ScopedCpu::As::task);
-    for (const auto& [key, meshed] : _meshed) {
+    for (const auto& [key, meshed] : _meshed)
       kept[key[0]] += is_unchanged(curves, field, key[0], meshed) ? 1 : 0;
-    }
   }
   std::vector<std::array<std::int32_t, 2>> mine;
   for (FaceId f = 0; f < _model.face_count(); ++f) {
     if (kept[f] > 0) mine.push_back({f, kept[f]});
   }
   std::fill(kept.begin(), kept.end(), 0);
-  for (const auto& [face, count] : _communicator.all_gather_items<std::array<std::int32_t, 2>>(mine)) {
+  for (const auto& [face, count] : _communicator.all_gather_items<std::array<std::int32_t, 2>>(mine))
     kept[face] += count;
-  }
   for (FaceId f = 0; f < _model.face_count(); ++f) {
     if (_parts[f] == 0 || kept[f] != _parts[f]) changed.push_back(f);
   }
@@ -209,12 +207,11 @@ void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curve
 
 Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   const std::vector<FaceId> faces = changed_faces(curves, field);
-  std::erase_if(_meshed, [&](const auto& entry) {
+  const auto has_changed = [&](const auto& entry) {
     return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
-  });
-  std::erase_if(_angles, [&](const auto& entry) {
-    return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
-  });
+  };
+  std::erase_if(_meshed, has_changed);
+  std::erase_if(_angles, has_changed);
   Subfaces subfaces = make_whole_subfaces(faces, curves, field);
   Conflicts conflicts;
   conflicts.predicted = predict(subfaces, field);
@@ -241,9 +238,7 @@ mesh::DistributedMesh PiecePool::assemble() const {
     first.push_back(first.back() + _parts[f]);
   }
   surface.piece_count = first.back();
-  for (cad::RegionId r = 0; r < _model.region_count(); ++r) {
-    surface.regions.push_back(_model.region_name(r));
-  }
+  for (cad::RegionId r = 0; r < _model.region_count(); ++r) surface.regions.push_back(_model.region_name(r));
   for (const auto& [key, meshed] : _meshed) {
     surface.pieces.push_back(meshed.piece);
     surface.pieces.back().id = first[key[0]] + meshed.place;
@@ -264,9 +259,8 @@ std::vector<CutAngle> PiecePool::cut_angles() const {
 
 double PiecePool::load_error_90() const {
   std::vector<double> errors;
-  for (const auto& [key, meshed] : _meshed) {
+  for (const auto& [key, meshed] : _meshed)
     errors.push_back(std::abs(meshed.load / static_cast<double>(meshed.piece.cell_count()) - 1));
-  }
   errors = _communicator.all_gather_items<double>(errors);
   std::sort(errors.begin(), errors.end());
   return errors.empty() ? 0 : errors[errors.size() * 9 / 10];

@@ -3,6 +3,7 @@
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "surface/charts/support_mesher.hpp"
 #include "surface/curves/face_loops.hpp"
 #include "surface/curves/free_curves.hpp"
@@ -209,9 +210,8 @@ private:
 
 PlaneConflicts remesh_planes(const cad::Model& model, const sizing::SizeField& field,
                              const PlanesToRemesh& planes, mesh::DistributedMesh& surface) {
-  const parallel::Communicator communicator = surface.communicator;
   if (planes.faces.empty()) return {};
-  PlaneRemesher remesher(communicator, model, field, planes);
+  PlaneRemesher remesher(surface.communicator, model, field, planes);
   PlaneConflicts conflicts = remesher.mesh(surface);
   if (conflicts.empty()) remesher.replace(surface);
   return conflicts;

@@ -4,7 +4,6 @@
 
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"

@@ -4,11 +4,11 @@
 #include "mesh/checks/intersection.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "surface/curves/curves.hpp"
 #include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
-#include "surface/surface_error.hpp"
 #include "surface/tips/cusp_tips.hpp"
 #include "surface/tips/needle_remedies.hpp"
 
@@ -30,13 +30,11 @@ using sizing::SizeSource;
 
 /// The CAD face of each piece of the whole mesh, on every rank. Collective.
 std::vector<cad::FaceId> faces_of_pieces(const mesh::DistributedMesh& surface) {
-  const parallel::Communicator& communicator = surface.communicator;
   std::vector<std::array<std::int32_t, 2>> mine;
   for (const mesh::Piece& piece : surface.pieces) mine.push_back({piece.id, piece.common_face()});
   std::vector<cad::FaceId> faces(surface.piece_count, cad::no_entity);
-  for (const auto& [piece, face] : communicator.all_gather_items<std::array<std::int32_t, 2>>(mine)) {
+  for (const auto& [piece, face] : surface.communicator.all_gather_items<std::array<std::int32_t, 2>>(mine))
     faces[piece] = face;
-  }
   return faces;
 }
 
@@ -86,12 +84,11 @@ std::string complain(const cad::Model& model, const SizeField& field,
     const double area = std::min(areas[0], areas[1]);
     if (area > worst_area) worst = &first, worst_area = area;
   }
-  const geometry::Vec3 at = worst->place;
   return fmt::format(
       "triangles of faces '{}' and '{}' intersect near {}, over an area of about {:.3g} in all, size {:.4g} "
       "there",
-      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, geometry::place_text(at),
-      worst_area, field(at));
+      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, geometry::place_text(worst->place),
+      worst_area, field(worst->place));
 }
 
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
@@ -144,9 +141,8 @@ std::int64_t count_unforced(const std::vector<NeedleGroup>& groups) {
 
 std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh& curves) {
   std::vector<ListedCorner> corners;
-  for (const SharpCorner& corner : curves.sharp_corners) {
+  for (const SharpCorner& corner : curves.sharp_corners)
     corners.push_back({corner.face, model.vertex(corner.vertex), corner.degrees});
-  }
   return corners;
 }
 

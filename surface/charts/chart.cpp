@@ -129,7 +129,7 @@ private:
       accept(std::move(domain.support), std::move(map));
       return true;
     }
-    if (!is_planar_domain(support, geometry::match_half_edges(support.triangles))) return false;
+    if (!is_planar_domain(support)) return false;
     if (support.points.size() > most_points && domain.depth < deepest_split) return false;
     const double spread = normal_spread(support);
     domain.best = choose_map(support, _limits, spread);
@@ -157,9 +157,7 @@ private:
       push(std::move(parts), domain.depth + 1);
       return;
     }
-    const bool may_map =
-        is_planar_domain(domain.support, geometry::match_half_edges(domain.support.triangles));
-    if (!domain.best && may_map)
+    if (!domain.best && is_planar_domain(domain.support))
       domain.best = choose_map(domain.support, _limits, normal_spread(domain.support));
     if (!domain.best || !is_bearable(domain.best->quality)) fail(domain.support);
     accept(std::move(domain.support), std::move(domain.best->map));

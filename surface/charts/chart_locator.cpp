@@ -2,7 +2,6 @@
 #include "surface/charts/support_topology.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace aeroloom::surface {
 namespace {
@@ -27,9 +26,8 @@ ChartLocator::ChartLocator(const Chart& chart)
     : _chart(chart),
       _twins(geometry::match_half_edges(chart.support.triangles)),
       _grid(chart.plane, chart.support.triangles) {
-  for (const auto& [a, b, c] : chart.support.triangles) {
+  for (const auto& [a, b, c] : chart.support.triangles)
     _areas.push_back(cross(chart.plane[b] - chart.plane[a], chart.plane[c] - chart.plane[a]));
-  }
 }
 
 std::array<double, 3> ChartLocator::weights(std::int32_t triangle, Vec2 point) const {

@@ -84,13 +84,13 @@ double plane_area(const Support& support, const PlaneMap& map) {
   return area;
 }
 
-/// Gives the map the area of the support; false where it has none.
-bool normalise_area(const Support& support, PlaneMap& map) {
+/// Gives the map the area of the support; nothing where it has none.
+std::optional<PlaneMap> normalise_area(const Support& support, PlaneMap map) {
   const double area = plane_area(support, map);
-  if (!(area > 0) || !std::isfinite(area)) return false;
+  if (!(area > 0) || !std::isfinite(area)) return std::nullopt;
   const double factor = std::sqrt(support_area(support) / area);
   for (Vec2& p : map) p *= factor;
-  return true;
+  return map;
 }
 
 /// A triangle laid into the plane: first corner at the origin, second on the positive x axis.
@@ -106,9 +106,8 @@ std::array<Vec2, 3> lay_flat(const Support& support, const std::array<std::int32
 
 PlaneMap project_to_mean_plane(const Support& support) {
   Vec3 normal;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < support.triangles.size(); ++t)
     normal += area_vector(support, static_cast<std::int32_t>(t));
-  }
   normal = normalized(normal);
   if (norm(normal) == 0) normal = {0, 0, 1};
   int least = 0;
@@ -161,8 +160,7 @@ std::optional<PlaneMap> map_conformally(const Support& support, const PlaneMap& 
   }
   PlaneMap map(n);
   for (int i = 0; i < n; ++i) map[i] = {x[i], x[n + i]};
-  if (!normalise_area(support, map)) return std::nullopt;
-  return map;
+  return normalise_area(support, std::move(map));
 }
 
 std::optional<PlaneMap> map_rigidly(const Support& support, const PlaneMap& start, int steps) {
@@ -199,8 +197,7 @@ std::optional<PlaneMap> map_rigidly(const Support& support, const PlaneMap& star
     const Eigen::MatrixX2d solution = solver.solve(right);
     for (int i = 0; i < n; ++i) map[i] = {solution(i, 0), solution(i, 1)};
   }
-  if (!normalise_area(support, map)) return std::nullopt;
-  return map;
+  return normalise_area(support, std::move(map));
 }
 
 std::optional<PlaneMap> scale_parameters(const Support& support) {
@@ -231,8 +228,7 @@ std::optional<PlaneMap> scale_parameters(const Support& support) {
   if (plane_area(support, map) < 0) {
     for (Vec2& p : map) p.x = -p.x;
   }
-  if (!normalise_area(support, map)) return std::nullopt;
-  return map;
+  return normalise_area(support, std::move(map));
 }
 
 std::vector<double> point_scales(const Support& support, const PlaneMap& map) {

@@ -32,9 +32,8 @@ int OpenFacets::parameter_orientation() const {
   double area = 0;
   for (const Line& line : _lines) {
     const double sign = line.use.reversed ? -1 : 1;
-    for (std::size_t i = 1; i < line.nodes.size(); ++i) {
+    for (std::size_t i = 1; i < line.nodes.size(); ++i)
       area += sign * cross(_uv[line.nodes[i - 1].point] - _uv[0], _uv[line.nodes[i].point] - _uv[0]);
-    }
   }
   return area >= 0 ? 1 : -1;
 }
@@ -43,9 +42,8 @@ void OpenFacets::fit_to_surface(const sizing::SizeField& field) {
   if (_in_sheets) return;
   std::vector<SurfaceFrame> frames;
   const auto frame_new_points = [&] {
-    for (std::size_t i = frames.size(); i < _uv.size(); ++i) {
+    for (std::size_t i = frames.size(); i < _uv.size(); ++i)
       frames.push_back(_model.face_frame(_support.face, _uv[i]));
-    }
   };
   frame_new_points();
   flip(frames);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace aeroloom::surface {
 namespace {
@@ -83,9 +82,8 @@ public:
       const Vec2 a = _map[_edges[e][0]], b = _map[_edges[e][1]];
       const auto from = [&](double v, double o) { return static_cast<std::int32_t>((v - o) / cell); };
       for (std::int32_t i = from(std::min(a.x, b.x), low.x); i <= from(std::max(a.x, b.x), low.x); ++i) {
-        for (std::int32_t j = from(std::min(a.y, b.y), low.y); j <= from(std::max(a.y, b.y), low.y); ++j) {
+        for (std::int32_t j = from(std::min(a.y, b.y), low.y); j <= from(std::max(a.y, b.y), low.y); ++j)
           entries.push_back({i, j, static_cast<std::int32_t>(e)});
-        }
       }
     }
     std::sort(entries.begin(), entries.end());

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -80,22 +79,21 @@ void drop_opposite_pairs(Support& support) {
 class OpenFacets::SideTable {
 public:
   explicit SideTable(const Support& support) : _twins(geometry::match_half_edges(support.triangles)) {
-    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h) {
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h)
       _rows.push_back({{start_of(support, h), end_of(support, h)}, h});
-    }
     std::sort(_rows.begin(), _rows.end());
   }
   geometry::HalfEdge find(std::int32_t from, std::int32_t to) const {
-    const SortedTriangle key{{from, to}, -1};
+    const SideRow key{{from, to}, -1};
     const auto row = std::lower_bound(_rows.begin(), _rows.end(), key);
     return row != _rows.end() && row->first == key.first ? row->second : -1;
   }
   geometry::HalfEdge twin(geometry::HalfEdge h) const { return _twins[h]; }
 
 private:
-  using SortedTriangle = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
+  using SideRow = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
   std::vector<geometry::HalfEdge> _twins;
-  std::vector<SortedTriangle> _rows;
+  std::vector<SideRow> _rows;
 };
 
 OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& facets)
@@ -110,9 +108,8 @@ OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& 
   }
   for (const auto& boundary : facets.boundary) {
     Line line{boundary.use, is_constraining(model, boundary.use.edge), {}};
-    for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < boundary.nodes.size(); ++i)
       line.nodes.push_back({boundary.parameters[i], boundary.nodes[i], -1});
-    }
     if (line.constraining && !line.nodes.empty()) {
       line.nodes.front().vertex = model.edge(line.use.edge).first;
       line.nodes.back().vertex = model.edge(line.use.edge).last;
@@ -155,9 +152,8 @@ void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
     const auto chain = curves.chain(_model, line.use.edge);
     const auto parameters = curves.chain_parameters(_model, line.use.edge);
     std::vector<Wanted> wanted;
-    for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i)
       wanted.push_back({parameters[i], chain[i], curves.points[chain[i]]});
-    }
     plan(line, wanted, reuse_fraction, table, divisions);
   }
   divide(std::move(divisions));
@@ -178,9 +174,8 @@ void OpenFacets::match_seams() {
     const Line* other = other_coedge(line);
     if (other == nullptr) continue;
     std::vector<Wanted> wanted;
-    for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i)
       wanted.push_back({other->nodes[i].parameter, -1, _support.points[other->nodes[i].point]});
-    }
     plan(line, wanted, same_parameter_fraction, table, divisions);
   }
   divide(std::move(divisions));

@@ -205,9 +205,8 @@ std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t
     std::vector<std::int32_t> component;
     const std::int32_t count = label_components(twins, side, component);
     std::vector<double> area(count, 0);
-    for (std::size_t t = 0; t < side.size(); ++t) {
+    for (std::size_t t = 0; t < side.size(); ++t)
       area[component[t]] += norm(area_vector(support, static_cast<std::int32_t>(t)));
-    }
     const auto smallest = std::min_element(area.begin(), area.end());
     if (count < 2 || *smallest >= least) return count;
     const auto absorbed = static_cast<std::int32_t>(smallest - area.begin());
@@ -225,9 +224,8 @@ std::optional<CutSupport> cut_by_plane(const Support& support, const CutPlane& p
   std::vector<double> levels = CutLevels(support, plane, twins).values();
   CutSupport cut{support, {}};
   divide_at_zero(cut.support, twins, levels);
-  for (const auto& [a, b, c] : cut.support.triangles) {
+  for (const auto& [a, b, c] : cut.support.triangles)
     cut.part.push_back(std::min({levels[a], levels[b], levels[c]}) < 0 ? 0 : 1);
-  }
   if (absorb_small_parts(cut.support, cut.part) < 2) return std::nullopt;
   return cut;
 }

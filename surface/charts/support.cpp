@@ -1,11 +1,10 @@
 #include "surface/charts/support.hpp"
 
+#include "geometry/place_text.hpp"
 #include "surface/charts/open_facets.hpp"
 #include "surface/charts/support_flips.hpp"
 #include "surface/charts/support_topology.hpp"
 #include "surface/surface_error.hpp"
-
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -44,12 +43,11 @@ void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const Su
   if (expected == found) return;
   const auto [want, got] = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end());
   const VertexPair odd = want != expected.end() ? *want : *got;
-  const geometry::Vec3 at = vertices.points[odd[0]];
   throw SurfaceError(fmt::format(
-      "face {} (patch {}): the boundary of its triangulation is not that of its loops near ({:.6g}, {:.6g}, "
-      "{:.6g}); "
-      "repair this face in the CAD program",
-      model.face(support.face).name, model.patches()[model.face(support.face).patch], at.x, at.y, at.z));
+      "face {} (patch {}): the boundary of its triangulation is not that of its loops near {}; repair this "
+      "face in the CAD program",
+      model.face(support.face).name, model.patches()[model.face(support.face).patch],
+      geometry::place_text(vertices.points[odd[0]])));
 }
 
 }  // namespace
@@ -62,7 +60,7 @@ Support build_support(const cad::Model& model, cad::FaceId face, const CurveMesh
   open.fit_to_surface(field);
   Support support = open.close(curves, vertices);
   flip_to_delaunay(support);
-  support.loop_edges = trace_loop_edges(support, geometry::match_half_edges(support.triangles));
+  support.loop_edges = trace_loop_edges(support);
   check_loop_edges(model, curves, support, vertices);
   return support;
 }

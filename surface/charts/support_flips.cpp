@@ -3,7 +3,6 @@
 #include "geometry/predicates.hpp"
 #include "surface/charts/support_topology.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace aeroloom::surface {
@@ -189,9 +188,8 @@ public:
 private:
   SurfaceMetric mean(const std::array<std::int32_t, 4>& corners) const {
     SurfaceMetric sum;
-    for (const std::int32_t p : corners) {
+    for (const std::int32_t p : corners)
       sum.uu += 0.25 * _metrics[p].uu, sum.uv += 0.25 * _metrics[p].uv, sum.vv += 0.25 * _metrics[p].vv;
-    }
     return sum;
   }
 

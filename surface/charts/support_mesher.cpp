@@ -132,9 +132,8 @@ public:
   ChartSizes(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
              const ChartLocator& locator, const SupportMeshing& options)
       : _field(field), _chart(chart), _locator(locator), _least_fraction(options.least_fraction) {
-    if (options.largest_turn > 0 && !model.is_planar(chart.support.face)) {
+    if (options.largest_turn > 0 && !model.is_planar(chart.support.face))
       _turning = turning_lengths(model, chart.support, options.largest_turn);
-    }
   }
 
   double operator()(Vec2 point, std::int32_t& hint) const {
@@ -142,9 +141,8 @@ public:
     const double asked = _field(at.point);
     double size = asked;
     if (!_turning.empty()) {
-      for (const std::int32_t corner : _chart.support.triangles[at.triangle]) {
+      for (const std::int32_t corner : _chart.support.triangles[at.triangle])
         size = std::min(size, _turning[corner]);
-      }
       size = std::max(size, _least_fraction * asked);
     }
     return size * _locator.scale(at);

@@ -3,7 +3,6 @@
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -67,10 +66,9 @@ std::vector<std::vector<geometry::HalfEdge>> trace_boundary(const Support& suppo
   return loops;
 }
 
-std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support,
-                                                          const std::vector<geometry::HalfEdge>& twins) {
+std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support) {
   std::vector<std::array<std::int32_t, 2>> edges;
-  for (const auto& loop : trace_boundary(support, twins)) {
+  for (const auto& loop : trace_boundary(support, geometry::match_half_edges(support.triangles))) {
     std::int32_t first = -1, last = -1;
     for (const geometry::HalfEdge h : loop) {
       const std::int32_t point = start_of(support, h);
@@ -113,7 +111,7 @@ std::vector<Support> separate_parts(const Support& support, const std::vector<ge
   }
   for (Support& out : result) {
     out.face = support.face;
-    out.loop_edges = trace_loop_edges(out, geometry::match_half_edges(out.triangles));
+    out.loop_edges = trace_loop_edges(out);
   }
   return result;
 }
@@ -123,10 +121,10 @@ std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
   component.assign(label.size(), -1);
   std::int32_t count = 0;
   std::vector<std::int32_t> stack;
-  for (std::size_t subface = 0; subface < label.size(); ++subface) {
-    if (component[subface] >= 0) continue;
-    component[subface] = count;
-    stack.push_back(static_cast<std::int32_t>(subface));
+  for (std::size_t seed = 0; seed < label.size(); ++seed) {
+    if (component[seed] >= 0) continue;
+    component[seed] = count;
+    stack.push_back(static_cast<std::int32_t>(seed));
     while (!stack.empty()) {
       const std::int32_t t = stack.back();
       stack.pop_back();
@@ -142,7 +140,8 @@ std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
   return count;
 }
 
-bool is_planar_domain(const Support& support, const std::vector<geometry::HalfEdge>& twins) {
+bool is_planar_domain(const Support& support) {
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
   const auto boundary_edges = std::count(twins.begin(), twins.end(), -1);
   const auto edges = (static_cast<std::int64_t>(twins.size()) + boundary_edges) / 2;
   const auto euler = static_cast<std::int64_t>(support.points.size()) - edges +
@@ -180,9 +179,8 @@ Vec3 area_vector(const Support& support, std::int32_t triangle) {
 
 double support_area(const Support& support) {
   double area = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < support.triangles.size(); ++t)
     area += geometry::norm(area_vector(support, static_cast<std::int32_t>(t)));
-  }
   return area;
 }
 

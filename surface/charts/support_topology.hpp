@@ -29,8 +29,7 @@ std::vector<std::vector<geometry::HalfEdge>> trace_boundary(const Support& suppo
                                                             const std::vector<geometry::HalfEdge>& twins);
 
 /// The chords between consecutive mesh vertices along the boundary loops; a loop without any gives none.
-std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support,
-                                                          const std::vector<geometry::HalfEdge>& twins);
+std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support);
 
 /// Takes the triangles apart by their part number; -1 drops a triangle. A point occurs in each part once per
 /// fan of triangles around it, so that the boundary of a part never touches itself. loop_edges are set.
@@ -43,7 +42,7 @@ std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
                               const std::vector<std::int32_t>& label, std::vector<std::int32_t>& component);
 
 /// Whether a connected support is a disk, or a disk with holes: what a plane can hold.
-bool is_planar_domain(const Support& support, const std::vector<geometry::HalfEdge>& twins);
+bool is_planar_domain(const Support& support);
 
 /// A new point on a half-edge. Points inside the support are listed for both half-edges of their edge.
 struct EdgePoint {

@@ -4,7 +4,6 @@
 #include "cad/model/model.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/curves/sharp_corners.hpp"
 

@@ -1,6 +1,7 @@
 #include "surface/curves/sharp_corners.hpp"
 
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 
 #include <algorithm>
@@ -57,9 +58,8 @@ std::optional<SharpCorner> examine(const Model& model, const sizing::SizeField& 
     if (!opening || opening->degrees >= (is_tip ? sharp_tip : sharp)) break;
     if (k == 0) result.degrees = opening->degrees;
     bool both_straight = true;
-    for (int i = 0; i < 2; ++i) {
+    for (int i = 0; i < 2; ++i)
       both_straight &= is_straight(model, result.ends[i], opening->parameters[i], opening->points[i]);
-    }
     if (!both_straight) break;
     const double size = std::min(field(opening->points[0]), field(opening->points[1]));
     if (opening->width >= (is_tip ? fitting_tip : fitting) * size) {
@@ -118,9 +118,8 @@ void shorten_legs(const Model& model, const sizing::SizeField& field, std::span<
 std::vector<std::array<double, 2>> legs_of_edges(const Model& model,
                                                  const std::vector<SharpCorner>& corners) {
   std::vector<double> longest(model.vertex_count(), 0);
-  for (const SharpCorner& corner : corners) {
+  for (const SharpCorner& corner : corners)
     longest[corner.vertex] = std::max(longest[corner.vertex], corner.leg);
-  }
   std::vector<std::array<double, 2>> result(model.edge_count(), {0, 0});
   for (const SharpCorner& corner : corners) {
     if (!(corner.leg > 0)) continue;

@@ -4,7 +4,6 @@
 #include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/model.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <array>

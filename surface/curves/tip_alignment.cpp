@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -15,11 +14,9 @@ using geometry::Vec3;
 /// Vertices after the last aligned one that share what it moved by. Chosen, not measured.
 constexpr int steps_back = 5;
 
-/// The interior vertices of an edge from one of its ends on, in its near half.
+/// Its interior vertices alone.
 std::vector<CurveVertex> from_end(const Model& model, const CurveMesh& curves, EdgeEnd end) {
-  std::vector<CurveVertex> chain = curves.chain(model, end.edge);
-  if (!end.first) std::reverse(chain.begin(), chain.end());
-  chain.resize((chain.size() + 1) / 2);
+  std::vector<CurveVertex> chain = near_half(model, curves, end);
   chain.erase(chain.begin());
   return chain;
 }
@@ -51,9 +48,8 @@ public:
       moved = _leading[aligned] - wanted[aligned];
       wanted[aligned] = _leading[aligned];
     }
-    for (std::size_t i = aligned; i < std::min(wanted.size(), aligned + steps_back); ++i) {
+    for (std::size_t i = aligned; i < std::min(wanted.size(), aligned + steps_back); ++i)
       wanted[i] += moved * (1 - static_cast<double>(i - aligned + 1) / (steps_back + 1));
-    }
     if (aligned > 0 && std::is_sorted(wanted.begin(), wanted.end())) place(wanted, aligned + steps_back);
   }
 
@@ -90,6 +86,13 @@ private:
 };
 
 }  // namespace
+
+std::vector<CurveVertex> near_half(const Model& model, const CurveMesh& curves, EdgeEnd end) {
+  std::vector<CurveVertex> chain = curves.chain(model, end.edge);
+  if (!end.first) std::reverse(chain.begin(), chain.end());
+  chain.resize((chain.size() + 1) / 2);
+  return chain;
+}
 
 void align_tips(const Model& model, double widest, CurveMesh& curves) {
   std::map<std::pair<cad::EdgeId, bool>, bool> follows;

@@ -5,6 +5,9 @@
 
 namespace aeroloom::surface {
 
+/// The vertices of an edge from one of its ends up to the middle.
+std::vector<CurveVertex> near_half(const cad::Model& model, const CurveMesh& curves, cad::EdgeEnd end);
+
 /// Beside corners that are closed (sizing/field/closed_corners.hpp) as far as the curves are apart by less
 /// than `widest`, the vertices of one curve move along it until they are as far from the CAD vertex as those
 /// of the other; after that, they go back to their own places step by step. A corner stays as it is where its

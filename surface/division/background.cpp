@@ -1,10 +1,10 @@
 #include "surface/division/background.hpp"
 
 #include "geometry/angle.hpp"
+#include "surface/charts/parameters.hpp"
 #include "surface/charts/support_mesher.hpp"
 #include "surface/charts/support_topology.hpp"
 #include "surface/division/boundary_thinning.hpp"
-#include "surface/division/parameters.hpp"
 #include "surface/surface_error.hpp"
 
 #include <algorithm>
@@ -148,7 +148,7 @@ public:
   }
 
   Support finish() {
-    _support.loop_edges = trace_loop_edges(_support, geometry::match_half_edges(_support.triangles));
+    _support.loop_edges = trace_loop_edges(_support);
     return std::move(_support);
   }
 

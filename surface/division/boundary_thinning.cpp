@@ -1,11 +1,10 @@
 #include "surface/division/boundary_thinning.hpp"
 
+#include "surface/charts/parameters.hpp"
 #include "surface/charts/support_flips.hpp"
 #include "surface/charts/support_topology.hpp"
-#include "surface/division/parameters.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace aeroloom::surface {
 namespace {
@@ -130,7 +129,7 @@ void drop_boundary_vertices(const cad::Model& model, const std::vector<char>& ke
   for (std::int32_t& v : support.mesh_vertex) v = v >= 0 && keep[v] != 0 ? v : -1;
   thinner.compact();
   flip_to_delaunay(support);
-  support.loop_edges = trace_loop_edges(support, geometry::match_half_edges(support.triangles));
+  support.loop_edges = trace_loop_edges(support);
 }
 
 }  // namespace aeroloom::surface

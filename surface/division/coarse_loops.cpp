@@ -143,9 +143,8 @@ CoarseLoops coarsen_loops(const Subface& subface, const sizing::SizeField& coars
         const std::int32_t a = coarsener.vertex(kept[i - 1]), b = coarsener.vertex(kept[i]);
         return std::array{std::min(a, b), std::max(a, b)};
       };
-      while (joined.contains(joins()) && kept[i] - kept[i - 1] > 1) {
+      while (joined.contains(joins()) && kept[i] - kept[i - 1] > 1)
         kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(i), coarsener.middle(kept[i - 1], kept[i]));
-      }
       joined.insert(joins());
       CoarseSegment segment{coarsener.vertex(kept[i - 1]), coarsener.vertex(kept[i]),
                             static_cast<std::int32_t>(result.inside.size()), 0};

@@ -30,9 +30,8 @@ std::vector<Corner> corners_of(const Support& support) {
 std::vector<Vec3> normals_of(const Support& support) {
   std::vector<Vec3> normals(support.points.size());
   for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    for (const std::int32_t p : support.triangles[t]) {
+    for (const std::int32_t p : support.triangles[t])
       normals[p] += area_vector(support, static_cast<std::int32_t>(t));
-    }
   }
   return normals;
 }

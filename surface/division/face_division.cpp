@@ -45,9 +45,8 @@ partition::BackgroundSurface weigh(const FaceMesh& mesh, const sizing::SizeField
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
     double density = 0;
-    for (const Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
+    for (const Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)})
       density += 1 / std::pow(field(middle), 2) / 3;
-    }
     surface.loads.push_back(2 / std::numbers::sqrt3 * norm(cross(q - p, r - p)) * density);
   }
   return surface;

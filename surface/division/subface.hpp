@@ -1,11 +1,9 @@
 /// A surface piece before it is meshed.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/charts/support.hpp"
 
-#include <span>
 #include <tuple>
 
 namespace aeroloom::surface {

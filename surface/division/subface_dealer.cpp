@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <tuple>

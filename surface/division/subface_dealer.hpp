@@ -1,8 +1,6 @@
 /// From whole faces to the subfaces of pieces: divided where they are heavy, and dealt to ranks by load.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "surface/division/face_division.hpp"
 #include "surface/division/imposed_cuts.hpp"
 #include "surface/surface_report.hpp"

@@ -4,7 +4,6 @@
 #include "surface/front/delaunay.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace aeroloom::front {
 

@@ -2,7 +2,6 @@
 #include "surface/remesh/triangle_angle.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace aeroloom::surface {
 

@@ -81,6 +81,7 @@ private:
     return 0.5 * (_sizes[_links.origin(edge)] + _sizes[_links.target(edge)]);
   }
   void note_change(std::int32_t vertex);
+  void note_fan();  // that was gathered last
 
   bool is_contraction_wanted(geometry::LinkedEdge edge) const;
   bool contract(geometry::LinkedEdge edge);

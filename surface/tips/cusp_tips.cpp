@@ -1,6 +1,8 @@
 #include "surface/tips/cusp_tips.hpp"
 
+#include "parallel/observation/timers.hpp"
 #include "sizing/features/segment_tree.hpp"
+#include "surface/curves/tip_alignment.hpp"
 #include "surface/tips/tip_topology.hpp"
 
 #include <algorithm>
@@ -17,14 +19,6 @@ using cad::Model;
 using geometry::Vec3;
 using mesh::LocalIndex;
 using mesh::Piece;
-
-/// The vertices of an edge from one of its ends up to the middle.
-std::vector<CurveVertex> near_half(const Model& model, const CurveMesh& curves, cad::EdgeEnd end) {
-  std::vector<CurveVertex> chain = curves.chain(model, end.edge);
-  if (!end.first) std::reverse(chain.begin(), chain.end());
-  chain.resize((chain.size() + 1) / 2);
-  return chain;
-}
 
 /// The points of a half edge from the CAD vertex on.
 struct CuspSide {

@@ -9,8 +9,6 @@
 
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "surface/curves/curves.hpp"
 #include "surface/surface_report.hpp"
 

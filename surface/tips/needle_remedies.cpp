@@ -49,7 +49,6 @@ void add_long_legs(const Piece& piece, const LocalIndex* v, const sizing::SizeFi
 
 NeedleRemedies find_needle_remedies(const mesh::DistributedMesh& surface, const std::vector<Needle>& needles,
                                     const sizing::SizeField& field) {
-  const parallel::Communicator& communicator = surface.communicator;
   NeedleRemedies mine;
   for (const Needle& needle : needles) {
     if (needle.cause != NeedleCause::mesh) continue;
@@ -62,8 +61,8 @@ NeedleRemedies find_needle_remedies(const mesh::DistributedMesh& surface, const 
       mine.sizes.push_back(source);
   }
   NeedleRemedies all;
-  all.sizes = communicator.all_gather_items<SizeSource>(mine.sizes);
-  all.short_legs = communicator.all_gather_items<cad::VertexId>(mine.short_legs);
+  all.sizes = surface.communicator.all_gather_items<SizeSource>(mine.sizes);
+  all.short_legs = surface.communicator.all_gather_items<cad::VertexId>(mine.short_legs);
   geometry::sort_unique(all.short_legs);
   return all;
 }

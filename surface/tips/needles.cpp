@@ -1,6 +1,7 @@
 #include "surface/tips/needles.hpp"
 
 #include "surface/remesh/triangle_angle.hpp"
+#include "surface/tips/tip_topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,13 +45,12 @@ public:
     each_end([&](cad::VertexId v, EdgeId e) { _edges[next[v]++] = e; });
   }
 
-  NeedleCause judge(const Piece& piece, const LocalIndex* triangle) const {
+  /// `on_curve`: as curve_vertices() has it, -1 also for pointed tips inside of a face (pointed_tips.hpp).
+  NeedleCause judge(const Piece& piece, const std::vector<CurveVertex>& on_curve,
+                    const LocalIndex* triangle) const {
     std::array<Vec3, 3> p;
     std::array<CurveVertex, 3> v;
-    for (int i = 0; i < 3; ++i) {
-      p[i] = piece.point(triangle[i]);
-      v[i] = curve_vertex(piece, triangle[i]);
-    }
+    for (int i = 0; i < 3; ++i) p[i] = piece.point(triangle[i]), v[i] = on_curve[triangle[i]];
     if (v[0] < 0 || v[1] < 0 || v[2] < 0) return NeedleCause::mesh;
     int tip = 0;
     for (int i = 1; i < 3; ++i) {
@@ -71,13 +71,6 @@ public:
   }
 
 private:
-  /// The vertex of the curves, -1 for others: also for pointed tips inside of a face (pointed_tips.hpp).
-  CurveVertex curve_vertex(const Piece& piece, LocalIndex v) const {
-    if (!is_on_curve(piece.vertex_dimension[v])) return -1;
-    const auto at = std::lower_bound(piece.shared_vertices.begin(), piece.shared_vertices.end(), v);
-    if (at == piece.shared_vertices.end() || *at != v) return -1;
-    return _curves.vertex_of(piece.shared_keys[at - piece.shared_vertices.begin()]);
-  }
   std::span<const EdgeId> edges_at(CurveVertex v, EdgeId& own) const {
     if (v < _model.vertex_count())
       return {_edges.data() + _first_edge[v], _edges.data() + _first_edge[v + 1]};
@@ -161,12 +154,14 @@ std::vector<Needle> find_needles(const cad::Model& model, const CurveMesh& curve
   std::vector<Needle> needles;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     const Piece& piece = surface.pieces[i];
+    const std::vector<CurveVertex> on_curve = curve_vertices(curves, piece);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
       const std::array<Vec3, 3> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
       const double sine = smallest_squared_sine(p[0], p[1], p[2]);
       if (sine >= limit) continue;
-      needles.push_back({i, t, search.judge(piece, v), std::asin(std::sqrt(sine)) * 180 / std::numbers::pi});
+      needles.push_back(
+          {i, t, search.judge(piece, on_curve, v), std::asin(std::sqrt(sine)) * 180 / std::numbers::pi});
     }
   }
   return needles;
@@ -174,7 +169,6 @@ std::vector<Needle> find_needles(const cad::Model& model, const CurveMesh& curve
 
 std::vector<NeedleGroup> group_needles(const mesh::DistributedMesh& surface,
                                        const std::vector<Needle>& needles) {
-  const parallel::Communicator& communicator = surface.communicator;
   const auto order = [](const NeedleGroup& a, const NeedleGroup& b) {
     return std::tie(a.face, a.cause, a.degrees, a.at.x, a.at.y, a.at.z) <
            std::tie(b.face, b.cause, b.degrees, b.at.x, b.at.y, b.at.z);
@@ -201,7 +195,7 @@ std::vector<NeedleGroup> group_needles(const mesh::DistributedMesh& surface,
     mine.push_back({piece.common_face(), needle.cause, 1, needle.degrees < 0.5 * needle_degrees,
                     needle.degrees, middle});
   }
-  return merge(communicator.all_gather_items<NeedleGroup>(merge(std::move(mine))));
+  return merge(surface.communicator.all_gather_items<NeedleGroup>(merge(std::move(mine))));
 }
 
 }  // namespace aeroloom::surface

@@ -3,6 +3,7 @@
 #include "cad/model/evaluation/face_corners.hpp"
 #include "geometry/angle.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
+#include "surface/charts/parameters.hpp"
 #include "surface/curves/sharp_corners.hpp"
 
 #include <algorithm>
@@ -176,16 +177,11 @@ std::optional<CornerOfTriangle> triangle_behind(const FaceMesh& mesh, std::int32
   return std::nullopt;
 }
 
-/// A value of a periodic parameter next to another.
-double beside(double value, double other, double period) {
-  return period > 0 ? value - period * std::round((value - other) / period) : value;
-}
-
 /// Half-way between two vertices in the parameters of the face.
 geometry::Vec2 middle_in_parameters(const cad::Model& model, const FaceMesh& mesh, std::int32_t a,
                                     std::int32_t b) {
   const geometry::Vec2 from = mesh.uv[a], period = model.parameter_periods(mesh.face, from);
-  const geometry::Vec2 to = {beside(mesh.uv[b].x, from.x, period.x), beside(mesh.uv[b].y, from.y, period.y)};
+  const geometry::Vec2 to = {unwrap(mesh.uv[b].x, from.x, period.x), unwrap(mesh.uv[b].y, from.y, period.y)};
   return model.wrap(mesh.face, 0.5 * (from + to));
 }
 

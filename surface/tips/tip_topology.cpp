@@ -125,9 +125,8 @@ std::int32_t closable_pairs(const Piece& piece, const Tip& tip, const std::vecto
 /// Tips whose pieces let them close, cut to the pairs that do. Collective.
 std::vector<Tip> agree_on_tips(const CurveMesh& curves, const mesh::DistributedMesh& surface,
                                std::vector<Tip> tips) {
-  const parallel::Communicator& communicator = surface.communicator;
   std::vector<Closing> mine;
-  parallel::agree(communicator, [&] {
+  parallel::agree(surface.communicator, [&] {
     for (const Piece& piece : surface.pieces) {
       std::vector<CurveVertex> on_curve;
       for (std::size_t i = 0; i < tips.size(); ++i) {
@@ -139,9 +138,8 @@ std::vector<Tip> agree_on_tips(const CurveMesh& curves, const mesh::DistributedM
     }
   });
   std::vector<std::int32_t> pairs(tips.size(), 0);
-  for (const Closing& closing : communicator.all_gather_items<Closing>(mine)) {
+  for (const Closing& closing : surface.communicator.all_gather_items<Closing>(mine))
     pairs[closing.tip] = std::max(pairs[closing.tip], closing.pairs);
-  }
   for (std::size_t i = 0; i < tips.size(); ++i) tips[i].pairs.resize(pairs[i]);
   std::erase_if(tips, [](const Tip& tip) { return tip.pairs.empty(); });
   return tips;
@@ -266,10 +264,9 @@ private:
 /// Without tips that other faces keep open. Collective.
 std::vector<Tip> without_open(const CurveMesh& curves, const mesh::DistributedMesh& surface,
                               std::vector<Tip> tips) {
-  const parallel::Communicator& communicator = surface.communicator;
   Closure closure(curves.points.size(), tips);
   std::vector<CurveTriangle> triangles =
-      communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
+      surface.communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
   // Which tip opens first depends on their order, and theirs on the ranks.
   std::sort(triangles.begin(), triangles.end());
   const std::vector<char>& open = closure.open_needed(triangles);

@@ -35,7 +35,7 @@ Support rectangle(int nx, int ny) {
       add({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
   }
-  support.loop_edges = trace_loop_edges(support, geometry::match_half_edges(support.triangles));
+  support.loop_edges = trace_loop_edges(support);
   return support;
 }
 
