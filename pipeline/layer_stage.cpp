@@ -105,7 +105,7 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, 
   log_layers(record);
   const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
   sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
-                                ? surface.field.refined(communicator, sizes)
+                                ? surface.field.refined(sizes)
                                 : surface.field;
   return {std::move(made.columns), layers::name_front(std::move(made.front)), std::move(field)};
 }

@@ -195,8 +195,8 @@ private:
   /// The sources are the same on every rank: one gives them.
   void lower_sizes(std::span<const sizing::SizeSource> sources) {
     if (sources.empty()) return;
-    const auto own = _communicator.is_root() ? sources : std::span<const sizing::SizeSource>();
-    _field = _field.refined(_communicator, own);
+    const bool gives = _field.communicator().is_root();  // the ranks of the field
+    _field = _field.refined(gives ? sources : std::span<const sizing::SizeSource>());
   }
 
   /// Nothing was meshed: sizes have fallen so far that it would be too much.

@@ -86,7 +86,7 @@ private:
 };
 
 /// The field hears of segments on the loops of planes that are shorter than it asks for.
-void refine_at_loops(const Communicator& communicator, Meshed& meshed) {
+void refine_at_loops(Meshed& meshed) {
   constexpr double much_shorter = 1.3;
   std::vector<sizing::SizeSource> sources;
   for (const auto& [face, loops] : gather_loops(meshed.surface.mesh, meshed.planes)) {
@@ -96,7 +96,7 @@ void refine_at_loops(const Communicator& communicator, Meshed& meshed) {
       if (meshed.surface.field(middle) > much_shorter * length) sources.push_back({middle, length});
     }
   }
-  meshed.surface.field = meshed.surface.field.refined(communicator, sources);
+  meshed.surface.field = meshed.surface.field.refined(sources);
 }
 
 /// The hash of the surface whose outline has moved.
@@ -119,7 +119,7 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
   EXPECT_LT(attempts, 40);
   EXPECT_GT(attempts, 1);
   EXPECT_EQ(outline.longest(), 0.02 * 37.6);
-  refine_at_loops(communicator, meshed);
+  refine_at_loops(meshed);
   EXPECT_TRUE(remesh(model, options, meshed).empty());
   expect_closed(meshed);
   EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
