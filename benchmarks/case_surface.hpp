@@ -21,7 +21,7 @@ inline CaseSurface mesh_surface(const parallel::Communicator& communicator, cons
   const cad::Model model = domain::load_domain(communicator, input.domain, domain);
   const domain::SizedDomain sized =
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
-  CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface), {}};
+  CaseSurface result{surface::mesh_surface(sized.model, sized.field, input.surface), {}};
   result.numbering = mesh::number_mesh(result.surface.mesh);
   return result;
 }

@@ -71,7 +71,7 @@ private:
   void mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curves, const sizing::SizeField& field,
                      Conflicts& conflicts);
 
-  const parallel::Communicator& _communicator;
+  parallel::Communicator _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
   parallel::TaskStore* _tasks;  // may be null

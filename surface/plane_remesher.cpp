@@ -25,19 +25,19 @@ using parallel::ScopedCpu;
 /// New pieces of some faces.
 class PlaneRemesher {
 public:
-  PlaneRemesher(const parallel::Communicator& communicator, const cad::Model& model,
-                const sizing::SizeField& field, const PlanesToRemesh& planes)
-      : _communicator(communicator),
-        _model(model),
+  PlaneRemesher(const cad::Model& model, const sizing::SizeField& field, const PlanesToRemesh& planes,
+                mesh::DistributedMesh& surface)
+      : _model(model),
         _field(field),
         _faces(planes.faces),
+        _surface(surface),
         _options{planes.options},
-        _dealer(communicator, model, _options) {}
+        _dealer(surface.communicator, model, _options) {}
 
   /// Pieces of all faces, unless there are conflicts.
-  PlaneConflicts mesh(const mesh::DistributedMesh& surface) {
-    _loops = gather_loops(surface, _faces);
-    parallel::agree(_communicator, [&] {
+  PlaneConflicts mesh() {
+    _loops = gather_loops(_surface, _faces);
+    parallel::agree(_surface.communicator, [&] {
       const ScopedCpu cpu(ScopedCpu::As::task);
       for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
     });
@@ -47,7 +47,7 @@ public:
       DealtSubfaces dealt = _dealer.deal(std::move(whole), _costs, _field);
       for (const FaceId face : faces) _parts[face] = 0;
       for (const auto& [key, place] : dealt.places) ++_parts[key[0]];
-      parallel::agree(_communicator, [&] { mesh_subfaces(dealt); });
+      parallel::agree(_surface.communicator, [&] { mesh_subfaces(dealt); });
       if (PlaneConflicts found = gather_conflicts(); !found.empty()) return found;
       faces = leave_whole();
     }
@@ -55,19 +55,19 @@ public:
   }
 
   /// Puts the new pieces in the place of the old ones.
-  void replace(mesh::DistributedMesh& surface) {
-    const mesh::PieceId kept = drop_old(surface);
+  void replace() {
+    const mesh::PieceId kept = drop_old();
     std::map<FaceId, mesh::PieceId> first;
-    surface.piece_count = kept;
+    _surface.piece_count = kept;
     for (const auto& [face, parts] : _parts) {
-      first[face] = surface.piece_count;
-      surface.piece_count += parts;
+      first[face] = _surface.piece_count;
+      _surface.piece_count += parts;
     }
     for (auto& [place, piece] : _pieces) {
       piece.id = first[place.first] + place.second;
-      surface.pieces.push_back(std::move(piece));
+      _surface.pieces.push_back(std::move(piece));
     }
-    classify_like_others(kept, surface);
+    classify_like_others(kept);
   }
 
 private:
@@ -76,7 +76,7 @@ private:
     constexpr double seconds_per_triangle = 3e-6;  // about; no result depends on it
     Subfaces subfaces;
     _costs.clear();
-    parallel::agree(_communicator, [&] {
+    parallel::agree(_surface.communicator, [&] {
       const ScopedCpu cpu(ScopedCpu::As::task);
       for (const auto& [face, loops] : _loops) {
         if (!std::binary_search(faces.begin(), faces.end(), face)) continue;
@@ -132,9 +132,9 @@ private:
   /// Those of all ranks; the complaint of the lowest rank that has one.
   PlaneConflicts gather_conflicts() const {
     PlaneConflicts all;
-    all.vertices = _communicator.all_gather_items<mesh::SharedVertexKey>(_mine.vertices);
+    all.vertices = _surface.communicator.all_gather_items<mesh::SharedVertexKey>(_mine.vertices);
     geometry::sort_unique(all.vertices);
-    for (const std::string& complaint : _communicator.all_gather_values(_mine.complaint)) {
+    for (const std::string& complaint : _surface.communicator.all_gather_values(_mine.complaint)) {
       if (all.complaint.empty()) all.complaint = complaint;
     }
     return all;
@@ -142,7 +142,7 @@ private:
 
   /// The faces that are to be made again in one piece each, ascending, the same on every rank.
   std::vector<FaceId> leave_whole() {
-    std::vector<FaceId> faces = _communicator.all_gather_items<FaceId>(_undivided);
+    std::vector<FaceId> faces = _surface.communicator.all_gather_items<FaceId>(_undivided);
     geometry::sort_unique(faces);
     _undivided.clear();
     _dealer.leave_whole(faces);
@@ -153,49 +153,49 @@ private:
   }
 
   /// Takes the pieces of the faces away; others get the numbers from 0 on. Returns how many these are.
-  mesh::PieceId drop_old(mesh::DistributedMesh& surface) const {
+  mesh::PieceId drop_old() {
     const auto is_old = [&](const mesh::Piece& piece) {
       return std::binary_search(_faces.begin(), _faces.end(), piece.common_face());
     };
     std::vector<mesh::PieceId> old;
-    for (const mesh::Piece& piece : surface.pieces) {
+    for (const mesh::Piece& piece : _surface.pieces) {
       if (is_old(piece)) old.push_back(piece.id);
     }
-    old = _communicator.all_gather_items<mesh::PieceId>(old);
+    old = _surface.communicator.all_gather_items<mesh::PieceId>(old);
     std::sort(old.begin(), old.end());
-    std::erase_if(surface.pieces, is_old);
-    for (mesh::Piece& piece : surface.pieces) {
+    std::erase_if(_surface.pieces, is_old);
+    for (mesh::Piece& piece : _surface.pieces) {
       piece.id -=
           static_cast<mesh::PieceId>(std::lower_bound(old.begin(), old.end(), piece.id) - old.begin());
     }
-    return surface.piece_count - static_cast<mesh::PieceId>(old.size());
+    return _surface.piece_count - static_cast<mesh::PieceId>(old.size());
   }
 
   /// Vertices of the new pieces, from `first_new` on, that older ones know are classified as there.
-  void classify_like_others(mesh::PieceId first_new, mesh::DistributedMesh& surface) const {
+  void classify_like_others(mesh::PieceId first_new) {
     struct Place {
       std::int32_t dimension, entity;
       static constexpr auto fields() { return std::tuple(&Place::dimension, &Place::entity); }
     };
-    const mesh::SharedVertices shared(surface);
+    const mesh::SharedVertices shared(_surface);
     std::vector<Place> places(shared.size());
     shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
-      const mesh::Piece& piece = surface.pieces[p];
+      const mesh::Piece& piece = _surface.pieces[p];
       places[copy] = {static_cast<std::int32_t>(piece.vertex_dimension[v]), piece.vertex_entity[v]};
     });
     shared.scatter(places);
     shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
-      mesh::Piece& piece = surface.pieces[p];
+      mesh::Piece& piece = _surface.pieces[p];
       if (piece.id < first_new) return;
       piece.vertex_dimension[v] = static_cast<mesh::CadDimension>(places[copy].dimension);
       piece.vertex_entity[v] = places[copy].entity;
     });
   }
 
-  const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const sizing::SizeField& _field;
   const std::vector<FaceId>& _faces;
+  mesh::DistributedMesh& _surface;
   CutOptions _options;
   SubfaceDealer _dealer;
   std::map<FaceId, FaceLoops> _loops;     // on this rank
@@ -211,9 +211,9 @@ private:
 PlaneConflicts remesh_planes(const cad::Model& model, const sizing::SizeField& field,
                              const PlanesToRemesh& planes, mesh::DistributedMesh& surface) {
   if (planes.faces.empty()) return {};
-  PlaneRemesher remesher(surface.communicator, model, field, planes);
-  PlaneConflicts conflicts = remesher.mesh(surface);
-  if (conflicts.empty()) remesher.replace(surface);
+  PlaneRemesher remesher(model, field, planes, surface);
+  PlaneConflicts conflicts = remesher.mesh();
+  if (conflicts.empty()) remesher.replace();
   return conflicts;
 }
 

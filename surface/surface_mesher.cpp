@@ -111,19 +111,6 @@ Conflicts find_conflicts(const cad::Model& model, const SizeField& field,
   return conflicts;
 }
 
-/// The remedies of all ranks, the same on every rank; the complaint of the lowest rank that has one.
-Conflicts gather_conflicts(const parallel::Communicator& communicator, const Conflicts& mine) {
-  Conflicts all;
-  all.predicted = mine.predicted;
-  all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
-  all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
-  const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
-  for (const parallel::Bytes& text : texts) {
-    if (all.complaint.empty()) all.complaint.assign(reinterpret_cast<const char*>(text.data()), text.size());
-  }
-  return all;
-}
-
 /// `tried`: what was, or would have been.
 [[noreturn]] void give_up(const std::string& complaint, const std::string& tried) {
   throw SurfaceError(fmt::format(
@@ -149,13 +136,9 @@ std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh&
 /// The rounds of one run: until no conflict is left, then until no more needles can be mended.
 class SurfaceRounds {
 public:
-  SurfaceRounds(const parallel::Communicator& communicator, const cad::Model& model, const SizeField& field,
-                const CutOptions& options, parallel::TaskStore* tasks)
-      : _communicator(communicator),
-        _model(model),
-        _options(options),
-        _pool(communicator, model, options, tasks),
-        _field(field) {}
+  SurfaceRounds(const cad::Model& model, const SizeField& field, const CutOptions& options,
+                parallel::TaskStore* tasks)
+      : _model(model), _options(options), _pool(field.communicator(), model, options, tasks), _field(field) {}
 
   SurfaceMesh run() {
     try {
@@ -172,10 +155,10 @@ private:
   /// Whether this was the last round.
   bool mesh_once() {
     parallel::begin_round();
-    const CurveMesh curves = discretise_curves(_communicator, _model, _field, _short_legs);
-    Conflicts conflicts = gather_conflicts(_communicator, _pool.mesh(curves, _field));
+    const CurveMesh curves = discretise_curves(_model, _field, _short_legs);
+    Conflicts conflicts = gather_conflicts(_pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
-    mesh::DistributedMesh surface(_communicator);
+    mesh::DistributedMesh surface(_field.communicator());
     if (conflicts.complaint.empty()) {
       surface = _pool.assemble();
       _closed_tips = close_cusp_tips(_model, curves, sizing::closing_gap(_field.options()), surface);
@@ -192,10 +175,25 @@ private:
     return false;
   }
 
+  /// The remedies of all ranks, the same on every rank; the complaint of the lowest rank that has one.
+  Conflicts gather_conflicts(const Conflicts& mine) const {
+    const parallel::Communicator& communicator = _field.communicator();
+    Conflicts all;
+    all.predicted = mine.predicted;
+    all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
+    all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
+    const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
+    for (const parallel::Bytes& text : texts) {
+      if (all.complaint.empty())
+        all.complaint.assign(reinterpret_cast<const char*>(text.data()), text.size());
+    }
+    return all;
+  }
+
   /// The sources are the same on every rank: one gives them.
   void lower_sizes(std::span<const sizing::SizeSource> sources) {
     if (sources.empty()) return;
-    const bool gives = _field.communicator().is_root();  // the ranks of the field
+    const bool gives = _field.communicator().is_root();
     _field = _field.refined(gives ? sources : std::span<const sizing::SizeSource>());
   }
 
@@ -255,7 +253,7 @@ private:
   SurfaceReport describe(const CurveMesh& curves, const mesh::DistributedMesh& surface) const {
     SurfaceReport report;
     for (const mesh::Piece& piece : surface.pieces) report.triangles += piece.cell_count();
-    report.triangles = _communicator.sum(report.triangles);
+    report.triangles = surface.communicator.sum(report.triangles);
     report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
     report.sharp_corners = list_corners(_model, curves);
     report.closed_tips = _closed_tips;
@@ -267,7 +265,6 @@ private:
     return report;
   }
 
-  const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
   PiecePool _pool;
@@ -281,15 +278,14 @@ private:
 
 }  // namespace
 
-SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                         const SizeField& field, const SurfaceOptions& options, parallel::TaskStore* tasks) {
-  return mesh_surface_with_cuts(communicator, model, field, {options}, tasks);
+SurfaceMesh mesh_surface(const cad::Model& model, const SizeField& field, const SurfaceOptions& options,
+                         parallel::TaskStore* tasks) {
+  return mesh_surface_with_cuts(model, field, {options}, tasks);
 }
 
-SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, const cad::Model& model,
-                                   const SizeField& field, const CutOptions& options,
+SurfaceMesh mesh_surface_with_cuts(const cad::Model& model, const SizeField& field, const CutOptions& options,
                                    parallel::TaskStore* tasks) {
-  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, tasks).run();
+  SurfaceMesh result = SurfaceRounds(model, field, options, tasks).run();
   parallel::add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
   return result;
 }

@@ -3,7 +3,6 @@
 
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
@@ -23,11 +22,10 @@ struct SurfaceMesh {
   sizing::SizeField field;
 };
 
-/// Meshes the surface of the model. Collective. Throws SurfaceError or CollectiveError, the same on all
-/// ranks. Pieces found in `tasks`, whose context stands for the model and the options, are not meshed again;
-/// those meshed are kept there.
-SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                         const sizing::SizeField& field, const SurfaceOptions& options,
-                         parallel::TaskStore* tasks = nullptr);
+/// Meshes the surface of the model on the ranks of the field. Collective. Throws SurfaceError or
+/// CollectiveError, the same on all ranks. Pieces found in `tasks`, whose context stands for the model and
+/// the options, are not meshed again; those meshed are kept there.
+SurfaceMesh mesh_surface(const cad::Model& model, const sizing::SizeField& field,
+                         const SurfaceOptions& options, parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::surface

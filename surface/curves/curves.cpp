@@ -186,15 +186,16 @@ bool is_constraining(const Model& model, EdgeId id) {
   return !edge.faces.empty() && !model.is_seam(id);
 }
 
-CurveMesh discretise_curves(const parallel::Communicator& communicator, const Model& model,
-                            const sizing::SizeField& field, std::span<const cad::VertexId> short_legs) {
+CurveMesh discretise_curves(const Model& model, const sizing::SizeField& field,
+                            std::span<const cad::VertexId> short_legs) {
+  const parallel::Communicator& communicator = field.communicator();
   std::vector<EdgeId> edges;
   std::vector<double> loads;
   std::vector<EdgeId> mine;
   std::vector<MetricLength> lengths;
   std::vector<EdgeMeasure> measures;
   std::vector<FreeStretch> stretches;
-  std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field);
+  std::vector<SharpCorner> corners = find_sharp_corners(model, field);
   shorten_legs(model, field, short_legs, corners);
   const auto legs = legs_of_edges(model, corners);
   parallel::agree(communicator, [&] {

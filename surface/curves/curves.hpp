@@ -3,7 +3,6 @@
 
 #include "cad/model/model.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/curves/sharp_corners.hpp"
 
@@ -45,7 +44,7 @@ bool is_constraining(const cad::Model& model, cad::EdgeId edge);
 /// (sharp_corners.hpp), but not much at the CAD vertices in `short_legs` (ascending, the same on every rank).
 /// Beside closed ones vertices lie opposite each other (tip_alignment.hpp). Each edge is discretised by one
 /// rank, the result is shared. Collective.
-CurveMesh discretise_curves(const parallel::Communicator& communicator, const cad::Model& model,
-                            const sizing::SizeField& field, std::span<const cad::VertexId> short_legs = {});
+CurveMesh discretise_curves(const cad::Model& model, const sizing::SizeField& field,
+                            std::span<const cad::VertexId> short_legs = {});
 
 }  // namespace aeroloom::surface

@@ -68,16 +68,16 @@ FaceLoops make_loops(std::span<const EdgeRow> rows) {
 }
 
 /// The rank of each face's loops.
-std::vector<parallel::Rank> deal_faces(const parallel::Communicator& communicator,
-                                       const std::vector<EdgeRow>& rows, std::span<const cad::FaceId> faces) {
+std::vector<parallel::Rank> deal_faces(const mesh::DistributedMesh& surface, const std::vector<EdgeRow>& rows,
+                                       std::span<const cad::FaceId> faces) {
   std::vector<std::int64_t> counts(faces.size(), 0);
   for (const EdgeRow& row : rows) {
     const auto at = std::lower_bound(faces.begin(), faces.end(), row.face);
     if (at != faces.end() && *at == row.face) ++counts[at - faces.begin()];
   }
-  communicator.sum_each(counts);
+  surface.communicator.sum_each(counts);
   const std::vector<double> loads(counts.begin(), counts.end());
-  return parallel::assign_largest_first(loads, communicator.size());
+  return parallel::assign_largest_first(loads, surface.communicator.size());
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ std::map<cad::FaceId, FaceLoops> gather_loops(const mesh::DistributedMesh& surfa
   const parallel::Communicator& communicator = surface.communicator;
   std::vector<EdgeRow> rows;
   for (const mesh::Piece& piece : surface.pieces) list_edges(piece, rows);
-  const std::vector<parallel::Rank> owners = deal_faces(communicator, rows, faces);
+  const std::vector<parallel::Rank> owners = deal_faces(surface, rows, faces);
   const std::vector<EdgeRow> met =
       mesh::meet_by_key(communicator, std::move(rows), &EdgeRow::sorted, &EdgeRow::place);
   std::vector<EdgeRow> on_loops;

@@ -90,8 +90,8 @@ bool is_tip_of_two_faces(const Model& model, const FaceCorner& corner, double di
   return false;
 }
 
-std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator, const Model& model,
-                                            const sizing::SizeField& field) {
+std::vector<SharpCorner> find_sharp_corners(const Model& model, const sizing::SizeField& field) {
+  const parallel::Communicator& communicator = field.communicator();
   std::vector<SharpCorner> corners;
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);

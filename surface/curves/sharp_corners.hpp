@@ -3,7 +3,6 @@
 
 #include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/model.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <array>
@@ -39,8 +38,7 @@ cad::FaceId face_beyond_both_edges(const cad::Model& model, const cad::FaceCorne
 bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);
 
 /// All of them by face, the same on every rank. Collective.
-std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator,
-                                            const cad::Model& model, const sizing::SizeField& field);
+std::vector<SharpCorner> find_sharp_corners(const cad::Model& model, const sizing::SizeField& field);
 
 /// Length of a short leg, in sizes at the corner. Chosen, not measured.
 inline constexpr double longest_short_leg = 4;

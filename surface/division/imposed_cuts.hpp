@@ -22,8 +22,7 @@ struct CutOptions : SurfaceOptions {
 };
 
 /// As mesh_surface().
-SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, const cad::Model& model,
-                                   const sizing::SizeField& field, const CutOptions& options,
-                                   parallel::TaskStore* tasks = nullptr);
+SurfaceMesh mesh_surface_with_cuts(const cad::Model& model, const sizing::SizeField& field,
+                                   const CutOptions& options, parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::surface

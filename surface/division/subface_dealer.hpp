@@ -48,7 +48,7 @@ private:
   Subfaces divide_heavy(Subfaces subfaces, const std::vector<Row>& rows, int level, CoarseSizes& sizes);
   void divide(Subfaces::value_type& entry, int level, CoarseSizes& sizes, Subfaces& divided);
 
-  const parallel::Communicator& _communicator;
+  parallel::Communicator _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
   std::vector<char> _whole;      // per face: 1 where it must not be divided

@@ -31,9 +31,9 @@ struct Meshed {
   mesh::Numbering numbering;
 };
 
-Meshed mesh_model(const Communicator& communicator, const cad::Model& model, const sizing::SizeField& field,
-                  const SurfaceOptions& options, const FaceDivider& divider = {}) {
-  SurfaceMesh surface = mesh_surface_with_cuts(communicator, model, field, {options, divider});
+Meshed mesh_model(const cad::Model& model, const sizing::SizeField& field, const SurfaceOptions& options,
+                  const FaceDivider& divider = {}) {
+  SurfaceMesh surface = mesh_surface_with_cuts(model, field, {options, divider});
   mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
   return {std::move(surface), std::move(numbering)};
 }
@@ -91,15 +91,16 @@ void PrintTo(const Shape& shape, std::ostream* out) {
 class Pieces : public ::testing::TestWithParam<Shape> {
 protected:
   cad::Model model = make_primitive_domain(GetParam().kind);
-  sizing::SizeField field = GetParam().graded
-                                ? graded_field(model, {0.25, 0, 0}, 0.4 * GetParam().size, GetParam().size)
-                                : uniform_field(model, GetParam().size);
+  sizing::SizeField field_on(const Communicator& ranks) const {
+    const auto& [name, kind, size, graded] = GetParam();
+    return graded ? graded_field(model, {0.25, 0, 0}, 0.4 * size, size, ranks)
+                  : uniform_field(model, size, ranks);
+  }
   SurfaceOptions options{.piece_triangles = 300};
 };
 
 TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
-  const Communicator world = Communicator::world();
-  const Meshed meshed = mesh_model(world, model, field, options);
+  const Meshed meshed = mesh_model(model, field_on(Communicator::world()), options);
   expect_valid(meshed);
   EXPECT_GE(meshed.surface.mesh.piece_count, 16);
   EXPECT_EQ(meshed.surface.report.mending_rounds, 0);
@@ -120,7 +121,7 @@ TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
 
 TEST_P(Pieces, AreTheSameOnAnyNumberOfRanks) {
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
-    return hash_of(mesh_model(communicator, model, field, options));
+    return hash_of(mesh_model(model, field_on(communicator), options));
   });
 }
 
@@ -134,10 +135,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Pieces,
 /// Very heavy faces are cut twice; the second cuts end on the first ones.
 TEST(DividedTwice, HasNoSeamEither) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
-  const sizing::SizeField field = uniform_field(model, 0.008);
   const SurfaceOptions options{.piece_triangles = 500};
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
-    const Meshed meshed = mesh_model(communicator, model, field, options);
+    const Meshed meshed = mesh_model(model, uniform_field(model, 0.008, communicator), options);
     expect_valid(meshed);
     EXPECT_GT(meshed.surface.mesh.piece_count, 40);
     for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
@@ -152,7 +152,7 @@ TEST(DividedTwice, LeavesNoHeavyPiece) {
   const Communicator world = Communicator::world();
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const SurfaceOptions options{.piece_triangles = 100};
-  const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.005), options);
+  const Meshed meshed = mesh_model(model, uniform_field(model, 0.005), options);
   expect_valid(meshed);
   std::int64_t most = 0;
   for (const mesh::Piece& piece : meshed.surface.mesh.pieces)
@@ -162,28 +162,25 @@ TEST(DividedTwice, LeavesNoHeavyPiece) {
 
 /// Any step of the division can be left out: other cuts, and a mesh all the same.
 TEST(DivisionSteps, CanBeLeftOut) {
-  const Communicator world = Communicator::world();
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const sizing::SizeField field = graded_field(model, {0.25, 0, 0}, 0.008, 0.02);
   SurfaceOptions options{.piece_triangles = 300};
-  const std::string complete = hash_of(mesh_model(world, model, field, options));
+  const std::string complete = hash_of(mesh_model(model, field, options));
   for (bool DivisionSteps::*const step : {&DivisionSteps::contraction, &DivisionSteps::straightening}) {
     options.division = {};
     options.division.*step = false;
-    const Meshed meshed = mesh_model(world, model, field, options);
+    const Meshed meshed = mesh_model(model, field, options);
     expect_valid(meshed);
     EXPECT_NE(hash_of(meshed), complete);
   }
   options.division = {false, false, false, false};
-  expect_valid(mesh_model(world, model, field, options));
+  expect_valid(mesh_model(model, field, options));
 }
 
 /// The stage takes cuts whoever asks for them: here a box that the surface reaches into.
 TEST(ImposedCuts, FollowABox) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::torus, PrimitiveKind::cylinder}) {
     const cad::Model model = make_primitive_domain(kind);
-    const sizing::SizeField field = uniform_field(model, 0.03);
     const SurfaceOptions options{.piece_triangles = 1'000'000};
     const auto is_inside = [](Vec3 p) { return p.x > -0.1 && p.y > -0.05 && p.z > -0.12; };
     const FaceDivider divider = [&](cad::FaceId, const partition::BackgroundSurface& surface) {
@@ -193,27 +190,29 @@ TEST(ImposedCuts, FollowABox) {
       }
       return part;
     };
-    const Meshed meshed = mesh_model(world, model, field, options, divider);
+    const auto mesh_on = [&](const Communicator& ranks) {
+      return mesh_model(model, uniform_field(model, 0.03, ranks), options, divider);
+    };
+    const Meshed meshed = mesh_on(Communicator::world());
     expect_valid(meshed);
     EXPECT_GT(meshed.surface.mesh.piece_count, model.face_count());
     EXPECT_GT(meshed.surface.report.divided_faces, 0);
     EXPECT_GT(measure_seam(meshed.surface.mesh).count[1], 50);
-    EXPECT_EQ(hash_of(meshed), hash_of(mesh_model(self, model, field, options, divider)));
+    EXPECT_EQ(hash_of(meshed), hash_of(mesh_on(Communicator::self())));
   }
 }
 
 TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
-  const Communicator world = Communicator::world();
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const SurfaceOptions options{.decomposition = SurfaceDecomposition::faces, .piece_triangles = 100};
-  const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.03), options);
+  const Meshed meshed = mesh_model(model, uniform_field(model, 0.03), options);
   EXPECT_EQ(meshed.surface.mesh.piece_count, model.face_count());
   EXPECT_EQ(meshed.surface.report.divided_faces, 0);
   EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
 }
 
 Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
-  const CurveMesh curves = discretise_curves(Communicator::self(), model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (!model.is_planar(f)) return subface_of_face(model, f, curves, field, {});
   }
@@ -263,7 +262,7 @@ TEST(SubfacesLocal, TravelBitForBit) {
 
 TEST(SharedVertexKeysLocal, NameVerticesOfCurvesAndCuts) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1));
+  const CurveMesh curves = discretise_curves(model, uniform_field(model, 0.1));
   std::set<mesh::SharedVertexKey> names;
   for (CurveVertex v = 0; v < static_cast<CurveVertex>(curves.points.size()); ++v) {
     const mesh::SharedVertexKey vertex_key = curves.vertex_key(model, v);

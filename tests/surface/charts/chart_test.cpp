@@ -20,7 +20,6 @@ using cad::Model;
 using cad::PrimitiveKind;
 using geometry::Vec2;
 using geometry::Vec3;
-using testing::curves_of;
 using testing::facets_of;
 using testing::uniform_field;
 
@@ -72,7 +71,7 @@ void expect_sound(const ChartedFace& face) {
 TEST(Charts, PlaneFaceIsOneIsometricChart) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = uniform_field(model, 0.1);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const ChartedFace face = chart_face(model, f, curves, field);
     ASSERT_EQ(face.charts.size(), 1u);
@@ -84,7 +83,7 @@ TEST(Charts, PlaneFaceIsOneIsometricChart) {
 TEST(Charts, SphereIsTwoHemispheres) {
   const Model model = make_primitive_domain(PrimitiveKind::sphere);
   const auto field = uniform_field(model, 0.05);
-  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
   EXPECT_EQ(face.charts.size(), 2u);
   EXPECT_EQ(face.vertices.border_count(), 0);
   for (const Vec3 p : face.vertices.points) EXPECT_NEAR(norm(p), 0.25, 1e-9);
@@ -95,7 +94,7 @@ TEST(Charts, TubeIsCutLengthwise) {
   for (const double height : {0.1, 1.0, 10.0}) {
     const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.height = height});
     const auto field = uniform_field(model, 0.1);
-    const CurveMesh curves = curves_of(model, field);
+    const CurveMesh curves = discretise_curves(model, field);
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       const ChartedFace face = chart_face(model, f, curves, field);
       EXPECT_LE(face.charts.size(), 4u);
@@ -109,7 +108,7 @@ TEST(Charts, TorusUnfolds) {
   for (const double size : {0.03, 0.2, 5.0}) {
     const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
     const auto field = uniform_field(model, size);
-    const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+    const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
     EXPECT_LE(face.charts.size(), 8u);
     expect_sound(face);
   }
@@ -118,7 +117,7 @@ TEST(Charts, TorusUnfolds) {
 TEST(Charts, AreTheSameEveryTime) {
   const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
   const auto field = uniform_field(model, 0.1);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   const ChartedFace first = chart_face(model, 0, curves, field), second = chart_face(model, 0, curves, field);
   ASSERT_EQ(first.charts.size(), second.charts.size());
   for (std::size_t i = 0; i < first.charts.size(); ++i) {
@@ -197,7 +196,7 @@ TEST(ConformalMap, UnrollsADevelopableStripIsometrically) {
 TEST(ChartLocator, FindsEveryPointAgain) {
   const Model model = make_primitive_domain(PrimitiveKind::sphere);
   const auto field = uniform_field(model, 0.1);
-  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
   for (const Chart& chart : face.charts) {
     const ChartLocator locator(chart);
     std::int32_t hint = -1;
@@ -221,7 +220,7 @@ TEST(ChartLocator, FindsEveryPointAgain) {
 TEST(ChartLocator, ExtrapolatesBeyondTheEdge) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = uniform_field(model, 0.25);
-  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
   const Chart& chart = face.charts.front();
   const ChartLocator locator(chart);
   Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
@@ -246,7 +245,7 @@ TEST_P(RealModel, EveryFaceGetsCharts) {
   options.file = file.string();
   const Model model = cad::prepare_domain(options).model;
   const auto field = uniform_field(model, 0.01 * model.body_bounds().diagonal());
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   const double start = parallel::cpu_seconds();
   std::size_t charts = 0;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {

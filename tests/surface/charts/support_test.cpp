@@ -15,7 +15,6 @@ using cad::make_primitive_domain;
 using cad::Model;
 using cad::PrimitiveKind;
 using geometry::Vec3;
-using testing::curves_of;
 using testing::facets_of;
 using testing::uniform_field;
 
@@ -71,7 +70,7 @@ void expect_sound(const Model& model, const Built& built) {
 TEST(Support, SphereClosesToASphere) {
   const Model model = make_primitive_domain(PrimitiveKind::sphere);
   const auto field = uniform_field(model, 0.1);
-  const Built built = build(model, 0, curves_of(model, field), field);
+  const Built built = build(model, 0, discretise_curves(model, field), field);
   EXPECT_EQ(built.loops, 0u);
   EXPECT_EQ(built.euler, 2);
   EXPECT_TRUE(built.support.loop_edges.empty());
@@ -82,7 +81,7 @@ TEST(Support, SphereClosesToASphere) {
 TEST(Support, TorusClosesToATorus) {
   const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
   const auto field = uniform_field(model, 0.1);
-  const Built built = build(model, 0, curves_of(model, field), field);
+  const Built built = build(model, 0, discretise_curves(model, field), field);
   EXPECT_EQ(built.loops, 0u);
   EXPECT_EQ(built.euler, 0);
   expect_sound(model, built);
@@ -91,7 +90,7 @@ TEST(Support, TorusClosesToATorus) {
 TEST(Support, CylinderHasATubeAndTwoDisks) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const auto field = uniform_field(model, 0.05);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   double area = 0;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const Built built = build(model, f, curves, field);
@@ -108,7 +107,7 @@ TEST(Support, MeshVerticesDivideCoarseFacets) {
   // Sizes far below the facets: each side of a box face has two triangles at most and 200 mesh vertices.
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = uniform_field(model, 0.005);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const Built built = build(model, f, curves, field);
     EXPECT_EQ(built.support.loop_edges.size(), 800u);
@@ -123,7 +122,7 @@ TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
   // it.
   const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.radius = 0.25, .height = 0.004});
   const auto field = uniform_field(model, 0.002);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Facets coarse = model.facets(f, 0.05, 1.2);
     FaceVertices vertices;
@@ -140,7 +139,7 @@ TEST(Support, FollowsTheSurfaceUnderSizesFarBelowItsFacets) {
 TEST(Support, IsNoFinerThanElementsThatCannotTurn) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.radius = 0.25, .height = 0.5});
   const auto large = uniform_field(model, 10), small = uniform_field(model, 0.5);
-  const CurveMesh curves = curves_of(model, large);
+  const CurveMesh curves = discretise_curves(model, large);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (model.is_planar(f)) continue;
     const cad::Facets coarse = model.facets(f, 0.05, 1.2);
@@ -155,7 +154,7 @@ TEST(Support, IsNoFinerThanElementsThatCannotTurn) {
 TEST(Support, FacetNodesBetweenMeshVerticesRemain) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const auto field = uniform_field(model, 10);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const Built built = build(model, f, curves, field);
     EXPECT_EQ(built.support.loop_edges.size(), 4 * built.loops);

@@ -70,7 +70,7 @@ Model cube_with_cusp() {
 const sizing::SizingOptions sizes{0.02, 0.1, 12, 1.3, 0};
 
 SurfaceMesh mesh_cube(const Communicator& communicator, const Model& model) {
-  return mesh_surface(communicator, model, sizing::build_size_field(communicator, model, sizes), {});
+  return mesh_surface(model, sizing::build_size_field(communicator, model, sizes), {});
 }
 
 double least_angle(const mesh::DistributedMesh& surface) {
@@ -162,7 +162,7 @@ TEST(CuspTips, HaveSizesThatFollowTheirWidthBehind) {
 TEST(CuspTips, HaveVerticesOppositeEachOther) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
-  const CurveMesh curves = discretise_curves(Communicator::world(), model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   ASSERT_FALSE(curves.sharp_corners.empty());
   const SharpCorner& corner = curves.sharp_corners.front();
   std::vector<std::vector<double>> away;
@@ -181,7 +181,7 @@ TEST(CuspTips, StayWhereTheCurvesAreApart) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const auto field = sizing::build_size_field(communicator, model, sizes);
-  const CurveMesh curves = discretise_curves(communicator, model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
   EXPECT_TRUE(close_cusp_tips(model, curves, 1e-9, surface).empty());
 }

@@ -35,7 +35,7 @@ Model sharp_prism(double degrees) {
 
 SurfaceMesh mesh_of(const Model& model, double size, int needle_rounds,
                     const Communicator& communicator = Communicator::world()) {
-  SurfaceMesh surface = mesh_surface(communicator, model, testing::uniform_field(model, size),
+  SurfaceMesh surface = mesh_surface(model, testing::uniform_field(model, size, communicator),
                                      {.needle_rounds = needle_rounds});
   const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
   EXPECT_TRUE(mesh::check_surface_mesh(surface.mesh, numbering).valid());
@@ -89,7 +89,7 @@ TEST(Needles, LegsAreShortWhereAskedFor) {
   const Model model = sharp_prism(6);
   const sizing::SizeField field = testing::uniform_field(model, size);
   const auto longest_leg = [&](std::span<const cad::VertexId> short_legs) {
-    const CurveMesh curves = discretise_curves(Communicator::world(), model, field, short_legs);
+    const CurveMesh curves = discretise_curves(model, field, short_legs);
     double longest = 0;
     for (const SharpCorner& corner : curves.sharp_corners) {
       for (const cad::EdgeEnd& end : corner.ends) {

@@ -59,7 +59,7 @@ protected:
     const double size = 0.1;
     const sizing::SizeField field =
         sizing::build_size_field(communicator, _model, {0.5 * size, size, 15, 1.3, 0});
-    return mesh_surface(communicator, _model, field, {});
+    return mesh_surface(_model, field, {});
   }
 
   Model _model;
@@ -101,7 +101,7 @@ std::vector<PointedTip> tips_of(const TopoDS_Shape& shape) {
   const Model model = cad::shapes::prepare_fluid(shape).model;
   const sizing::SizeField field =
       sizing::build_size_field(parallel::Communicator::self(), model, {0.05, 0.1, 15, 1.3, 0});
-  const CurveMesh curves = testing::curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   std::vector<PointedTip> tips;
   for (cad::FaceId face = 0; face < model.face_count(); ++face) {
     FaceVertices vertices;
