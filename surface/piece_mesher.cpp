@@ -10,8 +10,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec3;
-
 /// CAD vertices, edges and the face itself, distinguished by the names of vertices.
 void classify_border_vertex(cad::FaceId face, mesh::SharedVertexKey vertex_key, mesh::Piece& piece) {
   const cad::EdgeId edge = mesh::edge_of_vertex_key(vertex_key);
@@ -26,7 +24,8 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   mesh::Piece piece;
   piece.kind = mesh::CellKind::triangle;
   piece.coordinates.reserve(3 * mesh.points.size());
-  for (const Vec3& p : mesh.points) piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+  for (const geometry::Vec3& p : mesh.points)
+    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
   for (const auto& t : mesh.triangles) piece.cells.insert(piece.cells.end(), t.begin(), t.end());
   for (std::int32_t v = 0; v < vertices.border_count(); ++v) {
     classify_border_vertex(mesh.face, vertices.vertex_keys[v], piece);

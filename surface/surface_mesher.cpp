@@ -26,7 +26,6 @@ namespace aeroloom::surface {
 namespace {
 
 using sizing::SizeField;
-using sizing::SizeSource;
 
 /// The CAD face of each piece of the whole mesh, on every rank. Collective.
 std::vector<cad::FaceId> faces_of_pieces(const mesh::DistributedMesh& surface) {
@@ -180,7 +179,7 @@ private:
     const parallel::Communicator& communicator = _field.communicator();
     Conflicts all;
     all.predicted = mine.predicted;
-    all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
+    all.remedies = communicator.all_gather_items<sizing::SizeSource>(mine.remedies);
     all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
     const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
     for (const parallel::Bytes& text : texts) {

@@ -10,7 +10,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec2;
 using geometry::Vec3;
 
 /// A point of the cut becomes a mesh vertex where the spread vertices come this close, in parts of their
@@ -144,7 +143,7 @@ private:
     }
     const geometry::HalfEdge twin = _twins[h];
     const auto point = static_cast<std::int32_t>(_support.points.size());
-    const Vec2 uv = (1 - part) * start_uv(_support, h) + part * end_uv(_support, h);
+    const geometry::Vec2 uv = (1 - part) * start_uv(_support, h) + part * end_uv(_support, h);
     _divisions.push_back({h, part, point, uv});
     _divisions.push_back(
         {twin, 1 - part, point, part * start_uv(_support, twin) + (1 - part) * end_uv(_support, twin)});
@@ -155,7 +154,7 @@ private:
   }
 
   /// Makes a support point a mesh vertex on the CAD surface.
-  void promote(std::int32_t point, Vec2 guess) {
+  void promote(std::int32_t point, geometry::Vec2 guess) {
     const Vec3 facet = _support.points[point];
     guess = _model.wrap(_support.face, guess);
     cad::Projection on = _model.project(_support.face, facet, guess);

@@ -10,7 +10,6 @@ namespace aeroloom::surface {
 namespace {
 
 using cad::SurfaceFrame;
-using geometry::Vec2;
 using geometry::Vec3;
 
 /// Edges between points whose normals differ by more (20 degrees) are divided, and so is the longest edge of
@@ -152,7 +151,7 @@ bool OpenFacets::divide_turning_edges(const std::vector<SurfaceFrame>& frames,
     const Vec3 from = _support.points[start_of(_support, h)], to = _support.points[end_of(_support, h)];
     if (distance(from, to) < finest_over_size * field(0.5 * (from + to))) continue;
     const auto index = static_cast<std::int32_t>(_support.points.size());
-    const Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
+    const geometry::Vec2 uv = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
     divisions.push_back({h, 0.5, index, uv});
     divisions.push_back({twins[h], 0.5, index, uv});
     _support.points.push_back(_model.face_point(_support.face, uv));

@@ -14,11 +14,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using cad::Coedge;
-using cad::Model;
-using geometry::Vec2;
-using geometry::Vec3;
-
 /// A facet node moves to a curve vertex within this fraction of the distance to the next node or vertex.
 /// Farther away it is a point of its own. Chosen, not measured.
 constexpr double reuse_fraction = 1e-4;
@@ -66,7 +61,7 @@ void drop_opposite_pairs(Support& support) {
   support.corner_uv.resize(kept);
 }
 
-[[noreturn]] void fail(const Model& model, cad::FaceId face, const Coedge& use, Vec3 at) {
+[[noreturn]] void fail(const cad::Model& model, cad::FaceId face, const cad::Coedge& use, geometry::Vec3 at) {
   throw SurfaceError(fmt::format(
       "face {} (patch {}): its triangulation does not follow edge {} near {}; repair this face in the CAD "
       "program",
@@ -96,7 +91,7 @@ private:
   std::vector<SideRow> _rows;
 };
 
-OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& facets)
+OpenFacets::OpenFacets(const cad::Model& model, cad::FaceId face, const cad::Facets& facets)
     : _model(model), _uv(facets.uv), _in_sheets(model.is_faceted(face)) {
   _support.face = face;
   _support.points = facets.points;
@@ -131,7 +126,7 @@ void OpenFacets::match_line_ends() {
     ends.push_back({_model.edge(line.use.edge).last, line.nodes.back().point});
   }
   const auto match_end = [&](const Line& line, cad::VertexId vertex, Node& node) {
-    const Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
+    const geometry::Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
     for (const End& end : ends) {
       if (end.vertex != vertex) continue;
       if (distance(_uv[end.point], expected) < distance(_uv[node.point], expected)) node.point = end.point;
@@ -196,7 +191,7 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
     double spacing = part;
     if (i > 0) spacing = std::min(spacing, t - wanted[i - 1].parameter);
     if (i + 1 < wanted.size()) spacing = std::min(spacing, wanted[i + 1].parameter - t);
-    const Vec2 uv = _model.edge_uv(_support.face, line.use, t);
+    const geometry::Vec2 uv = _model.edge_uv(_support.face, line.use, t);
     const std::size_t near = t - old[k].parameter < old[k + 1].parameter - t ? k : k + 1;
     if (!claimed[near] && std::abs(t - old[near].parameter) <= reuse_tolerance * spacing) {
       claimed[near] = 1;
@@ -257,7 +252,7 @@ std::vector<std::int32_t> OpenFacets::join_points() const {
     for (const Node& node : line.nodes) is_mesh_vertex[joining.root(node.point)] |= node.vertex >= 0;
   }
   geometry::Box box;
-  for (const Vec3 p : _support.points) box.add(p);
+  for (const geometry::Vec3 p : _support.points) box.add(p);
   for (const auto& triangle : _support.triangles) {
     for (int i = 0; i < 3; ++i) {
       const std::int32_t a = joining.root(triangle[i]), b = joining.root(triangle[(i + 1) % 3]);

@@ -8,8 +8,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec3;
-
 /// An edge is not divided closer to its ends than this fraction of it: a point inside moves onto the cut
 /// instead.
 constexpr double least_edge_fraction = 0.1;
@@ -27,7 +25,7 @@ constexpr std::size_t most_absorbed = 64;
 
 /// A mesh vertex the cut has to pass, and how far the plane misses it.
 struct Bend {
-  Vec3 point;
+  geometry::Vec3 point;
   double miss;
   double radius;
 };
@@ -116,10 +114,10 @@ private:
     }
   }
 
-  static double bent(Vec3 x, double raw, const std::vector<Bend>& bends) {
+  static double bent(geometry::Vec3 x, double raw, const std::vector<Bend>& bends) {
     double weights = 0, miss = 0;
     for (const Bend& bend : bends) {
-      const Vec3 away = x - bend.point;
+      const geometry::Vec3 away = x - bend.point;
       const double s = dot(away, away) / (bend.radius * bend.radius);
       if (s >= 1) continue;
       const double weight = (1 - s) * (1 - s);

@@ -16,7 +16,6 @@ namespace aeroloom::surface {
 namespace {
 
 using geometry::Vec2;
-using geometry::Vec3;
 
 /// The loops of a chart as the front wants them, and where its vertices are known from.
 struct ChartBoundary {
@@ -96,8 +95,8 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front:
         const std::int32_t v = boundary.face_vertex[end];
         if (v < vertices.border_count()) named.push_back(vertices.vertex_keys[v]);
       }
-      const Vec3 a = vertices.points[boundary.face_vertex[boundary.input.edges[e][0]]];
-      const Vec3 b = vertices.points[boundary.face_vertex[boundary.input.edges[e][1]]];
+      const geometry::Vec3 a = vertices.points[boundary.face_vertex[boundary.input.edges[e][0]]];
+      const geometry::Vec3 b = vertices.points[boundary.face_vertex[boundary.input.edges[e][1]]];
       if (distance(a, b) > 0) remedy.push_back({0.5 * (a + b), 0.5 * distance(a, b)});
     }
   }

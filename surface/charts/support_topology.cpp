@@ -9,13 +9,10 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec2;
-using geometry::Vec3;
-
 /// One triangle being divided: corners, and the points still to insert on each of its edges.
 struct Division {
   std::array<std::int32_t, 3> corner;
-  std::array<Vec2, 3> uv;
+  std::array<geometry::Vec2, 3> uv;
   std::array<std::span<const EdgePoint>, 3> inserts;
 };
 
@@ -172,7 +169,7 @@ std::vector<std::int32_t> divide_edges(Support& support, std::vector<EdgePoint> 
   return former;
 }
 
-Vec3 area_vector(const Support& support, std::int32_t triangle) {
+geometry::Vec3 area_vector(const Support& support, std::int32_t triangle) {
   const auto& [a, b, c] = support.triangles[triangle];
   return 0.5 * geometry::cross(support.points[b] - support.points[a], support.points[c] - support.points[a]);
 }

@@ -11,16 +11,14 @@
 namespace aeroloom::surface {
 namespace {
 
-using mesh::SharedVertexKey;
-
 /// A triangle's edge between two vertices of curves.
 struct EdgeRow {
-  std::array<SharedVertexKey, 2> keys;  // as the triangle runs
+  std::array<mesh::SharedVertexKey, 2> keys;  // as the triangle runs
   std::array<geometry::Vec3, 2> points;
   cad::FaceId face;
 
   static constexpr auto fields() { return std::tuple(&EdgeRow::keys, &EdgeRow::points, &EdgeRow::face); }
-  std::array<SharedVertexKey, 2> sorted() const {
+  std::array<mesh::SharedVertexKey, 2> sorted() const {
     return {std::min(keys[0], keys[1]), std::max(keys[0], keys[1])};
   }
   auto place() const { return std::tuple(face, keys[0]); }
@@ -82,7 +80,7 @@ std::vector<parallel::Rank> deal_faces(const mesh::DistributedMesh& surface, con
 
 }  // namespace
 
-std::int32_t FaceLoops::find(SharedVertexKey vertex_key) const {
+std::int32_t FaceLoops::find(mesh::SharedVertexKey vertex_key) const {
   return static_cast<std::int32_t>(std::lower_bound(vertex_keys.begin(), vertex_keys.end(), vertex_key) -
                                    vertex_keys.begin());
 }

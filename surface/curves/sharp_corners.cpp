@@ -12,10 +12,8 @@
 namespace aeroloom::surface {
 namespace {
 
-using cad::EdgeEnd;
 using cad::FaceCorner;
 using cad::Model;
-using geometry::Vec3;
 
 /// Degrees, as where sizes look for sharp corners (sizing/features/corner_sources.cpp).
 constexpr double sharp = 30;
@@ -33,13 +31,13 @@ constexpr int most_steps = 36;  // to 31 times the size at the corner
 constexpr double straight = 10;
 
 /// Whether the edge stays close to its chord up to the parameter.
-bool is_straight(const Model& model, EdgeEnd end, double parameter, Vec3 point) {
+bool is_straight(const Model& model, cad::EdgeEnd end, double parameter, geometry::Vec3 point) {
   const cad::Edge& edge = model.edge(end.edge);
   const double from = end.first ? edge.first_parameter : edge.last_parameter;
-  const Vec3 chord = point - model.edge_point(end.edge, from);
+  const geometry::Vec3 chord = point - model.edge_point(end.edge, from);
   const double cosine = std::cos(straight * std::numbers::pi / 180);
   for (const double t : {from, parameter}) {
-    const Vec3 tangent = model.edge_tangent(end.edge, t);
+    const geometry::Vec3 tangent = model.edge_tangent(end.edge, t);
     if (std::abs(dot(tangent, chord)) < cosine * norm(tangent) * norm(chord)) return false;
   }
   return true;
@@ -123,7 +121,7 @@ std::vector<std::array<double, 2>> legs_of_edges(const Model& model,
   std::vector<std::array<double, 2>> result(model.edge_count(), {0, 0});
   for (const SharpCorner& corner : corners) {
     if (!(corner.leg > 0)) continue;
-    for (const EdgeEnd& end : corner.ends) result[end.edge][end.first ? 0 : 1] = longest[corner.vertex];
+    for (const cad::EdgeEnd& end : corner.ends) result[end.edge][end.first ? 0 : 1] = longest[corner.vertex];
   }
   return result;
 }

@@ -18,16 +18,15 @@ using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
-using geometry::degree;
 /// Of curves and of the surface along an edge of the background. Chosen, not measured.
-constexpr double largest_turn = 30 * degree;
+constexpr double largest_turn = 30 * geometry::degree;
 /// Edges of the background are as long as so many fine ones at least, however much the surface turns: a
 /// coarser mesh is its point.
 constexpr double fine_edges = 2;
 constexpr int smoothing_sweeps = 3;  // it carries cuts, it is no mesh: a few do
 /// Facets of the support turn less than this: edges between points whose normals differ by more are divided,
 /// in so many rounds.
-constexpr double facet_turn = 12 * degree;
+constexpr double facet_turn = 12 * geometry::degree;
 constexpr int dividing_rounds = 3;
 
 /// Parameters at the corners of each triangle, without jumps inside it: those of vertices across a seam are

@@ -9,7 +9,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec2;
 using geometry::Vec3;
 
 class BoundaryThinner {
@@ -25,7 +24,7 @@ public:
   /// Contracts the point into its neighbour on the boundary, if no triangle folds.
   bool contract(std::int32_t gone, std::int32_t kept) {
     const Vec3 target = _support.points[kept];
-    Vec2 uv;
+    geometry::Vec2 uv;
     bool joined = false;
     for (const std::int32_t t : _around[gone]) {
       const int k = corner(t, kept);
@@ -54,7 +53,7 @@ public:
         continue;
       }
       const int k = corner(t, gone);
-      Vec2& at = _support.corner_uv[t][k];
+      geometry::Vec2& at = _support.corner_uv[t][k];
       at = unwrap(_model, _support.face, uv, at);
       _support.triangles[t][k] = kept;
       _around[kept].push_back(t);

@@ -10,8 +10,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec3;
-
 /// The loops as closed sequences of vertices of the subface, in the order of the loop edges. The same vertex
 /// may occur several times where the border touches itself.
 std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
@@ -71,7 +69,7 @@ public:
   }
 
 private:
-  Vec3 step(std::size_t i) const { return _points[vertex(i + 1)] - _points[vertex(i)]; }
+  geometry::Vec3 step(std::size_t i) const { return _points[vertex(i + 1)] - _points[vertex(i)]; }
   double turn(std::size_t i) const { return angle_between(step(i + size() - 1), step(i)); }
 
   /// How many coarse segments the fine one that starts at i is worth.
@@ -80,7 +78,7 @@ private:
       const double angle = turn(k);
       return angle > _largest_turn ? 0 : 0.5 * angle / _largest_turn;
     };
-    const Vec3 from = _points[vertex(i)];
+    const geometry::Vec3 from = _points[vertex(i)];
     return std::max(norm(step(i)) / _coarse(from + 0.5 * step(i)), bend(i) + bend(i + 1));
   }
 
@@ -110,7 +108,7 @@ private:
     kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(longest), at);
   }
 
-  const std::vector<Vec3>& _points;
+  const std::vector<geometry::Vec3>& _points;
   const sizing::SizeField& _coarse;
   double _largest_turn;
   std::vector<std::int32_t> _loop;

@@ -20,8 +20,6 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec3;
-
 /// Background triangles in a part of a division, about: chosen, not measured.
 constexpr double triangles_per_part = 64;
 /// How often the background gets twice as fine where its loops cross; a subface that is still no good stays
@@ -43,9 +41,9 @@ partition::BackgroundSurface weigh(const FaceMesh& mesh, const sizing::SizeField
   partition::BackgroundSurface surface{
       mesh.points, mesh.triangles, geometry::match_half_edges(mesh.triangles), {}};
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
+    const geometry::Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
     double density = 0;
-    for (const Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)})
+    for (const geometry::Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)})
       density += 1 / std::pow(field(middle), 2) / 3;
     surface.loads.push_back(2 / std::numbers::sqrt3 * norm(cross(q - p, r - p)) * density);
   }

@@ -16,7 +16,6 @@ namespace {
 using cad::EdgeId;
 using geometry::Vec3;
 using mesh::LocalIndex;
-using mesh::Piece;
 
 /// A curve is as close as a needle is thin when the needle's height over the other curve is at most this
 /// fraction of its side there. Chosen, not measured.
@@ -46,7 +45,7 @@ public:
   }
 
   /// `on_curve`: as curve_vertices() has it, -1 also for pointed tips inside of a face (pointed_tips.hpp).
-  NeedleCause judge(const Piece& piece, const std::vector<CurveVertex>& on_curve,
+  NeedleCause judge(const mesh::Piece& piece, const std::vector<CurveVertex>& on_curve,
                     const LocalIndex* triangle) const {
     std::array<Vec3, 3> p;
     std::array<CurveVertex, 3> v;
@@ -153,7 +152,7 @@ std::vector<Needle> find_needles(const cad::Model& model, const CurveMesh& curve
   const double limit = std::pow(std::sin(needle_degrees * std::numbers::pi / 180), 2);
   std::vector<Needle> needles;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
-    const Piece& piece = surface.pieces[i];
+    const mesh::Piece& piece = surface.pieces[i];
     const std::vector<CurveVertex> on_curve = curve_vertices(curves, piece);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
@@ -189,7 +188,7 @@ std::vector<NeedleGroup> group_needles(const mesh::DistributedMesh& surface,
   };
   std::vector<NeedleGroup> mine;
   for (const Needle& needle : needles) {
-    const Piece& piece = surface.pieces[needle.piece];
+    const mesh::Piece& piece = surface.pieces[needle.piece];
     const LocalIndex* v = piece.cell(needle.triangle);
     const Vec3 middle = (piece.point(v[0]) + piece.point(v[1]) + piece.point(v[2])) / 3.0;
     mine.push_back({piece.common_face(), needle.cause, 1, needle.degrees < 0.5 * needle_degrees,
