@@ -6,7 +6,7 @@
 #include "parallel/storage/task_store.hpp"
 #include "surface/curves/curves.hpp"
 #include "surface/division/imposed_cuts.hpp"
-#include "surface/division/subface_dealer.hpp"
+#include "surface/division/task_distribution.hpp"
 #include "surface/surface_report.hpp"
 
 #include <map>
@@ -19,7 +19,7 @@ namespace aeroloom::surface {
 struct Conflicts {
   std::vector<sizing::SizeSource> remedies;  ///< where sizes have to fall
   std::vector<cad::FaceId> undivided;        ///< faces that had better stay whole
-  std::string complaint;                     ///< about the first one; empty: none
+  std::string message;                       ///< about the first one; empty: none
   double predicted = 0;  ///< triangles; where these are more than rounds may come to, nothing was meshed
 };
 
@@ -60,29 +60,29 @@ private:
                     const Meshed& meshed) const;
   std::vector<std::int32_t> edge_vertices(const CurveMesh& curves, cad::FaceId face) const;
   std::vector<cad::FaceId> changed_faces(const CurveMesh& curves, const sizing::SizeField& field) const;
-  /// Triangles of the whole surface: of faces that are kept, and of these subfaces.
-  double predict(const Subfaces& subfaces, const sizing::SizeField& field) const;
+  /// Triangles of the whole surface: of faces that are kept, and of these piece problems.
+  double predict(const PieceProblems& problems, const sizing::SizeField& field) const;
   /// Seconds to mesh a triangle on this machine, from what curves took. Collective.
   double seconds_per_triangle() const;
-  Subfaces make_whole_subfaces(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
-                               const sizing::SizeField& field);
-  mesh::Piece mesh_or_find(const Subface& subface, const sizing::SizeField& field,
+  PieceProblems make_face_problems(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
+                                   const sizing::SizeField& field);
+  mesh::Piece mesh_or_find(const PieceProblem& problem, const sizing::SizeField& field,
                            const parallel::Digest& of_field) const;
-  void mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curves, const sizing::SizeField& field,
-                     Conflicts& conflicts);
+  void mesh_problems(const TaskDistribution& distribution, const CurveMesh& curves,
+                     const sizing::SizeField& field, Conflicts& conflicts);
 
   parallel::Communicator _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
   parallel::TaskStore* _tasks;  // may be null
-  SubfaceDealer _dealer;
+  TaskDistributor _distributor;
   bool _started = false;
   double _first = 0;                 // triangles predicted in the first round
   std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
-  std::map<SubfaceKey, double>
-      _costs;  // of the subfaces of faces made here in this round, in triangles to mesh
-  std::map<SubfaceKey, Meshed> _meshed;                 // on this rank
-  std::map<SubfaceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank
+  std::map<PieceKey, double>
+      _costs;  // of the piece problems of faces made here in this round, in triangles to mesh
+  std::map<PieceKey, Meshed> _meshed;                 // on this rank
+  std::map<PieceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };
 
 }  // namespace aeroloom::surface

@@ -21,7 +21,7 @@ struct PlanesToRemesh {
 /// The vertices to blame where planes cannot be meshed again, by name, ascending; the same on every rank.
 struct PlaneConflicts {
   std::vector<mesh::SharedVertexKey> vertices;
-  std::string complaint;  ///< about the first plane; empty: none
+  std::string message;  ///< about the first plane; empty: none
   bool empty() const { return vertices.empty(); }
 };
 

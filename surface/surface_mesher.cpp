@@ -7,10 +7,10 @@
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "surface/curves/curves.hpp"
+#include "surface/cusps/cusps.hpp"
+#include "surface/cusps/needle_remedies.hpp"
 #include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
-#include "surface/tips/cusp_tips.hpp"
-#include "surface/tips/needle_remedies.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,8 +70,9 @@ std::vector<CrossedTriangle> list_crossed(const std::vector<mesh::TriangleHit>& 
 }
 
 /// The two faces that intersect over the largest area: that of the triangles of one of them, the smaller one.
-std::string complain(const cad::Model& model, const SizeField& field,
-                     const std::vector<mesh::TriangleHit>& hits, const std::vector<cad::FaceId>& faces) {
+std::string describe_worst(const cad::Model& model, const SizeField& field,
+                           const std::vector<mesh::TriangleHit>& hits,
+                           const std::vector<cad::FaceId>& faces) {
   const std::vector<CrossedTriangle> crossed = list_crossed(hits, faces);
   const CrossedTriangle* worst = nullptr;
   double worst_area = -1;
@@ -106,17 +107,17 @@ Conflicts find_conflicts(const cad::Model& model, const SizeField& field,
       conflicts.remedies.push_back({hit.center, 0.5 * field(hit.center)});
     }
   }
-  conflicts.complaint = complain(model, field, hits, faces);
+  conflicts.message = describe_worst(model, field, hits, faces);
   return conflicts;
 }
 
 /// `tried`: what was, or would have been.
-[[noreturn]] void give_up(const std::string& complaint, const std::string& tried) {
+[[noreturn]] void give_up(const std::string& message, const std::string& tried) {
   throw SurfaceError(fmt::format(
       "surface: {}{}. Remedy: smaller SizingOptions::minimum or "
       "SizingOptions::curvature_angle, or repair the geometry there (overlapping or self-intersecting faces "
       "cannot be meshed)",
-      complaint, tried));
+      message, tried));
 }
 
 std::int64_t count_unforced(const std::vector<NeedleGroup>& groups) {
@@ -158,12 +159,12 @@ private:
     Conflicts conflicts = gather_conflicts(_pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
     mesh::DistributedMesh surface(_field.communicator());
-    if (conflicts.complaint.empty()) {
+    if (conflicts.message.empty()) {
       surface = _pool.assemble();
-      _closed_tips = close_cusp_tips(_model, curves, sizing::closing_gap(_field.options()), surface);
+      _closed_cusps = close_cusps(_model, curves, sizing::closing_gap(_field.options()), surface);
       conflicts = find_conflicts(_model, _field, surface, _pool);
     }
-    if (!conflicts.complaint.empty()) return !mend(conflicts);
+    if (!conflicts.message.empty()) return !mend(conflicts);
     const NeedleRemedies remedies = accept(curves, std::move(surface));
     if (remedies.empty()) return true;
     std::vector<cad::VertexId> short_legs;
@@ -174,17 +175,16 @@ private:
     return false;
   }
 
-  /// The remedies of all ranks, the same on every rank; the complaint of the lowest rank that has one.
+  /// The remedies of all ranks, the same on every rank; the message of the lowest rank that has one.
   Conflicts gather_conflicts(const Conflicts& mine) const {
     const parallel::Communicator& communicator = _field.communicator();
     Conflicts all;
     all.predicted = mine.predicted;
     all.remedies = communicator.all_gather_items<sizing::SizeSource>(mine.remedies);
     all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
-    const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
+    const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.message)));
     for (const parallel::Bytes& text : texts) {
-      if (all.complaint.empty())
-        all.complaint.assign(reinterpret_cast<const char*>(text.data()), text.size());
+      if (all.message.empty()) all.message.assign(reinterpret_cast<const char*>(text.data()), text.size());
     }
     return all;
   }
@@ -202,7 +202,7 @@ private:
         "; sizes that might part them would take about {:.2g} triangles, after {:.2g} in the first round; "
         "{:.2g} are allowed",
         triangles, _pool.first_triangles(), _pool.most_triangles());
-    if (!_accepted) give_up(_last_complaint, tried);
+    if (!_accepted) give_up(_last_message, tried);
     parallel::log_verbose(fmt::format(
         "surface: needles stay as they are: without them there would be about {:.2g} triangles", triangles));
     return true;
@@ -213,12 +213,12 @@ private:
     const bool can_go_on = !conflicts.remedies.empty() || !conflicts.undivided.empty();
     if (_rounds >= _options.mending_rounds || !can_go_on) {
       if (_accepted) return false;
-      give_up(conflicts.complaint,
+      give_up(conflicts.message,
               fmt::format(", after {} rounds of local refinement", _options.mending_rounds));
     }
-    _last_complaint = conflicts.complaint;
+    _last_message = conflicts.message;
     parallel::log_verbose(fmt::format("surface: {}; sizes fall in {} places, {} faces stay whole",
-                                      conflicts.complaint, conflicts.remedies.size(),
+                                      conflicts.message, conflicts.remedies.size(),
                                       conflicts.undivided.size()));
     _pool.leave_whole(conflicts.undivided);
     lower_sizes(conflicts.remedies);
@@ -255,7 +255,7 @@ private:
     report.triangles = surface.communicator.sum(report.triangles);
     report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
     report.sharp_corners = list_corners(_model, curves);
-    report.closed_tips = _closed_tips;
+    report.closed_cusps = _closed_cusps;
     report.pieces = surface.piece_count;
     report.divided_faces = _pool.divided_faces();
     report.cut_angles = _pool.cut_angles();
@@ -269,9 +269,9 @@ private:
   PiecePool _pool;
   SizeField _field;
   std::vector<cad::VertexId> _short_legs;  // ascending
-  std::vector<ClosedTip> _closed_tips;     // of this round
+  std::vector<ClosedCusp> _closed_cusps;   // of this round
   int _rounds = 0, _needle_rounds = 0;
-  std::string _last_complaint;
+  std::string _last_message;
   std::optional<SurfaceMesh> _accepted;  // the last one without conflicts
 };
 

@@ -22,7 +22,7 @@ struct SurfaceOptions {
   std::int64_t piece_triangles = 10'000;  ///< wanted triangles of a piece
   double cut_angle = 40;  ///< degrees that cuts make with each other and with feature curves at least; 0: any
   DivisionSteps division = {};
-  double support_angle = 15;  ///< degrees neighbouring facets of a face's support may turn
+  double facet_angle = 15;  ///< degrees neighbouring facets of a face's chart surface may turn
   double chart_spread =
       60;  ///< degrees normals of one chart may spread from their axis before the chart is split
   int smoothing_sweeps = 6;  ///< of vertex smoothing and edge flips inside a face

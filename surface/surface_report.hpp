@@ -30,15 +30,15 @@ struct ListedCorner {
   }
 };
 
-/// A tip of a CAD face between two curves tangent to each other that was closed (cusp_tips.hpp).
-struct ClosedTip {
+/// A cusp of a CAD face between two curves tangent to each other that was closed (cusps.hpp).
+struct ClosedCusp {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;  ///< the CAD vertex it ends in
   double length = 0;     ///< from there to the last vertices that became one
   double moved = 0;      ///< how far a vertex on its curves moved, at most
 
   static constexpr auto fields() {
-    return std::tuple(&ClosedTip::face, &ClosedTip::point, &ClosedTip::length, &ClosedTip::moved);
+    return std::tuple(&ClosedCusp::face, &ClosedCusp::point, &ClosedCusp::length, &ClosedCusp::moved);
   }
 };
 
@@ -77,7 +77,7 @@ struct SurfaceReport {
   std::int64_t divided_faces = 0;           ///< CAD faces of more than one piece
   std::vector<CutAngle> cut_angles;         ///< where cuts end, by face and angle, the same on every rank
   std::vector<ListedCorner> sharp_corners;  ///< by face, the same on every rank
-  std::vector<ClosedTip> closed_tips;       ///< by face, the same on every rank
+  std::vector<ClosedCusp> closed_cusps;     ///< by face, the same on every rank
   std::vector<NeedleGroup> needles;         ///< by face and cause, the same on every rank
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds before the one that was accepted
@@ -85,7 +85,7 @@ struct SurfaceReport {
 
   static constexpr auto fields() {
     return std::tuple(&SurfaceReport::curve_vertices, &SurfaceReport::pieces, &SurfaceReport::divided_faces,
-                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_tips,
+                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_cusps,
                       &SurfaceReport::needles, &SurfaceReport::triangles, &SurfaceReport::mending_rounds,
                       &SurfaceReport::load_error_90);
   }

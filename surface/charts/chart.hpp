@@ -1,5 +1,5 @@
-/// Low-distortion charts of a support: least squares conformal maps (Levy, Petitjean, Ray and Maillot, ACM
-/// Trans. Graph. 21, 2002, doi:10.1145/566654.566590), and the splitting of what one chart cannot carry
+/// Low-distortion charts of a chart surface: least squares conformal maps (Levy, Petitjean, Ray and Maillot,
+/// ACM Trans. Graph. 21, 2002, doi:10.1145/566654.566590), and the splitting of what one chart cannot carry
 /// (Remacle et al., Int. J. Numer. Meth. Engng 83, 2010, doi:10.1002/nme.2824; Marchandise et al., J. Comput.
 /// Phys. 234, 2013, doi:10.1016/j.jcp.2012.09.012).
 #pragma once
@@ -7,24 +7,24 @@
 #include "cad/model/model.hpp"
 #include "geometry/plane_grid.hpp"
 #include "sizing/field/size_field.hpp"
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 
 #include <vector>
 
 namespace aeroloom::surface {
 
-/// A support with a one-to-one map of it to the plane.
+/// A chart surface with a one-to-one map of it to the plane.
 struct Chart {
-  Support support;
-  std::vector<geometry::Vec2> plane;  ///< per support point
-  std::vector<double> scale;          ///< per support point: chart length over length in space
+  ChartSurface surface;
+  std::vector<geometry::Vec2> plane;  ///< per chart surface point
+  std::vector<double> scale;          ///< per chart surface point: chart length over length in space
 };
 
-/// Where a point of the chart lies on the support.
+/// Where a point of the chart lies on the chart surface.
 struct ChartPoint {
   std::int32_t triangle = 0;
   std::array<double, 3>
-      weights{};         ///< barycentric; negative ones where the point lies beyond the support's edge
+      weights{};         ///< barycentric; negative ones where the point lies beyond the chart surface's edge
   geometry::Vec3 point;  ///< on the facets
   geometry::Vec2 uv;     ///< interpolated
 };
@@ -36,8 +36,8 @@ public:
   /// The chart must outlive the locator.
   explicit ChartLocator(const Chart& chart);
   /// `hint` is a triangle to start from (any value is allowed) and receives the one found. Beyond the
-  /// support's edge, the point is extrapolated from the nearest triangle and uv are those of its nearest
-  /// point.
+  /// chart surface's edge, the point is extrapolated from the nearest triangle and uv are those of its
+  /// nearest point.
   ChartPoint locate(geometry::Vec2 point, std::int32_t& hint) const;
   /// Interpolated Chart::scale; that of the nearest point of the triangle across the edge.
   double scale(const ChartPoint& at) const;
@@ -65,11 +65,12 @@ struct ChartLimits {
   double spread = 60;  ///< degrees; patches are split down to this spread of normals when nothing else helps
 };
 
-/// Maps a support to one chart or several: where the map folds, overlaps itself or exceeds the limits, the
-/// support is cut by a plane and both sides are tried again. Cuts are discretised once under the field, their
-/// vertices lie on the CAD surface, are appended to `vertices`, and join mesh vertices of the loops where
-/// they end. Deterministic. Throws SurfaceError when splitting does not end.
+/// Maps a chart surface to one chart or several: where the map folds, overlaps itself or exceeds the limits,
+/// the chart surface is cut by a plane and both sides are tried again. Cuts are discretised once under the
+/// field, their vertices lie on the CAD surface, are appended to `vertices`, and join mesh vertices of the
+/// loops where they end. Deterministic. Throws SurfaceError when splitting does not end.
 std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field,
-                               const Support& support, const ChartLimits& limits, FaceVertices& vertices);
+                               const ChartSurface& surface, const ChartLimits& limits,
+                               FaceVertices& vertices);
 
 }  // namespace aeroloom::surface

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sizing/field/size_field.hpp"
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 
 #include <array>
 #include <set>
@@ -13,19 +13,20 @@ namespace aeroloom::surface {
 /// Pairs of mesh vertices (lower first) that a boundary edge joins already: no second one may.
 using JoinedVertices = std::set<std::array<std::int32_t, 2>>;
 
-/// A support divided into parts. Whoever divided it, the edges between triangles of different parts are cuts.
-struct CutSupport {
-  Support support;
+/// A chart surface divided into parts. Whoever divided it, the edges between triangles of different parts are
+/// cuts.
+struct CutSurface {
+  ChartSurface surface;
   std::vector<std::int32_t> part;  ///< per triangle
 };
 
-/// The pairs that a support's loops join, for a support that is not cut yet.
-JoinedVertices joined_vertices(const Support& support);
+/// The pairs that a chart surface's loops join, for a chart surface that is not cut yet.
+JoinedVertices joined_vertices(const ChartSurface& surface);
 
 /// Spreads mesh vertices over the cuts so that segments have length 1 in the metric of the field, appends
 /// them to `vertices`, and takes the parts asunder. They come in the order of their first triangles, a part
 /// in several pieces as several parts. Pairs that cuts join are added to `joined`.
-std::vector<Support> discretise_cuts(const cad::Model& model, const sizing::SizeField& field, CutSupport cut,
-                                     FaceVertices& vertices, JoinedVertices& joined);
+std::vector<ChartSurface> discretise_cuts(const cad::Model& model, const sizing::SizeField& field,
+                                          CutSurface cut, FaceVertices& vertices, JoinedVertices& joined);
 
 }  // namespace aeroloom::surface

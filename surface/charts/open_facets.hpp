@@ -1,9 +1,9 @@
-/// Facets of a face on their way to a support: open along seams, with the nodes of each coedge along an
+/// Facets of a face on their way to a chart surface: open along seams, with the nodes of each coedge along an
 /// edge.
 #pragma once
 
-#include "surface/charts/support.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/chart_surface.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <vector>
 
@@ -26,7 +26,7 @@ public:
   void fit_to_surface(const sizing::SizeField& field);
   /// Joins what is one point: both coedges of a seam, the nodes of a degenerate edge, the ends of lines at a
   /// CAD vertex, and points at no distance from each other. Triangles that collapse vanish.
-  Support close(const CurveMesh& curves, FaceVertices& vertices);
+  ChartSurface close(const CurveMesh& curves, FaceVertices& vertices);
 
 private:
   struct Node {
@@ -68,7 +68,7 @@ private:
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 
   const cad::Model& _model;
-  Support _support;
+  ChartSurface _surface;
   std::vector<geometry::Vec2> _uv;  // per point
   std::vector<Line> _lines;
   bool _in_sheets;  // parameters belong to corners of triangles, which are the surface

@@ -8,7 +8,7 @@
 #include "sizing/field/closed_corners.hpp"
 #include "surface/curves/curve_metric.hpp"
 #include "surface/curves/curve_segments.hpp"
-#include "surface/curves/tip_alignment.hpp"
+#include "surface/curves/cusp_alignment.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -69,7 +69,7 @@ MetricLength metric_length(const Model& model, const sizing::SizeField& field, E
 
 /// A cheap guess of the segments of an edge, as its load.
 double estimate_load(const Model& model, const sizing::SizeField& field, EdgeId id) {
-  constexpr int chords = 8;  // rough: loads are dealt by it, no result depends on it
+  constexpr int chords = 8;  // rough: loads are distributed by it, no result depends on it
   const Edge& edge = model.edge(id);
   Vec3 from = model.edge_point(id, edge.first_parameter);
   double load = 1;
@@ -237,7 +237,7 @@ CurveMesh discretise_curves(const Model& model, const sizing::SizeField& field,
   mesh.sharp_corners = std::move(corners);
   parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-    align_tips(model, sizing::closing_gap(field.options()), mesh);
+    align_cusps(model, sizing::closing_gap(field.options()), mesh);
   });
   return mesh;
 }

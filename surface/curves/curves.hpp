@@ -42,7 +42,7 @@ bool is_constraining(const cad::Model& model, cad::EdgeId edge);
 /// of ds/h, at least enough segments that no two curves share both ends of a segment: three on a closed edge,
 /// two where another edge joins the same vertices). At sharp corners of faces the first segment is longer
 /// (sharp_corners.hpp), but not much at the CAD vertices in `short_legs` (ascending, the same on every rank).
-/// Beside closed ones vertices lie opposite each other (tip_alignment.hpp). Each edge is discretised by one
+/// Beside closed ones vertices lie opposite each other (cusp_alignment.hpp). Each edge is discretised by one
 /// rank, the result is shared. Collective.
 CurveMesh discretise_curves(const cad::Model& model, const sizing::SizeField& field,
                             std::span<const cad::VertexId> short_legs = {});

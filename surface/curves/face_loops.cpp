@@ -66,8 +66,9 @@ FaceLoops make_loops(std::span<const EdgeRow> rows) {
 }
 
 /// The rank of each face's loops.
-std::vector<parallel::Rank> deal_faces(const mesh::DistributedMesh& surface, const std::vector<EdgeRow>& rows,
-                                       std::span<const cad::FaceId> faces) {
+std::vector<parallel::Rank> assign_faces(const mesh::DistributedMesh& surface,
+                                         const std::vector<EdgeRow>& rows,
+                                         std::span<const cad::FaceId> faces) {
   std::vector<std::int64_t> counts(faces.size(), 0);
   for (const EdgeRow& row : rows) {
     const auto at = std::lower_bound(faces.begin(), faces.end(), row.face);
@@ -90,7 +91,7 @@ std::map<cad::FaceId, FaceLoops> gather_loops(const mesh::DistributedMesh& surfa
   const parallel::Communicator& communicator = surface.communicator;
   std::vector<EdgeRow> rows;
   for (const mesh::Piece& piece : surface.pieces) list_edges(piece, rows);
-  const std::vector<parallel::Rank> owners = deal_faces(surface, rows, faces);
+  const std::vector<parallel::Rank> owners = assign_faces(surface, rows, faces);
   const std::vector<EdgeRow> met =
       mesh::meet_by_key(communicator, std::move(rows), &EdgeRow::sorted, &EdgeRow::place);
   std::vector<EdgeRow> on_loops;

@@ -24,9 +24,9 @@ struct FaceLoops {
   std::int32_t find(mesh::SharedVertexKey vertex_key) const;
 };
 
-/// The loops of these faces (ascending, the same on every rank), each on one rank, dealt by their lengths.
-/// An edge belongs to a loop where triangles of several faces meet at it; cuts between pieces are none.
-/// Collective.
+/// The loops of these faces (ascending, the same on every rank), each on one rank, distributed by their
+/// lengths. An edge belongs to a loop where triangles of several faces meet at it; cuts between pieces are
+/// none. Collective.
 std::map<cad::FaceId, FaceLoops> gather_loops(const mesh::DistributedMesh& surface,
                                               std::span<const cad::FaceId> faces);
 

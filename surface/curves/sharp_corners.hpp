@@ -13,7 +13,7 @@
 namespace aeroloom::surface {
 
 /// Where two edges of a face meet below 30 degrees, as elements see it: from the distance of the local size.
-/// In a tip of two faces below 100: the sides of a cone of 50 degrees about its axis.
+/// In a apex of two faces below 100: the sides of a cone of 50 degrees about its axis.
 struct SharpCorner {
   cad::FaceId face = cad::no_entity;
   cad::VertexId vertex = cad::no_entity;
@@ -21,9 +21,9 @@ struct SharpCorner {
   double degrees = 0;
   /// Length of the first segment on both edges, so that one triangle fills the corner and elements fit
   /// between the edges behind it; 0 where the edges bend too much or are too short for one, and where the
-  /// corner is closed instead (cusp_tips.hpp).
+  /// corner is closed instead (cusps.hpp).
   double leg = 0;
-  bool closes = false;  ///< its edges are one as far as they are next to each other (cusp_tips.hpp)
+  bool closes = false;  ///< its edges are one as far as they are next to each other (cusps.hpp)
 
   static constexpr auto fields() {
     return std::tuple(&SharpCorner::face, &SharpCorner::vertex, &SharpCorner::ends, &SharpCorner::degrees,
@@ -34,8 +34,8 @@ struct SharpCorner {
 /// The other face where the same one lies beyond both edges of a corner, else no_entity.
 cad::FaceId face_beyond_both_edges(const cad::Model& model, const cad::FaceCorner& corner);
 /// Whether the same other face lies beyond both edges of a corner, and its corner there is not reflex either,
-/// as edges are at that distance: both faces end in one tip, halves of a cone or shells of a lens.
-bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);
+/// as edges are at that distance: both faces end in one apex, halves of a cone or shells of a lens.
+bool is_apex_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);
 
 /// All of them by face, the same on every rank. Collective.
 std::vector<SharpCorner> find_sharp_corners(const cad::Model& model, const sizing::SizeField& field);

@@ -10,16 +10,16 @@
 namespace aeroloom::surface {
 namespace {
 
-/// The loops as closed sequences of vertices of the subface, in the order of the loop edges. The same vertex
-/// may occur several times where the border touches itself.
-std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
-  std::vector<std::int32_t> next(support.points.size(), -1);
-  for (const auto& [from, to] : support.loop_edges) next[from] = to;
+/// The loops as closed sequences of vertices of the piece problem, in the order of the loop edges. The same
+/// vertex may occur several times where the border touches itself.
+std::vector<std::vector<std::int32_t>> trace_loops(const ChartSurface& surface) {
+  std::vector<std::int32_t> next(surface.points.size(), -1);
+  for (const auto& [from, to] : surface.loop_edges) next[from] = to;
   std::vector<std::vector<std::int32_t>> loops;
-  for (const auto& [first, second] : support.loop_edges) {
+  for (const auto& [first, second] : surface.loop_edges) {
     std::vector<std::int32_t> loop;
     for (std::int32_t p = first; next[p] >= 0;) {
-      loop.push_back(support.mesh_vertex[p]);
+      loop.push_back(surface.mesh_vertex[p]);
       const std::int32_t after = next[p];
       next[p] = -1;
       p = after;
@@ -32,9 +32,9 @@ std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
 /// One loop, turned so that it begins at its sharpest corner.
 class LoopCoarsener {
 public:
-  LoopCoarsener(const Subface& subface, const sizing::SizeField& coarse, double largest_turn,
+  LoopCoarsener(const PieceProblem& problem, const sizing::SizeField& coarse, double largest_turn,
                 std::vector<std::int32_t> loop)
-      : _points(subface.vertices.points),
+      : _points(problem.vertices.points),
         _coarse(coarse),
         _largest_turn(largest_turn),
         _loop(std::move(loop)) {
@@ -129,11 +129,11 @@ const CoarseSegment* CoarseLoops::find(std::int32_t from, std::int32_t to) const
   return nullptr;
 }
 
-CoarseLoops coarsen_loops(const Subface& subface, const sizing::SizeField& coarse, double largest_turn) {
+CoarseLoops coarsen_loops(const PieceProblem& problem, const sizing::SizeField& coarse, double largest_turn) {
   CoarseLoops result;
   std::set<std::array<std::int32_t, 2>> joined;
-  for (auto& loop : trace_loops(subface.support)) {
-    const LoopCoarsener coarsener(subface, coarse, largest_turn, std::move(loop));
+  for (auto& loop : trace_loops(problem.surface)) {
+    const LoopCoarsener coarsener(problem, coarse, largest_turn, std::move(loop));
     std::vector<std::size_t> kept = coarsener.choose();
     for (std::size_t i = 1; i < kept.size(); ++i) {
       // A second segment between the same vertices is divided where it can be.

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "sizing/field/size_field.hpp"
-#include "surface/division/subface.hpp"
+#include "surface/division/piece_problem.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace aeroloom::surface {
 
-/// A stretch of a loop between two vertices that are kept. Vertices are those of the subface.
+/// A stretch of a loop between two vertices that are kept. Vertices are those of the piece problem.
 struct CoarseSegment {
   std::int32_t from, to;    ///< kept
   std::int32_t begin, end;  ///< of CoarseLoops::inside: the vertices between, in this direction
@@ -27,6 +27,6 @@ struct CoarseLoops {
 /// segments follow `coarse` sizes and turn by at most `largest_turn`, as far as the fine edges allow it.
 /// Every loop has three segments at least. What two pieces share need not be coarsened alike: fine vertices
 /// tie them together.
-CoarseLoops coarsen_loops(const Subface& subface, const sizing::SizeField& coarse, double largest_turn);
+CoarseLoops coarsen_loops(const PieceProblem& problem, const sizing::SizeField& coarse, double largest_turn);
 
 }  // namespace aeroloom::surface

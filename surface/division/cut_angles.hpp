@@ -1,7 +1,7 @@
 /// The angles at which pieces meet, measured between the edges of the fine mesh.
 #pragma once
 
-#include "surface/division/subface.hpp"
+#include "surface/division/piece_problem.hpp"
 #include "surface/surface_report.hpp"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace aeroloom::surface {
 /// The fine edges of a face on its CAD curves, by the names of their ends.
 class FeatureEdges {
 public:
-  FeatureEdges(const Support& support, const FaceVertices& vertices);
+  FeatureEdges(const ChartSurface& surface, const FaceVertices& vertices);
   bool contains(mesh::SharedVertexKey a, mesh::SharedVertexKey b) const;
 
 private:
@@ -22,6 +22,7 @@ private:
 
 /// Angles of the pieces of one face at the ends of cuts: where a cut meets a feature curve, and where three
 /// cuts or more meet. Angles between two feature curves are not listed.
-std::vector<CutAngle> measure_cut_angles(const std::vector<Subface>& subfaces, const FeatureEdges& features);
+std::vector<CutAngle> measure_cut_angles(const std::vector<PieceProblem>& problems,
+                                         const FeatureEdges& features);
 
 }  // namespace aeroloom::surface

@@ -18,12 +18,12 @@ struct FaceMesh {
   std::vector<geometry::Vec2> uv;                      ///< parameters of each point on the CAD surface
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
   std::int32_t fixed = 0;                              ///< the first `fixed` vertices lie on borders and stay
-  /// A vertex inside of the face that is a vertex of the CAD model (pointed_tips.hpp).
-  struct Tip {
+  /// A vertex inside of the face that is a vertex of the CAD model (apexes.hpp).
+  struct ApexVertex {
     std::int32_t at = 0;
     cad::VertexId vertex = cad::no_entity;
   };
-  std::vector<Tip> tips;
+  std::vector<ApexVertex> apexes;
 };
 
 struct Remeshing {

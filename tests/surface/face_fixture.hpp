@@ -1,4 +1,4 @@
-/// Faces of small shapes and of real files, ready to be turned into supports and charts.
+/// Faces of small shapes and of real files, ready to be turned into chart surfaces and charts.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -6,7 +6,7 @@
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/charts/chart.hpp"
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 #include "surface/curves/curves.hpp"
 #include "tests/source_tree.hpp"
 

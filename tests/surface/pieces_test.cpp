@@ -211,10 +211,10 @@ TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
   EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
 }
 
-Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
+PieceProblem side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
   const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    if (!model.is_planar(f)) return subface_of_face(model, f, curves, field, {});
+    if (!model.is_planar(f)) return problem_of_face(model, f, curves, field, {});
   }
   throw std::logic_error("a cylinder without a side");
 }
@@ -222,12 +222,12 @@ Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field
 TEST(CoarseLoopsLocal, KeepASubsetInOrder) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.02);
-  const Subface subface = side_of_cylinder(model, field);
+  const PieceProblem problem = side_of_cylinder(model, field);
   const auto fine = static_cast<std::size_t>(std::round(2 * std::numbers::pi * 0.25 / 0.02));
-  ASSERT_NEAR(subface.support.loop_edges.size(), 2 * fine, 2);
-  const CoarseLoops by_size = coarsen_loops(subface, field.scaled(4), std::numbers::pi);
+  ASSERT_NEAR(problem.surface.loop_edges.size(), 2 * fine, 2);
+  const CoarseLoops by_size = coarsen_loops(problem, field.scaled(4), std::numbers::pi);
   EXPECT_NEAR(by_size.segments.size(), 0.5 * static_cast<double>(fine), 2);
-  const CoarseLoops by_turn = coarsen_loops(subface, field.scaled(1000), 30 * std::numbers::pi / 180);
+  const CoarseLoops by_turn = coarsen_loops(problem, field.scaled(1000), 30 * std::numbers::pi / 180);
   EXPECT_GE(by_turn.segments.size(), 24u);
   EXPECT_LE(by_turn.segments.size(), 30u);
   for (const CoarseLoops& loops : {by_size, by_turn}) {
@@ -239,25 +239,25 @@ TEST(CoarseLoopsLocal, KeepASubsetInOrder) {
       // What lies between comes in order along the circle: every step is a fine edge.
       std::int32_t last = segment.from;
       const auto step = [&](std::int32_t v) {
-        EXPECT_LT(distance(subface.vertices.points[last], subface.vertices.points[v]), 0.025);
+        EXPECT_LT(distance(problem.vertices.points[last], problem.vertices.points[v]), 0.025);
         last = v;
       };
       for (std::int32_t i = segment.begin; i < segment.end; ++i) step(loops.inside[i]);
       step(segment.to);
     }
-    EXPECT_EQ(seen.size(), subface.vertices.points.size());
+    EXPECT_EQ(seen.size(), problem.vertices.points.size());
   }
   EXPECT_EQ(by_size.find(-1, 0), nullptr);
 }
 
-TEST(SubfacesLocal, TravelBitForBit) {
+TEST(PieceProblemsLocal, TravelBitForBit) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.1);
-  const Subface subface = side_of_cylinder(model, field);
-  const Subface copy = parallel::from_wire<Subface>(parallel::to_wire(subface));
-  EXPECT_EQ(parallel::to_wire(copy), parallel::to_wire(subface));
+  const PieceProblem problem = side_of_cylinder(model, field);
+  const PieceProblem copy = parallel::from_wire<PieceProblem>(parallel::to_wire(problem));
+  EXPECT_EQ(parallel::to_wire(copy), parallel::to_wire(problem));
   EXPECT_EQ(parallel::to_wire(mesh_piece(model, copy, field, {})),
-            parallel::to_wire(mesh_piece(model, subface, field, {})));
+            parallel::to_wire(mesh_piece(model, problem, field, {})));
 }
 
 TEST(SharedVertexKeysLocal, NameVerticesOfCurvesAndCuts) {

@@ -81,7 +81,7 @@ TEST(SharpCorners, OfAWedgesSectionStayOpen) {
     EXPECT_FALSE(corner.closes);
     EXPECT_GT(corner.leg, 0);
   }
-  EXPECT_TRUE(mesh_surface(model, field, {}).report.closed_tips.empty());
+  EXPECT_TRUE(mesh_surface(model, field, {}).report.closed_cusps.empty());
 }
 
 }  // namespace

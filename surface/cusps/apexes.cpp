@@ -1,4 +1,4 @@
-#include "surface/tips/pointed_tips.hpp"
+#include "surface/cusps/apexes.hpp"
 
 #include "cad/model/evaluation/face_corners.hpp"
 #include "geometry/angle.hpp"
@@ -21,33 +21,33 @@ namespace {
 using geometry::Vec3;
 
 /// Radians of surface around a point. Chosen, not measured.
-constexpr double widest_tip = 340 * std::numbers::pi / 180;
-constexpr double widest_tip_of_facets = std::numbers::pi;
-/// Of the distance to the next point of the support: what tolerances of the CAD model leave between a vertex
-/// and the pole of a surface. Chosen, not measured.
+constexpr double widest_apex = 340 * std::numbers::pi / 180;
+constexpr double widest_apex_of_facets = std::numbers::pi;
+/// Of the distance to the next point of the chart surface: what tolerances of the CAD model leave between a
+/// vertex and the pole of a surface. Chosen, not measured.
 constexpr double same_place = 1e-3;
-/// Sizes that fit around a tip at the ring of its fan, at least. Chosen, not measured.
+/// Sizes that fit around a apex at the ring of its fan, at least. Chosen, not measured.
 constexpr double least_around = 4;
 /// The disk that gives way grows by this factor, so often, until it is one. Chosen, not measured.
 constexpr double growth_of_disk = 1.3;
 constexpr int most_disks = 5;
 
-/// The triangles of a support around a point inside of it.
+/// The triangles of a chart surface around a point inside of it.
 struct Surroundings {
   double angle = 0;                                   ///< of all triangles there together
   double reach = std::numeric_limits<double>::max();  ///< to the nearest other point
 };
 
 /// Nothing on the border.
-std::optional<Surroundings> look_around(const Support& support, std::int32_t point) {
+std::optional<Surroundings> look_around(const ChartSurface& surface, std::int32_t point) {
   const auto uses = [&](const auto& edge) { return edge[0] == point || edge[1] == point; };
-  if (std::any_of(support.loop_edges.begin(), support.loop_edges.end(), uses)) return std::nullopt;
+  if (std::any_of(surface.loop_edges.begin(), surface.loop_edges.end(), uses)) return std::nullopt;
   Surroundings around;
-  for (const auto& t : support.triangles) {
+  for (const auto& t : surface.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (t[k] != point) continue;
-      const Vec3 out = support.points[t[(k + 1) % 3]] - support.points[point];
-      const Vec3 back = support.points[t[(k + 2) % 3]] - support.points[point];
+      const Vec3 out = surface.points[t[(k + 1) % 3]] - surface.points[point];
+      const Vec3 back = surface.points[t[(k + 2) % 3]] - surface.points[point];
       around.angle += angle_between(out, back);
       around.reach = std::min(around.reach, norm(out));
     }
@@ -61,7 +61,7 @@ std::int32_t nearest_point(const std::vector<Vec3>& points, Vec3 place) {
 }
 
 /// By vertex: whether it gives way. Those nearer than `radius` that hang together with the nearest of all.
-/// Empty where one of them has to stay, on the border or another tip.
+/// Empty where one of them has to stay, on the border or another apex.
 std::vector<char> vertices_within(const FaceMesh& mesh, Vec3 place, double radius) {
   std::vector<char> near(mesh.points.size(), 0), within(mesh.points.size(), 0);
   for (std::size_t v = 0; v < near.size(); ++v) near[v] = distance(mesh.points[v], place) < radius;
@@ -81,9 +81,9 @@ std::vector<char> vertices_within(const FaceMesh& mesh, Vec3 place, double radiu
   }
   const bool has_border =
       std::any_of(within.begin(), within.begin() + mesh.fixed, [](char w) { return w != 0; });
-  const bool has_tip = std::any_of(mesh.tips.begin(), mesh.tips.end(),
-                                   [&](const FaceMesh::Tip& tip) { return within[tip.at]; });
-  if (has_border || has_tip) within.clear();
+  const bool has_apex = std::any_of(mesh.apexes.begin(), mesh.apexes.end(),
+                                    [&](const FaceMesh::ApexVertex& apex) { return within[apex.at]; });
+  if (has_border || has_apex) within.clear();
   return within;
 }
 
@@ -126,21 +126,21 @@ void remove(const std::vector<char>& within, FaceMesh& mesh, std::vector<std::in
   mesh.points.resize(kept), mesh.uv.resize(kept);
   for (auto& t : mesh.triangles) t = {number[t[0]], number[t[1]], number[t[2]]};
   for (std::int32_t& v : ring) v = number[v];
-  for (FaceMesh::Tip& tip : mesh.tips) tip.at = number[tip.at];
+  for (FaceMesh::ApexVertex& apex : mesh.apexes) apex.at = number[apex.at];
 }
 
-void cap(const PointedTip& tip, double size, FaceMesh& mesh) {
-  const double around = std::max(least_around, std::round(tip.angle / (std::numbers::pi / 3)));
-  double radius = around * size / tip.angle;
+void cap(const Apex& apex, double size, FaceMesh& mesh) {
+  const double around = std::max(least_around, std::round(apex.angle / (std::numbers::pi / 3)));
+  double radius = around * size / apex.angle;
   for (int i = 0; i < most_disks; ++i, radius *= growth_of_disk) {
-    const std::vector<char> within = vertices_within(mesh, tip.point, radius);
+    const std::vector<char> within = vertices_within(mesh, apex.point, radius);
     if (within.empty()) return;
     std::vector<std::int32_t> ring = ring_around(mesh, within);
     if (ring.size() < 3) continue;
     remove(within, mesh, ring);
     const auto at = static_cast<std::int32_t>(mesh.points.size());
-    mesh.points.push_back(tip.point), mesh.uv.push_back(tip.uv);
-    mesh.tips.push_back({at, tip.vertex});
+    mesh.points.push_back(apex.point), mesh.uv.push_back(apex.uv);
+    mesh.apexes.push_back({at, apex.vertex});
     for (std::size_t k = 0; k < ring.size(); ++k)
       mesh.triangles.push_back({at, ring[k], ring[(k + 1) % ring.size()]});
     return;
@@ -185,82 +185,82 @@ geometry::Vec2 middle_in_parameters(const cad::Model& model, const FaceMesh& mes
   return model.wrap(mesh.face, 0.5 * (from + to));
 }
 
-void split_tip(const cad::Model& model, const cad::FaceCorner& corner, std::int32_t vertex, FaceMesh& mesh) {
-  const auto at_tip = only_triangle_at(mesh, vertex);
-  if (!at_tip) return;
-  const auto tip = mesh.triangles[at_tip->triangle];
-  const std::int32_t from = tip[(at_tip->corner + 1) % 3], to = tip[(at_tip->corner + 2) % 3];
+void split_apex(const cad::Model& model, const cad::FaceCorner& corner, std::int32_t vertex, FaceMesh& mesh) {
+  const auto at_apex = only_triangle_at(mesh, vertex);
+  if (!at_apex) return;
+  const auto apex = mesh.triangles[at_apex->triangle];
+  const std::int32_t from = apex[(at_apex->corner + 1) % 3], to = apex[(at_apex->corner + 2) % 3];
   const auto behind = triangle_behind(mesh, from, to);
   constexpr double part_of_side = 0.5;
   const double near = part_of_side * distance(mesh.points[vertex], mesh.points[from]);
-  if (!behind || !is_tip_of_two_faces(model, corner, near)) return;
+  if (!behind || !is_apex_of_two_faces(model, corner, near)) return;
   const std::int32_t opposite = mesh.triangles[behind->triangle][behind->corner];
   const geometry::Vec2 uv = middle_in_parameters(model, mesh, from, to);
   const auto middle = static_cast<std::int32_t>(mesh.points.size());
   mesh.points.push_back(model.face_point(mesh.face, uv)), mesh.uv.push_back(uv);
-  mesh.triangles[at_tip->triangle] = {vertex, from, middle};
+  mesh.triangles[at_apex->triangle] = {vertex, from, middle};
   mesh.triangles[behind->triangle] = {opposite, to, middle};
   mesh.triangles.push_back({vertex, middle, to});
   mesh.triangles.push_back({opposite, middle, from});
 }
 
-std::vector<PointedTip> tips_at_poles(const cad::Model& model, const Support& support) {
-  std::vector<PointedTip> tips;
-  for (const auto& loop : model.face(support.face).loops) {
+std::vector<Apex> apexes_at_poles(const cad::Model& model, const ChartSurface& surface) {
+  std::vector<Apex> apexes;
+  for (const auto& loop : model.face(surface.face).loops) {
     for (const cad::Coedge& use : loop) {
       const cad::Edge& edge = model.edge(use.edge);
-      if (!edge.degenerate || support.points.empty()) continue;
+      if (!edge.degenerate || surface.points.empty()) continue;
       const Vec3 place = model.vertex(edge.first);
-      const std::int32_t point = nearest_point(support.points, place);
-      if (support.mesh_vertex[point] >= 0) continue;
-      const auto around = look_around(support, point);
-      if (!around || around->angle == 0 || around->angle >= widest_tip) continue;
-      if (distance(support.points[point], place) > same_place * around->reach) continue;
+      const std::int32_t point = nearest_point(surface.points, place);
+      if (surface.mesh_vertex[point] >= 0) continue;
+      const auto around = look_around(surface, point);
+      if (!around || around->angle == 0 || around->angle >= widest_apex) continue;
+      if (distance(surface.points[point], place) > same_place * around->reach) continue;
       const double middle = 0.5 * (edge.first_parameter + edge.last_parameter);
-      tips.push_back({edge.first, place, model.edge_uv(support.face, use, middle), around->angle});
+      apexes.push_back({edge.first, place, model.edge_uv(surface.face, use, middle), around->angle});
     }
   }
-  return tips;
+  return apexes;
 }
 
 /// Vertices of the facets inside of the face. What is wider is meshed across, as noise is.
-std::vector<PointedTip> tips_of_facets(const Support& support) {
-  std::vector<double> angles(support.points.size(), 0);
-  std::vector<geometry::Vec2> uv(support.points.size());
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const auto& v = support.triangles[t];
+std::vector<Apex> apexes_of_facets(const ChartSurface& surface) {
+  std::vector<double> angles(surface.points.size(), 0);
+  std::vector<geometry::Vec2> uv(surface.points.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& v = surface.triangles[t];
     for (int k = 0; k < 3; ++k) {
-      const Vec3 p = support.points[v[k]];
-      angles[v[k]] += angle_between(support.points[v[(k + 1) % 3]] - p, support.points[v[(k + 2) % 3]] - p);
-      uv[v[k]] = support.corner_uv[t][k];
+      const Vec3 p = surface.points[v[k]];
+      angles[v[k]] += angle_between(surface.points[v[(k + 1) % 3]] - p, surface.points[v[(k + 2) % 3]] - p);
+      uv[v[k]] = surface.corner_uv[t][k];
     }
   }
-  for (const auto& edge : support.loop_edges) angles[edge[0]] = angles[edge[1]] = widest_tip;
-  std::vector<PointedTip> tips;
+  for (const auto& edge : surface.loop_edges) angles[edge[0]] = angles[edge[1]] = widest_apex;
+  std::vector<Apex> apexes;
   for (std::size_t v = 0; v < angles.size(); ++v) {
-    if (angles[v] > 0 && angles[v] < widest_tip_of_facets)
-      tips.push_back({cad::no_entity, support.points[v], uv[v], angles[v]});
+    if (angles[v] > 0 && angles[v] < widest_apex_of_facets)
+      apexes.push_back({cad::no_entity, surface.points[v], uv[v], angles[v]});
   }
-  return tips;
+  return apexes;
 }
 
 }  // namespace
 
-void split_tips_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh) {
+void split_apexes_of_two_faces(const cad::Model& model, const FaceVertices& vertices, FaceMesh& mesh) {
   for (const cad::FaceCorner& corner : cad::corners_of(model, mesh.face)) {
     if (face_beyond_both_edges(model, corner) == cad::no_entity) continue;
     const mesh::SharedVertexKey key = mesh::cad_vertex_key(corner.vertex);
     if (std::binary_search(vertices.vertex_keys.begin(), vertices.vertex_keys.end(), key))
-      split_tip(model, corner, vertices.find(key), mesh);
+      split_apex(model, corner, vertices.find(key), mesh);
   }
 }
 
-std::vector<PointedTip> find_pointed_tips(const cad::Model& model, const Support& support) {
-  return model.is_faceted(support.face) ? tips_of_facets(support) : tips_at_poles(model, support);
+std::vector<Apex> find_apexes(const cad::Model& model, const ChartSurface& surface) {
+  return model.is_faceted(surface.face) ? apexes_of_facets(surface) : apexes_at_poles(model, surface);
 }
 
-void cap_pointed_tips(const sizing::SizeField& field, const std::vector<PointedTip>& tips, FaceMesh& mesh) {
-  for (const PointedTip& tip : tips) cap(tip, field(tip.point), mesh);
+void cap_apexes(const sizing::SizeField& field, const std::vector<Apex>& apexes, FaceMesh& mesh) {
+  for (const Apex& apex : apexes) cap(apex, field(apex.point), mesh);
 }
 
 }  // namespace aeroloom::surface

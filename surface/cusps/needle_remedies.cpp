@@ -1,4 +1,4 @@
-#include "surface/tips/needle_remedies.hpp"
+#include "surface/cusps/needle_remedies.hpp"
 
 #include "geometry/sort_unique.hpp"
 #include "surface/curves/sharp_corners.hpp"

@@ -1,8 +1,8 @@
-/// Fills what a piece is made of: a support, the vertices on its loops, and sizes. Nothing else is known
-/// here, so a whole face and a part of one are meshed alike.
+/// Fills what a piece is made of: a chart surface, the vertices on its loops, and sizes. Nothing else is
+/// known here, so a whole face and a part of one are meshed alike.
 #pragma once
 
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 #include "surface/remesh/remesh.hpp"
 
 #include <stdexcept>
@@ -26,7 +26,7 @@ private:
   std::vector<mesh::SharedVertexKey> _vertices;
 };
 
-struct SupportMeshing {
+struct ChartMeshing {
   double chart_spread = 60;   ///< degrees, as SurfaceOptions::chart_spread
   double largest_turn = 0;    ///< radians the surface may turn along an edge, whatever the field; 0: any
   double least_fraction = 1;  ///< of the field's size, that turns may ask for
@@ -35,7 +35,7 @@ struct SupportMeshing {
 
 /// Charts, front, and the smoothing that leaves no trace of the charts. Of `vertices` those on borders come
 /// first in the result and keep their numbers. Not collective. Throws FaceConflict or SurfaceError.
-FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, const Support& support,
-                      FaceVertices vertices, const SupportMeshing& options);
+FaceMesh mesh_charts(const cad::Model& model, const sizing::SizeField& field, const ChartSurface& surface,
+                     FaceVertices vertices, const ChartMeshing& options);
 
 }  // namespace aeroloom::surface

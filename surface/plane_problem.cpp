@@ -1,9 +1,9 @@
-#include "surface/plane_support.hpp"
+#include "surface/plane_problem.hpp"
 
 #include "geometry/place_text.hpp"
-#include "surface/charts/support_flips.hpp"
-#include "surface/charts/support_mesher.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/chart_mesher.hpp"
+#include "surface/charts/delaunay_flips.hpp"
+#include "surface/charts/surface_topology.hpp"
 #include "surface/front/boundary_triangulation.hpp"
 
 #include <cmath>
@@ -91,8 +91,8 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const FaceLo
 }
 
 /// The triangles inside, loop edges that have the face on both sides cut open.
-Support support_of(const front::Delaunay& plane, cad::FaceId face, const FaceVertices& vertices) {
-  Support whole;
+ChartSurface chart_surface_of(const front::Delaunay& plane, cad::FaceId face, const FaceVertices& vertices) {
+  ChartSurface whole;
   whole.face = face;
   whole.points = vertices.points;
   for (std::size_t v = 0; v < vertices.points.size(); ++v)
@@ -116,22 +116,22 @@ Support support_of(const front::Delaunay& plane, cad::FaceId face, const FaceVer
 
 }  // namespace
 
-Subface subface_of_plane(const cad::Model& model, cad::FaceId face, const FaceLoops& loops,
-                         const sizing::SizeField& field) {
+PieceProblem problem_of_plane(const cad::Model& model, cad::FaceId face, const FaceLoops& loops,
+                              const sizing::SizeField& field) {
   const PlaneView view(model, face);
   require_plane(model, face, loops, view);
   front::FrontInput boundary{{}, loops.edges};
   for (const Vec3 p : loops.points) boundary.points.push_back(view(p));
-  Subface subface;
-  subface.vertices = vertices_of(model, face, loops, view.uv());
+  PieceProblem problem;
+  problem.vertices = vertices_of(model, face, loops, view.uv());
   try {
-    subface.support = support_of(front::triangulate_region(boundary), face, subface.vertices);
+    problem.surface = chart_surface_of(front::triangulate_region(boundary), face, problem.vertices);
   } catch (const front::FrontError& error) {
     throw conflict_of(model, face, loops, error);
   }
-  flip_to_delaunay(subface.support);
-  subface.load = predict_triangles(subface.support, field);
-  return subface;
+  flip_to_delaunay(problem.surface);
+  problem.load = predict_triangles(problem.surface, field);
+  return problem;
 }
 
 }  // namespace aeroloom::surface

@@ -1,5 +1,5 @@
-/// The tip of a face between two curves tangent to each other is closed, and nothing sharp stays there.
-#include "surface/tips/cusp_tips.hpp"
+/// The cusp of a face between two curves tangent to each other is closed, and nothing sharp stays there.
+#include "surface/cusps/cusps.hpp"
 
 #include "mesh/checks/validity.hpp"
 #include "mesh/quality/quality.hpp"
@@ -84,23 +84,23 @@ double least_angle(const mesh::DistributedMesh& surface) {
   return least;
 }
 
-TEST(CuspTips, AreClosedAsFarAsTheirCurvesAreOne) {
+TEST(Cusps, AreClosedAsFarAsTheirCurvesAreOne) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
-  ASSERT_EQ(surface.report.closed_tips.size(), 1u);
-  const ClosedTip& tip = surface.report.closed_tips.front();
-  EXPECT_LT(distance(tip.point, {0, 0, 1}), 1e-9);
+  ASSERT_EQ(surface.report.closed_cusps.size(), 1u);
+  const ClosedCusp& cusp = surface.report.closed_cusps.front();
+  EXPECT_LT(distance(cusp.point, {0, 0, 1}), 1e-9);
   // The arc is x^2 / (2 radius) from the edge.
   const double widest = sizing::closing_gap(sizes);
-  EXPECT_LT(tip.length, std::sqrt(2 * radius * widest) * 1.01);
-  EXPECT_GT(tip.length, 0.4 * std::sqrt(2 * radius * widest));
-  EXPECT_GT(tip.moved, 0);
-  EXPECT_LE(tip.moved, 0.5 * sizes.minimum);
+  EXPECT_LT(cusp.length, std::sqrt(2 * radius * widest) * 1.01);
+  EXPECT_GT(cusp.length, 0.4 * std::sqrt(2 * radius * widest));
+  EXPECT_GT(cusp.moved, 0);
+  EXPECT_LE(cusp.moved, 0.5 * sizes.minimum);
   EXPECT_GT(least_angle(surface.mesh), 5);
 }
 
-TEST(CuspTips, LeaveAValidSurfaceOfTheSameArea) {
+TEST(Cusps, LeaveAValidSurfaceOfTheSameArea) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
@@ -118,7 +118,7 @@ TEST(CuspTips, LeaveAValidSurfaceOfTheSameArea) {
   EXPECT_NEAR(communicator.sum(area), 6, 1e-4);
 }
 
-TEST(CuspTips, AreClosedAlikeOnAnyNumberOfRanks) {
+TEST(Cusps, AreClosedAlikeOnAnyNumberOfRanks) {
   const Model model = cube_with_cusp();
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
     const mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
@@ -126,10 +126,10 @@ TEST(CuspTips, AreClosedAlikeOnAnyNumberOfRanks) {
   });
 }
 
-TEST(CuspTips, KeepExactPlanes) {
+TEST(Cusps, KeepExactPlanes) {
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(Communicator::world(), model);
-  ASSERT_FALSE(surface.report.closed_tips.empty());
+  ASSERT_FALSE(surface.report.closed_cusps.empty());
   for (const mesh::Piece& piece : surface.mesh.pieces) {
     const Vec3 first = piece.point(0);
     int planes = 0;
@@ -142,7 +142,7 @@ TEST(CuspTips, KeepExactPlanes) {
   }
 }
 
-TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
+TEST(Cusps, AskForNoSizesWhereTheyAreClosed) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   EXPECT_GT(field({0, 0, 1}), 2 * sizing::closing_gap(sizes));
@@ -150,7 +150,7 @@ TEST(CuspTips, AskForNoSizesWhereTheyAreClosed) {
   EXPECT_LT(field({1.2 * end, 0, 1}), 4 * sizing::closing_gap(sizes));
 }
 
-TEST(CuspTips, HaveSizesThatFollowTheirWidthBehind) {
+TEST(Cusps, HaveSizesThatFollowTheirWidthBehind) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   for (double x = 0.12; x < 0.4; x *= 1.02) {
@@ -159,7 +159,7 @@ TEST(CuspTips, HaveSizesThatFollowTheirWidthBehind) {
   }
 }
 
-TEST(CuspTips, HaveVerticesOppositeEachOther) {
+TEST(Cusps, HaveVerticesOppositeEachOther) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   const CurveMesh curves = discretise_curves(model, field);
@@ -177,13 +177,13 @@ TEST(CuspTips, HaveVerticesOppositeEachOther) {
   for (std::size_t i = 1; away[0][i] < end; ++i) EXPECT_NEAR(away[0][i], away[1][i], 1e-9);
 }
 
-TEST(CuspTips, StayWhereTheCurvesAreApart) {
+TEST(Cusps, StayWhereTheCurvesAreApart) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const auto field = sizing::build_size_field(communicator, model, sizes);
   const CurveMesh curves = discretise_curves(model, field);
   mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
-  EXPECT_TRUE(close_cusp_tips(model, curves, 1e-9, surface).empty());
+  EXPECT_TRUE(close_cusps(model, curves, 1e-9, surface).empty());
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-/// Tips of CAD faces between two curves that leave a CAD vertex along each other.
+/// Cusps of CAD faces between two curves that leave a CAD vertex along each other.
 ///
-/// Where a round runs out on an edge, or a cylinder touches a plane, a face ends in a tip whose sides are
+/// Where a round runs out on an edge, or a cylinder touches a plane, a face ends in a cusp whose sides are
 /// tangent to each other. Triangles there have angles of hundredths of a degree, the smaller the finer the
 /// mesh, and no tetrahedra of use stand on them. As far as the two curves are nearer to each other than
-/// triangles on a curved face are to their surface, the tip is closed: vertices that face each other become
+/// triangles on a curved face are to their surface, the cusp is closed: vertices that face each other become
 /// one, half-way, the triangles between them vanish, and the faces on either side meet.
 #pragma once
 
@@ -21,11 +21,11 @@ namespace aeroloom::surface {
 /// either side keep their shape. Chosen, not measured.
 inline constexpr double closing_width = 0.3;
 
-/// Closes the tips of the surface that the pieces, as the pool assembles them, make on these curves, as far
+/// Closes the cusps of the surface that the pieces, as the pool assembles them, make on these curves, as far
 /// as the curves are apart by less than `widest`. A vertex on several curves counts as part of the CAD
-/// vertex. A tip stays that has vertices between its curves, or whose curves other faces join. By
+/// vertex. A cusp stays that has vertices between its curves, or whose curves other faces join. By
 /// face, the same on every rank. Collective.
-std::vector<ClosedTip> close_cusp_tips(const cad::Model& model, const CurveMesh& curves, double widest,
-                                       mesh::DistributedMesh& surface);
+std::vector<ClosedCusp> close_cusps(const cad::Model& model, const CurveMesh& curves, double widest,
+                                    mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::surface

@@ -1,7 +1,7 @@
 /// Changes after which needles that the CAD does not force do not come about again.
 #pragma once
 
-#include "surface/tips/needles.hpp"
+#include "surface/cusps/needles.hpp"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 
 #include "geometry/place_text.hpp"
+#include "surface/charts/delaunay_flips.hpp"
 #include "surface/charts/open_facets.hpp"
-#include "surface/charts/support_flips.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 #include "surface/surface_error.hpp"
 
 #include <fmt/format.h>
@@ -31,13 +31,13 @@ std::vector<VertexPair> expected_loop_edges(const cad::Model& model, cad::FaceId
   return edges;
 }
 
-/// Throws where the boundary of the support is not that of the face.
-void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const Support& support,
+/// Throws where the boundary of the chart surface is not that of the face.
+void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const ChartSurface& surface,
                       const FaceVertices& vertices) {
-  std::vector<VertexPair> expected = expected_loop_edges(model, support.face, curves, vertices);
+  std::vector<VertexPair> expected = expected_loop_edges(model, surface.face, curves, vertices);
   std::vector<VertexPair> found;
-  for (const auto& [a, b] : support.loop_edges)
-    found.push_back({support.mesh_vertex[a], support.mesh_vertex[b]});
+  for (const auto& [a, b] : surface.loop_edges)
+    found.push_back({surface.mesh_vertex[a], surface.mesh_vertex[b]});
   std::sort(expected.begin(), expected.end());
   std::sort(found.begin(), found.end());
   if (expected == found) return;
@@ -46,23 +46,24 @@ void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const Su
   throw SurfaceError(fmt::format(
       "face {} (patch {}): the boundary of its triangulation is not that of its loops near {}; repair this "
       "face in the CAD program",
-      model.face(support.face).name, model.patches()[model.face(support.face).patch],
+      model.face(surface.face).name, model.patches()[model.face(surface.face).patch],
       geometry::place_text(vertices.points[odd[0]])));
 }
 
 }  // namespace
 
-Support build_support(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                      const cad::Facets& facets, const sizing::SizeField& field, FaceVertices& vertices) {
+ChartSurface build_chart_surface(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                                 const cad::Facets& facets, const sizing::SizeField& field,
+                                 FaceVertices& vertices) {
   OpenFacets open(model, face, facets);
   open.insert_curve_vertices(curves);
   open.match_seams();
   open.fit_to_surface(field);
-  Support support = open.close(curves, vertices);
-  flip_to_delaunay(support);
-  support.loop_edges = trace_loop_edges(support);
-  check_loop_edges(model, curves, support, vertices);
-  return support;
+  ChartSurface surface = open.close(curves, vertices);
+  flip_to_delaunay(surface);
+  surface.loop_edges = trace_loop_edges(surface);
+  check_loop_edges(model, curves, surface, vertices);
+  return surface;
 }
 
 }  // namespace aeroloom::surface

@@ -1,7 +1,7 @@
-#include "surface/charts/support_flips.hpp"
+#include "surface/charts/delaunay_flips.hpp"
 
 #include "geometry/predicates.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <cmath>
 
@@ -38,8 +38,8 @@ bool is_not_delaunay(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 template <class Wants>
 class Flipper {
 public:
-  Flipper(Support& support, Wants wants)
-      : _support(support), _wants(wants), _twins(geometry::match_half_edges(support.triangles)) {}
+  Flipper(ChartSurface& surface, Wants wants)
+      : _surface(surface), _wants(wants), _twins(geometry::match_half_edges(surface.triangles)) {}
 
   void run() {
     const geometry::HalfEdge count = static_cast<geometry::HalfEdge>(_twins.size());
@@ -48,8 +48,8 @@ public:
     for (geometry::HalfEdge h = count - 1; h >= 0; --h) {
       if (_twins[h] > h) queue.push_back(h), queued[h] = 1;
     }
-    // Angles of neighbours change a little with every flip on a curved support, so termination is enforced:
-    // after many times as many looks as there are edges.
+    // Angles of neighbours change a little with every flip on a curved chart surface, so termination is
+    // enforced: after many times as many looks as there are edges.
     constexpr std::int64_t looks_per_half_edge = 8;
     for (std::int64_t left = looks_per_half_edge * static_cast<std::int64_t>(count);
          !queue.empty() && left > 0; --left) {
@@ -67,14 +67,14 @@ public:
 
 private:
   bool may_flip(const Diamond& diamond) const {
-    const std::int32_t c = start_of(_support, diamond.ca()), d = start_of(_support, diamond.db());
+    const std::int32_t c = start_of(_surface, diamond.ca()), d = start_of(_surface, diamond.db());
     return c != d && _wants(diamond) && !are_joined(diamond.ca(), d);
   }
 
   /// Whether the point at the start of half-edge `from` has an edge to `to`.
   bool are_joined(geometry::HalfEdge from, std::int32_t to) const {
     const auto meets = [&](geometry::HalfEdge h) {
-      return end_of(_support, h) == to || end_of(_support, geometry::next_half_edge(h)) == to;
+      return end_of(_surface, h) == to || end_of(_surface, geometry::next_half_edge(h)) == to;
     };
     geometry::HalfEdge h = from;
     do {
@@ -94,10 +94,10 @@ private:
   void flip(const Diamond& diamond) {
     const auto [ab, ba] = diamond;
     const geometry::HalfEdge bc = diamond.bc(), ca = diamond.ca(), ad = diamond.ad(), db = diamond.db();
-    const std::int32_t a = start_of(_support, ab), b = start_of(_support, ba);
-    const std::int32_t c = start_of(_support, ca), d = start_of(_support, db);
-    const Vec2 a_uv = start_uv(_support, ab), b_uv = start_uv(_support, ba);
-    const Vec2 c_uv = start_uv(_support, ca), d_uv = start_uv(_support, db);
+    const std::int32_t a = start_of(_surface, ab), b = start_of(_surface, ba);
+    const std::int32_t c = start_of(_surface, ca), d = start_of(_surface, db);
+    const Vec2 a_uv = start_uv(_surface, ab), b_uv = start_uv(_surface, ba);
+    const Vec2 c_uv = start_uv(_surface, ca), d_uv = start_uv(_surface, db);
     const geometry::HalfEdge twin_bc = _twins[bc], twin_ca = _twins[ca], twin_ad = _twins[ad],
                              twin_db = _twins[db];
     set(ab, d, d_uv), set(bc, c, c_uv), set(ca, a, a_uv);
@@ -106,8 +106,8 @@ private:
   }
 
   void set(geometry::HalfEdge h, std::int32_t point, Vec2 uv) {
-    _support.triangles[h / 3][h % 3] = point;
-    _support.corner_uv[h / 3][h % 3] = uv;
+    _surface.triangles[h / 3][h % 3] = point;
+    _surface.corner_uv[h / 3][h % 3] = uv;
   }
 
   void link(geometry::HalfEdge h, geometry::HalfEdge twin) {
@@ -115,7 +115,7 @@ private:
     if (twin >= 0) _twins[twin] = h;
   }
 
-  Support& _support;
+  ChartSurface& _surface;
   Wants _wants;
   std::vector<geometry::HalfEdge> _twins;
 };
@@ -123,7 +123,7 @@ private:
 /// The rule of flip_to_delaunay().
 class SpaceRule {
 public:
-  explicit SpaceRule(const Support& support) : _support(support) {}
+  explicit SpaceRule(const ChartSurface& surface) : _surface(surface) {}
 
   bool operator()(const Diamond& diamond) const {
     const Vec3 a = point(diamond.ab), b = point(diamond.ba), c = point(diamond.ca()), d = point(diamond.db());
@@ -131,7 +131,7 @@ public:
   }
 
 private:
-  Vec3 point(geometry::HalfEdge h) const { return _support.points[start_of(_support, h)]; }
+  Vec3 point(geometry::HalfEdge h) const { return _surface.points[start_of(_surface, h)]; }
 
   static bool keeps_space(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Vec3 old_first = cross(b - a, c - a), old_second = cross(a - b, d - b);
@@ -146,28 +146,28 @@ private:
   }
 
   bool keeps_plane(const Diamond& diamond) const {
-    const Vec2 a = start_uv(_support, diamond.ab), b = end_uv(_support, diamond.ab);
-    if (!(a == end_uv(_support, diamond.ba) && b == start_uv(_support, diamond.ba))) return false;
-    const Vec2 c = start_uv(_support, diamond.ca()), d = start_uv(_support, diamond.db());
+    const Vec2 a = start_uv(_surface, diamond.ab), b = end_uv(_surface, diamond.ab);
+    if (!(a == end_uv(_surface, diamond.ba) && b == start_uv(_surface, diamond.ba))) return false;
+    const Vec2 c = start_uv(_surface, diamond.ca()), d = start_uv(_surface, diamond.db());
     return cross(d - a, c - a) * cross(b - d, c - d) > 0;
   }
 
-  const Support& _support;
+  const ChartSurface& _surface;
 };
 
 /// The rule of flip_in_parameters().
 class ParameterRule {
 public:
-  ParameterRule(const Support& support, const std::vector<SurfaceMetric>& metrics,
+  ParameterRule(const ChartSurface& surface, const std::vector<SurfaceMetric>& metrics,
                 const std::vector<std::int32_t>& same, int orientation)
-      : _support(support), _metrics(metrics), _same(same), _orientation(orientation) {}
+      : _surface(surface), _metrics(metrics), _same(same), _orientation(orientation) {}
 
   bool operator()(const Diamond& diamond) const {
-    const std::int32_t ia = start_of(_support, diamond.ab), ib = start_of(_support, diamond.ba);
-    const std::int32_t ic = start_of(_support, diamond.ca()), id = start_of(_support, diamond.db());
+    const std::int32_t ia = start_of(_surface, diamond.ab), ib = start_of(_surface, diamond.ba);
+    const std::int32_t ic = start_of(_surface, diamond.ca()), id = start_of(_surface, diamond.db());
     if (_same[ic] == _same[id]) return false;
-    const Vec2 a = start_uv(_support, diamond.ab), b = start_uv(_support, diamond.ba);
-    const Vec2 c = start_uv(_support, diamond.ca()), d = start_uv(_support, diamond.db());
+    const Vec2 a = start_uv(_surface, diamond.ab), b = start_uv(_surface, diamond.ba);
+    const Vec2 c = start_uv(_surface, diamond.ca()), d = start_uv(_surface, diamond.db());
     if (geometry::orient2d(a, d, c) != _orientation || geometry::orient2d(d, b, c) != _orientation)
       return false;
     if (geometry::orient2d(a, b, c) != _orientation || geometry::orient2d(b, a, d) != _orientation)
@@ -176,8 +176,8 @@ public:
     const double determinant = metric.uu * metric.vv - metric.uv * metric.uv;
     constexpr double singular = 1e-12;  // at a pole, where parameters are no plane
     if (!(determinant > singular * metric.uu * metric.vv)) {
-      return is_not_delaunay(_support.points[ia], _support.points[ib], _support.points[ic],
-                             _support.points[id]);
+      return is_not_delaunay(_surface.points[ia], _surface.points[ib], _surface.points[ic],
+                             _surface.points[id]);
     }
     // Lengths in this plane are lengths on the surface.
     const double root = std::sqrt(metric.uu), height = std::sqrt(determinant) / root;
@@ -193,7 +193,7 @@ private:
     return sum;
   }
 
-  const Support& _support;
+  const ChartSurface& _surface;
   const std::vector<SurfaceMetric>& _metrics;
   const std::vector<std::int32_t>& _same;
   int _orientation;
@@ -201,13 +201,13 @@ private:
 
 }  // namespace
 
-void flip_to_delaunay(Support& support) {
-  Flipper(support, SpaceRule(support)).run();
+void flip_to_delaunay(ChartSurface& surface) {
+  Flipper(surface, SpaceRule(surface)).run();
 }
 
-void flip_in_parameters(Support& support, const std::vector<SurfaceMetric>& metrics,
+void flip_in_parameters(ChartSurface& surface, const std::vector<SurfaceMetric>& metrics,
                         const std::vector<std::int32_t>& same, int orientation) {
-  Flipper(support, ParameterRule(support, metrics, same, orientation)).run();
+  Flipper(surface, ParameterRule(surface, metrics, same, orientation)).run();
 }
 
 }  // namespace aeroloom::surface

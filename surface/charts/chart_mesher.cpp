@@ -1,4 +1,4 @@
-#include "surface/charts/support_mesher.hpp"
+#include "surface/charts/chart_mesher.hpp"
 
 #include "geometry/place_text.hpp"
 #include "surface/charts/chart.hpp"
@@ -67,16 +67,16 @@ void use_joined_points(const std::vector<std::int32_t>& target, ChartBoundary& b
 
 ChartBoundary boundary_of(const Chart& chart) {
   ChartBoundary boundary;
-  std::vector<std::int32_t> number(chart.support.points.size(), -1);
-  const auto point_of = [&](std::int32_t support_point) {
-    if (number[support_point] < 0) {
-      number[support_point] = static_cast<std::int32_t>(boundary.input.points.size());
-      boundary.input.points.push_back(chart.plane[support_point]);
-      boundary.face_vertex.push_back(chart.support.mesh_vertex[support_point]);
+  std::vector<std::int32_t> number(chart.surface.points.size(), -1);
+  const auto point_of = [&](std::int32_t surface_point) {
+    if (number[surface_point] < 0) {
+      number[surface_point] = static_cast<std::int32_t>(boundary.input.points.size());
+      boundary.input.points.push_back(chart.plane[surface_point]);
+      boundary.face_vertex.push_back(chart.surface.mesh_vertex[surface_point]);
     }
-    return number[support_point];
+    return number[surface_point];
   };
-  for (const auto& [from, to] : chart.support.loop_edges) {
+  for (const auto& [from, to] : chart.surface.loop_edges) {
     const std::int32_t first = point_of(from);
     boundary.input.edges.push_back({first, point_of(to)});
   }
@@ -108,16 +108,16 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front:
           std::move(remedy), std::move(named)};
 }
 
-/// Per point of the chart's support, the length over which the surface turns by an angle; infinite where it
-/// is flat.
-std::vector<double> turning_lengths(const cad::Model& model, const Support& support, double angle) {
-  std::vector<double> lengths(support.points.size(), -1);
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+/// Per point of the chart's chart surface, the length over which the surface turns by an angle; infinite
+/// where it is flat.
+std::vector<double> turning_lengths(const cad::Model& model, const ChartSurface& surface, double angle) {
+  std::vector<double> lengths(surface.points.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
-      double& length = lengths[support.triangles[t][i]];
+      double& length = lengths[surface.triangles[t][i]];
       if (length >= 0) continue;
       const auto curvatures =
-          model.face_curvatures(support.face, model.wrap(support.face, support.corner_uv[t][i]));
+          model.face_curvatures(surface.face, model.wrap(surface.face, surface.corner_uv[t][i]));
       const double bend = curvatures.defined ? std::abs(curvatures.largest) : 0;
       length = bend > 0 ? angle / bend : std::numeric_limits<double>::infinity();
     }
@@ -129,10 +129,10 @@ std::vector<double> turning_lengths(const cad::Model& model, const Support& supp
 class ChartSizes {
 public:
   ChartSizes(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
-             const ChartLocator& locator, const SupportMeshing& options)
+             const ChartLocator& locator, const ChartMeshing& options)
       : _field(field), _chart(chart), _locator(locator), _least_fraction(options.least_fraction) {
-    if (options.largest_turn > 0 && !model.is_planar(chart.support.face))
-      _turning = turning_lengths(model, chart.support, options.largest_turn);
+    if (options.largest_turn > 0 && !model.is_planar(chart.surface.face))
+      _turning = turning_lengths(model, chart.surface, options.largest_turn);
   }
 
   double operator()(Vec2 point, std::int32_t& hint) const {
@@ -140,7 +140,7 @@ public:
     const double asked = _field(at.point);
     double size = asked;
     if (!_turning.empty()) {
-      for (const std::int32_t corner : _chart.support.triangles[at.triangle])
+      for (const std::int32_t corner : _chart.surface.triangles[at.triangle])
         size = std::min(size, _turning[corner]);
       size = std::max(size, _least_fraction * asked);
     }
@@ -152,14 +152,14 @@ private:
   const Chart& _chart;
   const ChartLocator& _locator;
   double _least_fraction;
-  std::vector<double> _turning;  // per support point; empty: any
+  std::vector<double> _turning;  // per chart surface point; empty: any
 };
 
 /// Appends the triangles of one chart to the mesh of the piece. Points the front placed return to the CAD
 /// surface.
 void fill_chart(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
-                const FaceVertices& vertices, const SupportMeshing& options, FaceMesh& mesh) {
-  const cad::FaceId face = chart.support.face;
+                const FaceVertices& vertices, const ChartMeshing& options, FaceMesh& mesh) {
+  const cad::FaceId face = chart.surface.face;
   const ChartBoundary boundary = boundary_of(chart);
   const ChartLocator locator(chart);
   const ChartSizes sizes(model, field, chart, locator, options);
@@ -186,13 +186,13 @@ void fill_chart(const cad::Model& model, const sizing::SizeField& field, const C
 
 }  // namespace
 
-FaceMesh mesh_support(const cad::Model& model, const sizing::SizeField& field, const Support& support,
-                      FaceVertices vertices, const SupportMeshing& options) {
+FaceMesh mesh_charts(const cad::Model& model, const sizing::SizeField& field, const ChartSurface& surface,
+                     FaceVertices vertices, const ChartMeshing& options) {
   FaceMesh mesh;
-  mesh.face = support.face;
+  mesh.face = surface.face;
   mesh.fixed = vertices.border_count();
   const std::vector<Chart> charts =
-      make_charts(model, field, support, {.spread = options.chart_spread}, vertices);
+      make_charts(model, field, surface, {.spread = options.chart_spread}, vertices);
   mesh.points = vertices.points;
   mesh.uv = vertices.uv;
   for (const Chart& chart : charts) fill_chart(model, field, chart, vertices, options, mesh);

@@ -1,7 +1,7 @@
-#include "surface/tips/needles.hpp"
+#include "surface/cusps/needles.hpp"
 
+#include "surface/cusps/cusp_topology.hpp"
 #include "surface/remesh/triangle_angle.hpp"
-#include "surface/tips/tip_topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,19 +44,19 @@ public:
     each_end([&](cad::VertexId v, EdgeId e) { _edges[next[v]++] = e; });
   }
 
-  /// `on_curve`: as curve_vertices() has it, -1 also for pointed tips inside of a face (pointed_tips.hpp).
+  /// `on_curve`: as curve_vertices() has it, -1 also for apexes inside of a face (apexes.hpp).
   NeedleCause judge(const mesh::Piece& piece, const std::vector<CurveVertex>& on_curve,
                     const LocalIndex* triangle) const {
     std::array<Vec3, 3> p;
     std::array<CurveVertex, 3> v;
     for (int i = 0; i < 3; ++i) p[i] = piece.point(triangle[i]), v[i] = on_curve[triangle[i]];
     if (v[0] < 0 || v[1] < 0 || v[2] < 0) return NeedleCause::mesh;
-    int tip = 0;
+    int apex = 0;
     for (int i = 1; i < 3; ++i) {
-      if (distance(p[(i + 1) % 3], p[(i + 2) % 3]) < distance(p[(tip + 1) % 3], p[(tip + 2) % 3])) tip = i;
+      if (distance(p[(i + 1) % 3], p[(i + 2) % 3]) < distance(p[(apex + 1) % 3], p[(apex + 2) % 3])) apex = i;
     }
-    if (v[tip] < _model.vertex_count() && is_segment(v[tip], v[(tip + 1) % 3]) &&
-        is_segment(v[tip], v[(tip + 2) % 3])) {
+    if (v[apex] < _model.vertex_count() && is_segment(v[apex], v[(apex + 1) % 3]) &&
+        is_segment(v[apex], v[(apex + 2) % 3])) {
       return NeedleCause::corner;
     }
     for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-#include "surface/curves/tip_alignment.hpp"
+#include "surface/curves/cusp_alignment.hpp"
 
 #include <algorithm>
 #include <map>
@@ -30,9 +30,9 @@ std::vector<double> distances(const CurveMesh& curves, const std::vector<CurveVe
 }
 
 /// A corner with the curve that leads and the one that follows.
-class TipAlignment {
+class CuspAlignment {
 public:
-  TipAlignment(const Model& model, CurveMesh& curves, cad::VertexId vertex, EdgeEnd leader, EdgeEnd follower)
+  CuspAlignment(const Model& model, CurveMesh& curves, cad::VertexId vertex, EdgeEnd leader, EdgeEnd follower)
       : _model(model), _curves(curves), _follower(follower), _at(model.vertex(vertex)) {
     _led = from_end(model, curves, follower);
     _leading = distances(curves, from_end(model, curves, leader), _at);
@@ -94,7 +94,7 @@ std::vector<CurveVertex> near_half(const Model& model, const CurveMesh& curves, 
   return chain;
 }
 
-void align_tips(const Model& model, double widest, CurveMesh& curves) {
+void align_cusps(const Model& model, double widest, CurveMesh& curves) {
   std::map<std::pair<cad::EdgeId, bool>, bool> follows;
   for (const SharpCorner& corner : curves.sharp_corners) {
     if (!corner.closes) continue;
@@ -103,7 +103,7 @@ void align_tips(const Model& model, double widest, CurveMesh& curves) {
     if (follows[{follower.edge, follower.first}]) std::swap(leader, follower);
     if (follows[{follower.edge, follower.first}] || leader.edge == follower.edge) continue;
     follows[{follower.edge, follower.first}] = true;
-    TipAlignment(model, curves, corner.vertex, leader, follower).run(widest);
+    CuspAlignment(model, curves, corner.vertex, leader, follower).run(widest);
   }
 }
 

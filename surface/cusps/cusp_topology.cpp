@@ -1,4 +1,4 @@
-#include "surface/tips/tip_topology.hpp"
+#include "surface/cusps/cusp_topology.hpp"
 
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/sort_unique.hpp"
@@ -26,10 +26,10 @@ std::vector<CurveVertex> curve_vertices(const CurveMesh& curves, const Piece& pi
   return result;
 }
 
-std::vector<std::int32_t> ranks_in_tip(const Tip& tip, const std::vector<CurveVertex>& on_curve) {
-  std::map<CurveVertex, std::int32_t> rank{{tip.vertex, 0}};
-  for (std::size_t i = 0; i < tip.pairs.size(); ++i) {
-    for (const CurveVertex v : tip.pairs[i]) rank[v] = static_cast<std::int32_t>(i) + 1;
+std::vector<std::int32_t> levels_in_cusp(const Cusp& cusp, const std::vector<CurveVertex>& on_curve) {
+  std::map<CurveVertex, std::int32_t> rank{{cusp.vertex, 0}};
+  for (std::size_t i = 0; i < cusp.pairs.size(); ++i) {
+    for (const CurveVertex v : cusp.pairs[i]) rank[v] = static_cast<std::int32_t>(i) + 1;
   }
   std::vector<std::int32_t> ranks(on_curve.size(), -1);
   for (std::size_t v = 0; v < on_curve.size(); ++v) {
@@ -39,7 +39,7 @@ std::vector<std::int32_t> ranks_in_tip(const Tip& tip, const std::vector<CurveVe
   return ranks;
 }
 
-std::int32_t level_in_tip(const LocalIndex* triangle, const std::vector<std::int32_t>& ranks) {
+std::int32_t level_of_triangle(const LocalIndex* triangle, const std::vector<std::int32_t>& ranks) {
   std::int32_t highest = 0;
   for (int k = 0; k < 3; ++k) {
     if (ranks[triangle[k]] < 0) return -1;
@@ -50,15 +50,15 @@ std::int32_t level_in_tip(const LocalIndex* triangle, const std::vector<std::int
 
 namespace {
 
-/// How many pairs of a tip can be closed, by what its piece holds.
+/// How many pairs of a cusp can be closed, by what its piece holds.
 struct Closing {
-  std::int32_t tip;
+  std::int32_t cusp;
   std::int32_t pairs;
 
-  static constexpr auto fields() { return std::tuple(&Closing::tip, &Closing::pairs); }
+  static constexpr auto fields() { return std::tuple(&Closing::cusp, &Closing::pairs); }
 };
 
-/// How the triangles after a tip's first `pairs` pairs know its vertices.
+/// How the triangles after a cusp's first `pairs` pairs know its vertices.
 class PairSurroundings {
 public:
   PairSurroundings(const Piece& piece, const std::vector<std::int32_t>& ranks, std::int32_t pairs)
@@ -70,7 +70,7 @@ public:
     int closing = 0;
     for (LocalIndex t = 0; t < _piece.cell_count(); ++t) {
       const LocalIndex* v = _piece.cell(t);
-      const std::int32_t own = level_in_tip(v, _ranks);
+      const std::int32_t own = level_of_triangle(v, _ranks);
       if (own >= 0 && own <= _pairs) continue;
       for (int k = 0; k < 3; ++k) {
         const LocalIndex a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
@@ -87,7 +87,7 @@ public:
 private:
   bool is_closed(LocalIndex v) const { return _ranks[v] > 0 && _ranks[v] <= _pairs; }
 
-  /// Vertices, not of the tip, next to both vertices of the last pair.
+  /// Vertices, not of the cusp, next to both vertices of the last pair.
   static std::size_t common(std::map<LocalIndex, std::vector<LocalIndex>>& neighbours) {
     std::vector<std::vector<LocalIndex>> sorted;
     for (auto& [vertex, next] : neighbours) {
@@ -107,11 +107,11 @@ private:
 
 /// How many pairs the triangles of a piece let close: those up to a pair must be all that lie between the
 /// curves there.
-std::int32_t closable_pairs(const Piece& piece, const Tip& tip, const std::vector<CurveVertex>& on_curve) {
-  const std::vector<std::int32_t> ranks = ranks_in_tip(tip, on_curve);
-  std::vector<std::int32_t> triangles(tip.pairs.size() + 1, 0);
+std::int32_t closable_pairs(const Piece& piece, const Cusp& cusp, const std::vector<CurveVertex>& on_curve) {
+  const std::vector<std::int32_t> ranks = levels_in_cusp(cusp, on_curve);
+  std::vector<std::int32_t> triangles(cusp.pairs.size() + 1, 0);
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
-    const std::int32_t own = level_in_tip(piece.cell(t), ranks);
+    const std::int32_t own = level_of_triangle(piece.cell(t), ranks);
     if (own >= 0) ++triangles[own];
   }
   std::int32_t best = 0, sum = triangles[0];
@@ -122,27 +122,27 @@ std::int32_t closable_pairs(const Piece& piece, const Tip& tip, const std::vecto
   return best > 0 && PairSurroundings(piece, ranks, best).let_close() ? best : 0;
 }
 
-/// Tips whose pieces let them close, cut to the pairs that do. Collective.
-std::vector<Tip> agree_on_tips(const CurveMesh& curves, const mesh::DistributedMesh& surface,
-                               std::vector<Tip> tips) {
+/// Cusps whose pieces let them close, cut to the pairs that do. Collective.
+std::vector<Cusp> agree_on_cusps(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                                 std::vector<Cusp> cusps) {
   std::vector<Closing> mine;
   parallel::agree(surface.communicator, [&] {
     for (const Piece& piece : surface.pieces) {
       std::vector<CurveVertex> on_curve;
-      for (std::size_t i = 0; i < tips.size(); ++i) {
-        if (tips[i].face != piece.common_face()) continue;
+      for (std::size_t i = 0; i < cusps.size(); ++i) {
+        if (cusps[i].face != piece.common_face()) continue;
         if (on_curve.empty()) on_curve = curve_vertices(curves, piece);
-        const std::int32_t pairs = closable_pairs(piece, tips[i], on_curve);
+        const std::int32_t pairs = closable_pairs(piece, cusps[i], on_curve);
         if (pairs > 0) mine.push_back({static_cast<std::int32_t>(i), pairs});
       }
     }
   });
-  std::vector<std::int32_t> pairs(tips.size(), 0);
+  std::vector<std::int32_t> pairs(cusps.size(), 0);
   for (const Closing& closing : surface.communicator.all_gather_items<Closing>(mine))
-    pairs[closing.tip] = std::max(pairs[closing.tip], closing.pairs);
-  for (std::size_t i = 0; i < tips.size(); ++i) tips[i].pairs.resize(pairs[i]);
-  std::erase_if(tips, [](const Tip& tip) { return tip.pairs.empty(); });
-  return tips;
+    pairs[closing.cusp] = std::max(pairs[closing.cusp], closing.pairs);
+  for (std::size_t i = 0; i < cusps.size(); ++i) cusps[i].pairs.resize(pairs[i]);
+  std::erase_if(cusps, [](const Cusp& cusp) { return cusp.pairs.empty(); });
+  return cusps;
 }
 
 /// A triangle whose vertices all lie on curves.
@@ -154,19 +154,19 @@ struct CurveTriangle {
   auto operator<=>(const CurveTriangle&) const = default;
 };
 
-/// The triangles around tips after these have closed.
+/// The triangles around cusps after these have closed.
 class Closure {
 public:
-  Closure(std::size_t curve_vertices, const std::vector<Tip>& tips)
-      : _tips(tips), _open(tips.size(), 0), _sets(curve_vertices) {
-    for (std::size_t i = 0; i < tips.size(); ++i) {
-      for (const auto& pair : tips[i].pairs) {
-        for (const CurveVertex v : pair) _tips_at[v].push_back(i);
+  Closure(std::size_t curve_vertices, const std::vector<Cusp>& cusps)
+      : _cusps(cusps), _open(cusps.size(), 0), _sets(curve_vertices) {
+    for (std::size_t i = 0; i < cusps.size(); ++i) {
+      for (const auto& pair : cusps[i].pairs) {
+        for (const CurveVertex v : pair) _cusps_at[v].push_back(i);
       }
     }
   }
 
-  /// Triangles around the tips, on this rank.
+  /// Triangles around the cusps, on this rank.
   std::vector<CurveTriangle> collect(const CurveMesh& curves, const mesh::DistributedMesh& surface) const {
     std::vector<CurveTriangle> result;
     for (const Piece& piece : surface.pieces) {
@@ -177,14 +177,14 @@ public:
         const auto& all = triangle.vertices;
         const bool on_curves = std::min({all[0], all[1], all[2]}) >= 0;
         if (on_curves &&
-            std::any_of(all.begin(), all.end(), [&](auto each) { return _tips_at.contains(each); }))
+            std::any_of(all.begin(), all.end(), [&](auto each) { return _cusps_at.contains(each); }))
           result.push_back(triangle);
       }
     }
     return result;
   }
 
-  /// Opens tips, the last one first, until no triangle of another face loses an edge and no two become one.
+  /// Opens cusps, the last one first, until no triangle of another face loses an edge and no two become one.
   const std::vector<char>& open_needed(const std::vector<CurveTriangle>& triangles) {
     while (open_one(triangles)) {
     }
@@ -194,9 +194,9 @@ public:
 private:
   bool open_one(const std::vector<CurveTriangle>& triangles) {
     _sets = geometry::DisjointSets<CurveVertex>(_sets.size());
-    for (std::size_t i = 0; i < _tips.size(); ++i) {
+    for (std::size_t i = 0; i < _cusps.size(); ++i) {
       if (_open[i]) continue;
-      for (const auto& [a, b] : _tips[i].pairs) _sets.unite(a, b);
+      for (const auto& [a, b] : _cusps[i].pairs) _sets.unite(a, b);
     }
     std::vector<std::array<CurveVertex, 6>> left;  // what vertices become, ascending, and what they are
     for (const CurveTriangle& triangle : triangles) {
@@ -216,38 +216,38 @@ private:
     return false;
   }
 
-  /// Whether it lies between the curves of a tip of its face.
-  bool vanishes(const CurveTriangle& triangle) const { return vertices_in_own_tip(triangle) == 3; }
-  /// Whether it is next to the last pair of a tip of its face.
-  bool ends(const CurveTriangle& triangle) const { return vertices_in_own_tip(triangle) == 2; }
-  std::ptrdiff_t vertices_in_own_tip(const CurveTriangle& triangle) const {
+  /// Whether it lies between the curves of a cusp of its face.
+  bool vanishes(const CurveTriangle& triangle) const { return vertices_in_own_cusp(triangle) == 3; }
+  /// Whether it is next to the last pair of a cusp of its face.
+  bool ends(const CurveTriangle& triangle) const { return vertices_in_own_cusp(triangle) == 2; }
+  std::ptrdiff_t vertices_in_own_cusp(const CurveTriangle& triangle) const {
     std::ptrdiff_t most = 0;
     for (const CurveVertex v : triangle.vertices) {
-      const auto found = _tips_at.find(v);
-      if (found == _tips_at.end()) continue;
-      for (const std::size_t tip : found->second) {
-        if (_open[tip] || _tips[tip].face != triangle.face) continue;
+      const auto found = _cusps_at.find(v);
+      if (found == _cusps_at.end()) continue;
+      for (const std::size_t cusp : found->second) {
+        if (_open[cusp] || _cusps[cusp].face != triangle.face) continue;
         most = std::max(most, std::count_if(triangle.vertices.begin(), triangle.vertices.end(),
-                                            [&](CurveVertex w) { return is_in(w, tip); }));
+                                            [&](CurveVertex w) { return is_in(w, cusp); }));
       }
     }
     return most;
   }
-  bool is_in(CurveVertex v, std::size_t tip) const {
-    if (v == _tips[tip].vertex) return true;
-    const auto found = _tips_at.find(v);
-    return found != _tips_at.end() &&
-           std::find(found->second.begin(), found->second.end(), tip) != found->second.end();
+  bool is_in(CurveVertex v, std::size_t cusp) const {
+    if (v == _cusps[cusp].vertex) return true;
+    const auto found = _cusps_at.find(v);
+    return found != _cusps_at.end() &&
+           std::find(found->second.begin(), found->second.end(), cusp) != found->second.end();
   }
 
-  /// The last of the tips that some vertices are in. False where all are open.
+  /// The last of the cusps that some vertices are in. False where all are open.
   bool open_last(const std::vector<CurveVertex>& vertices) {
     std::ptrdiff_t last = -1;
     for (const CurveVertex v : vertices) {
-      const auto found = _tips_at.find(v);
-      if (found == _tips_at.end()) continue;
-      for (const std::size_t tip : found->second) {
-        if (!_open[tip]) last = std::max(last, static_cast<std::ptrdiff_t>(tip));
+      const auto found = _cusps_at.find(v);
+      if (found == _cusps_at.end()) continue;
+      for (const std::size_t cusp : found->second) {
+        if (!_open[cusp]) last = std::max(last, static_cast<std::ptrdiff_t>(cusp));
       }
     }
     if (last < 0) return false;
@@ -255,34 +255,34 @@ private:
     return true;
   }
 
-  const std::vector<Tip>& _tips;
+  const std::vector<Cusp>& _cusps;
   std::vector<char> _open;
-  std::map<CurveVertex, std::vector<std::size_t>> _tips_at;  // of vertices in pairs
+  std::map<CurveVertex, std::vector<std::size_t>> _cusps_at;  // of vertices in pairs
   geometry::DisjointSets<CurveVertex> _sets;
 };
 
-/// Without tips that other faces keep open. Collective.
-std::vector<Tip> without_open(const CurveMesh& curves, const mesh::DistributedMesh& surface,
-                              std::vector<Tip> tips) {
-  Closure closure(curves.points.size(), tips);
+/// Without cusps that other faces keep open. Collective.
+std::vector<Cusp> without_open(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                               std::vector<Cusp> cusps) {
+  Closure closure(curves.points.size(), cusps);
   std::vector<CurveTriangle> triangles =
       surface.communicator.all_gather_items<CurveTriangle>(closure.collect(curves, surface));
-  // Which tip opens first depends on their order, and theirs on the ranks.
+  // Which cusp opens first depends on their order, and theirs on the ranks.
   std::sort(triangles.begin(), triangles.end());
   const std::vector<char>& open = closure.open_needed(triangles);
-  std::vector<Tip> rest;
-  for (std::size_t i = 0; i < tips.size(); ++i) {
-    if (!open[i]) rest.push_back(std::move(tips[i]));
+  std::vector<Cusp> rest;
+  for (std::size_t i = 0; i < cusps.size(); ++i) {
+    if (!open[i]) rest.push_back(std::move(cusps[i]));
   }
   return rest;
 }
 
 }  // namespace
 
-std::vector<Tip> closable_tips(const CurveMesh& curves, const mesh::DistributedMesh& surface,
-                               std::vector<Tip> tips) {
-  tips = agree_on_tips(curves, surface, std::move(tips));
-  return tips.empty() ? tips : without_open(curves, surface, std::move(tips));
+std::vector<Cusp> closable_cusps(const CurveMesh& curves, const mesh::DistributedMesh& surface,
+                                 std::vector<Cusp> cusps) {
+  cusps = agree_on_cusps(curves, surface, std::move(cusps));
+  return cusps.empty() ? cusps : without_open(curves, surface, std::move(cusps));
 }
 
 }  // namespace aeroloom::surface

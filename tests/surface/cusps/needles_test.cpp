@@ -1,5 +1,5 @@
 /// Triangles below ten degrees stay where the CAD forces them, and nowhere else.
-#include "surface/tips/needles.hpp"
+#include "surface/cusps/needles.hpp"
 
 #include "mesh/checks/validity.hpp"
 #include "mesh/quality/quality.hpp"

@@ -1,4 +1,4 @@
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include "geometry/disjoint_sets.hpp"
 
@@ -17,7 +17,7 @@ struct Division {
 };
 
 /// Fans the first edge that has points from the opposite corner, and so on until no points are left.
-void emit(const Division& division, Support& out) {
+void emit(const Division& division, ChartSurface& out) {
   int edge = 0;
   while (edge < 3 && division.inserts[edge].empty()) ++edge;
   if (edge == 3) {
@@ -42,34 +42,34 @@ void emit(const Division& division, Support& out) {
 
 }  // namespace
 
-std::vector<std::vector<geometry::HalfEdge>> trace_boundary(const Support& support,
+std::vector<std::vector<geometry::HalfEdge>> trace_boundary(const ChartSurface& surface,
                                                             const std::vector<geometry::HalfEdge>& twins) {
-  std::vector<geometry::HalfEdge> outgoing(support.points.size(), -1);
+  std::vector<geometry::HalfEdge> outgoing(surface.points.size(), -1);
   const geometry::HalfEdge count = static_cast<geometry::HalfEdge>(twins.size());
   for (geometry::HalfEdge h = 0; h < count; ++h) {
-    if (twins[h] < 0) outgoing[start_of(support, h)] = h;
+    if (twins[h] < 0) outgoing[start_of(surface, h)] = h;
   }
   std::vector<std::vector<geometry::HalfEdge>> loops;
   for (geometry::HalfEdge h = 0; h < count; ++h) {
-    if (twins[h] >= 0 || outgoing[start_of(support, h)] != h) continue;
+    if (twins[h] >= 0 || outgoing[start_of(surface, h)] != h) continue;
     std::vector<geometry::HalfEdge> loop;
     for (geometry::HalfEdge at = h; at >= 0;) {
       loop.push_back(at);
-      outgoing[start_of(support, at)] = -1;
-      at = outgoing[end_of(support, at)];
+      outgoing[start_of(surface, at)] = -1;
+      at = outgoing[end_of(surface, at)];
     }
     loops.push_back(std::move(loop));
   }
   return loops;
 }
 
-std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support) {
+std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const ChartSurface& surface) {
   std::vector<std::array<std::int32_t, 2>> edges;
-  for (const auto& loop : trace_boundary(support, geometry::match_half_edges(support.triangles))) {
+  for (const auto& loop : trace_boundary(surface, geometry::match_half_edges(surface.triangles))) {
     std::int32_t first = -1, last = -1;
     for (const geometry::HalfEdge h : loop) {
-      const std::int32_t point = start_of(support, h);
-      if (support.mesh_vertex[point] < 0) continue;
+      const std::int32_t point = start_of(surface, h);
+      if (surface.mesh_vertex[point] < 0) continue;
       if (first < 0) first = point;
       if (last >= 0) edges.push_back({last, point});
       last = point;
@@ -79,35 +79,36 @@ std::vector<std::array<std::int32_t, 2>> trace_loop_edges(const Support& support
   return edges;
 }
 
-std::vector<Support> separate_parts(const Support& support, const std::vector<geometry::HalfEdge>& twins,
-                                    const std::vector<std::int32_t>& part, std::int32_t parts) {
+std::vector<ChartSurface> separate_parts(const ChartSurface& surface,
+                                         const std::vector<geometry::HalfEdge>& twins,
+                                         const std::vector<std::int32_t>& part, std::int32_t parts) {
   // Corners joined across edges inside a part are one point of it.
-  geometry::DisjointSets<std::int32_t> fans(3 * support.triangles.size());
+  geometry::DisjointSets<std::int32_t> fans(3 * surface.triangles.size());
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (twins[h] < h || part[h / 3] != part[twins[h] / 3]) continue;
     fans.unite(h, geometry::next_half_edge(twins[h]));
     fans.unite(geometry::next_half_edge(h), twins[h]);
   }
-  std::vector<Support> result(parts);
-  std::vector<std::int32_t> number(3 * support.triangles.size(), -1);
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+  std::vector<ChartSurface> result(parts);
+  std::vector<std::int32_t> number(3 * surface.triangles.size(), -1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (part[t] < 0) continue;
-    Support& out = result[part[t]];
+    ChartSurface& out = result[part[t]];
     std::array<std::int32_t, 3> triangle;
     for (int i = 0; i < 3; ++i) {
       const std::int32_t root = fans.root(static_cast<std::int32_t>(3 * t + i));
       if (number[root] < 0) {
         number[root] = static_cast<std::int32_t>(out.points.size());
-        out.points.push_back(support.points[support.triangles[t][i]]);
-        out.mesh_vertex.push_back(support.mesh_vertex[support.triangles[t][i]]);
+        out.points.push_back(surface.points[surface.triangles[t][i]]);
+        out.mesh_vertex.push_back(surface.mesh_vertex[surface.triangles[t][i]]);
       }
       triangle[i] = number[root];
     }
     out.triangles.push_back(triangle);
-    out.corner_uv.push_back(support.corner_uv[t]);
+    out.corner_uv.push_back(surface.corner_uv[t]);
   }
-  for (Support& out : result) {
-    out.face = support.face;
+  for (ChartSurface& out : result) {
+    out.face = surface.face;
     out.loop_edges = trace_loop_edges(out);
   }
   return result;
@@ -137,25 +138,25 @@ std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
   return count;
 }
 
-bool is_planar_domain(const Support& support) {
-  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
+bool is_planar_domain(const ChartSurface& surface) {
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
   const auto boundary_edges = std::count(twins.begin(), twins.end(), -1);
   const auto edges = (static_cast<std::int64_t>(twins.size()) + boundary_edges) / 2;
-  const auto euler = static_cast<std::int64_t>(support.points.size()) - edges +
-                     static_cast<std::int64_t>(support.triangles.size());
-  const auto loops = static_cast<std::int64_t>(trace_boundary(support, twins).size());
+  const auto euler = static_cast<std::int64_t>(surface.points.size()) - edges +
+                     static_cast<std::int64_t>(surface.triangles.size());
+  const auto loops = static_cast<std::int64_t>(trace_boundary(surface, twins).size());
   return loops >= 1 && euler == 2 - loops;
 }
 
-std::vector<std::int32_t> divide_edges(Support& support, std::vector<EdgePoint> points) {
+std::vector<std::int32_t> divide_edges(ChartSurface& surface, std::vector<EdgePoint> points) {
   std::sort(points.begin(), points.end(), [](const EdgePoint& a, const EdgePoint& b) {
     return std::tie(a.half_edge, a.fraction, a.point) < std::tie(b.half_edge, b.fraction, b.point);
   });
-  Support divided;
+  ChartSurface divided;
   std::vector<std::int32_t> former;
   std::size_t at = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    Division division{support.triangles[t], support.corner_uv[t], {}};
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    Division division{surface.triangles[t], surface.corner_uv[t], {}};
     for (int i = 0; i < 3; ++i) {
       const std::size_t begin = at;
       while (at < points.size() && points[at].half_edge == static_cast<geometry::HalfEdge>(3 * t + i)) ++at;
@@ -164,20 +165,20 @@ std::vector<std::int32_t> divide_edges(Support& support, std::vector<EdgePoint> 
     emit(division, divided);
     former.resize(divided.triangles.size(), static_cast<std::int32_t>(t));
   }
-  support.triangles = std::move(divided.triangles);
-  support.corner_uv = std::move(divided.corner_uv);
+  surface.triangles = std::move(divided.triangles);
+  surface.corner_uv = std::move(divided.corner_uv);
   return former;
 }
 
-geometry::Vec3 area_vector(const Support& support, std::int32_t triangle) {
-  const auto& [a, b, c] = support.triangles[triangle];
-  return 0.5 * geometry::cross(support.points[b] - support.points[a], support.points[c] - support.points[a]);
+geometry::Vec3 area_vector(const ChartSurface& surface, std::int32_t triangle) {
+  const auto& [a, b, c] = surface.triangles[triangle];
+  return 0.5 * geometry::cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]);
 }
 
-double support_area(const Support& support) {
+double surface_area(const ChartSurface& surface) {
   double area = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t)
-    area += geometry::norm(area_vector(support, static_cast<std::int32_t>(t)));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    area += geometry::norm(area_vector(surface, static_cast<std::int32_t>(t)));
   return area;
 }
 

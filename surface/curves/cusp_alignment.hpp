@@ -13,6 +13,6 @@ std::vector<CurveVertex> near_half(const cad::Model& model, const CurveMesh& cur
 /// of the other; after that, they go back to their own places step by step. A corner stays as it is where its
 /// curves end too early for that. Of two curves the one with the lower id leads, unless the other one
 /// followed a third before. The same on every rank.
-void align_tips(const cad::Model& model, double widest, CurveMesh& curves);
+void align_cusps(const cad::Model& model, double widest, CurveMesh& curves);
 
 }  // namespace aeroloom::surface

@@ -1,5 +1,5 @@
 /// Faces that run to a point: cones in one face, in halves, in thirds.
-#include "surface/tips/pointed_tips.hpp"
+#include "surface/cusps/apexes.hpp"
 
 #include "surface/piece_mesher.hpp"
 #include "surface/surface_mesher.hpp"
@@ -50,9 +50,9 @@ struct Shape {
   int faces = 1;
 };
 
-class PointedTips : public ::testing::TestWithParam<Shape> {
+class Apexes : public ::testing::TestWithParam<Shape> {
 protected:
-  PointedTips() : _model(cad::shapes::prepare_fluid(cone(GetParam().degrees, GetParam().faces)).model) {}
+  Apexes() : _model(cad::shapes::prepare_fluid(cone(GetParam().degrees, GetParam().faces)).model) {}
 
   /// The mesh; throws where triangles cross or lie on each other.
   SurfaceMesh mesh(const parallel::Communicator& communicator) const {
@@ -65,7 +65,7 @@ protected:
   Model _model;
 };
 
-TEST_P(PointedTips, AreMeshedUpToTheirPoint) {
+TEST_P(Apexes, AreMeshedUpToTheirPoint) {
   const auto communicator = parallel::Communicator::world();
   const SurfaceMesh surface = mesh(communicator);
   double volume = 0;
@@ -89,7 +89,7 @@ TEST_P(PointedTips, AreMeshedUpToTheirPoint) {
   EXPECT_NEAR(std::abs(communicator.sum(volume)), wanted, 0.1 * wanted);
 }
 
-INSTANTIATE_TEST_SUITE_P(Cones, PointedTips,
+INSTANTIATE_TEST_SUITE_P(Cones, Apexes,
                          ::testing::Values(Shape{4, 1}, Shape{10, 1}, Shape{20, 1}, Shape{45, 1}, Shape{4, 2},
                                            Shape{10, 2}, Shape{20, 2}, Shape{30, 2}, Shape{10, 3}),
                          [](const auto& each) {
@@ -97,31 +97,31 @@ INSTANTIATE_TEST_SUITE_P(Cones, PointedTips,
                                   "_degrees_in_" + std::to_string(each.param.faces);
                          });
 
-std::vector<PointedTip> tips_of(const TopoDS_Shape& shape) {
+std::vector<Apex> apexes_of(const TopoDS_Shape& shape) {
   const Model model = cad::shapes::prepare_fluid(shape).model;
   const sizing::SizeField field =
       sizing::build_size_field(parallel::Communicator::self(), model, {0.05, 0.1, 15, 1.3, 0});
   const CurveMesh curves = discretise_curves(model, field);
-  std::vector<PointedTip> tips;
+  std::vector<Apex> apexes;
   for (cad::FaceId face = 0; face < model.face_count(); ++face) {
     FaceVertices vertices;
-    const Support support =
-        build_support(model, face, curves, support_facets(model, face, {}), field, vertices);
-    const auto found = find_pointed_tips(model, support);
-    tips.insert(tips.end(), found.begin(), found.end());
+    const ChartSurface surface =
+        build_chart_surface(model, face, curves, chart_facets(model, face, {}), field, vertices);
+    const auto found = find_apexes(model, surface);
+    apexes.insert(apexes.end(), found.begin(), found.end());
   }
-  return tips;
+  return apexes;
 }
 
-TEST(FindPointedTips, KnowsACone) {
-  const auto tips = tips_of(cone(20, 1));
-  ASSERT_EQ(tips.size(), 1u);
-  EXPECT_TRUE(is_apex(tips[0].point));
-  EXPECT_NEAR(tips[0].angle, 2 * std::numbers::pi * std::sin(20 * std::numbers::pi / 180), 0.05);
+TEST(FindApexes, KnowsACone) {
+  const auto apexes = apexes_of(cone(20, 1));
+  ASSERT_EQ(apexes.size(), 1u);
+  EXPECT_TRUE(is_apex(apexes[0].point));
+  EXPECT_NEAR(apexes[0].angle, 2 * std::numbers::pi * std::sin(20 * std::numbers::pi / 180), 0.05);
 }
 
-// A plane of squares: the second tip's disk would take the first tip with it.
-TEST(CapPointedTips, LeavesAnotherTipInPlace) {
+// A plane of squares: the second apex's disk would take the first apex with it.
+TEST(CapApexes, LeavesAnotherApexInPlace) {
   constexpr int side = 20;
   FaceMesh mesh;
   for (int row = 0; row < side; ++row) {
@@ -139,10 +139,10 @@ TEST(CapPointedTips, LeavesAnotherTipInPlace) {
   const sizing::SizeField field =
       sizing::build_size_field(parallel::Communicator::self(), model, {0.1, 0.1, 15, 1.3, 0});
   const Vec3 first{0.93, 0.94, 0}, second{0.95, 1, 0};
-  cap_pointed_tips(field, {{0, first, {0.93, 0.94}, 4}, {1, second, {0.95, 1}, 4}}, mesh);
-  ASSERT_EQ(mesh.tips.size(), 1u);
-  EXPECT_EQ(mesh.tips[0].vertex, 0);
-  EXPECT_EQ(mesh.points[static_cast<std::size_t>(mesh.tips[0].at)], first);
+  cap_apexes(field, {{0, first, {0.93, 0.94}, 4}, {1, second, {0.95, 1}, 4}}, mesh);
+  ASSERT_EQ(mesh.apexes.size(), 1u);
+  EXPECT_EQ(mesh.apexes[0].vertex, 0);
+  EXPECT_EQ(mesh.points[static_cast<std::size_t>(mesh.apexes[0].at)], first);
   double area = 0;
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.points[t[0]];
@@ -153,8 +153,8 @@ TEST(CapPointedTips, LeavesAnotherTipInPlace) {
   EXPECT_NEAR(area, std::pow(0.1 * (side - 1), 2), 1e-12);
 }
 
-TEST(FindPointedTips, TakesNoPoleOfASmoothFace) {
-  EXPECT_TRUE(tips_of(BRepPrimAPI_MakeSphere(1).Shape()).empty());
+TEST(FindApexes, TakesNoPoleOfASmoothFace) {
+  EXPECT_TRUE(apexes_of(BRepPrimAPI_MakeSphere(1).Shape()).empty());
 }
 
 }  // namespace

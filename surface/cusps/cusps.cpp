@@ -1,9 +1,9 @@
-#include "surface/tips/cusp_tips.hpp"
+#include "surface/cusps/cusps.hpp"
 
 #include "parallel/observation/timers.hpp"
 #include "sizing/features/segment_tree.hpp"
-#include "surface/curves/tip_alignment.hpp"
-#include "surface/tips/tip_topology.hpp"
+#include "surface/curves/cusp_alignment.hpp"
+#include "surface/cusps/cusp_topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,8 +40,8 @@ struct CuspSide {
   }
 };
 
-Tip measure_tip(const Model& model, const CurveMesh& curves, double widest, const SharpCorner& corner) {
-  Tip tip{corner.face, corner.vertex, {}};
+Cusp measure_cusp(const Model& model, const CurveMesh& curves, double widest, const SharpCorner& corner) {
+  Cusp cusp{corner.face, corner.vertex, {}};
   const CuspSide a(model, curves, corner.ends[0]), b(model, curves, corner.ends[1]);
   for (std::size_t i = 1; i + 1 < std::min(a.points.size(), b.points.size()); ++i) {
     const double segment = std::min(a.shorter_segment(i), b.shorter_segment(i));
@@ -49,9 +49,9 @@ Tip measure_tip(const Model& model, const CurveMesh& curves, double widest, cons
     if (!(gap < std::min(widest, closing_width * segment)) ||
         !(distance(a.points[i], b.points[i]) < closing_width * segment))
       break;
-    tip.pairs.push_back({a.vertices[i], b.vertices[i]});
+    cusp.pairs.push_back({a.vertices[i], b.vertices[i]});
   }
-  return tip;
+  return cusp;
 }
 
 /// The axis that an exact plane is normal to.
@@ -70,7 +70,7 @@ int axis_of_plane(const Model& model, cad::FaceId face) {
 /// symmetry, say) that one of them lies on.
 class ClosedVertices {
 public:
-  ClosedVertices(const Model& model, const CurveMesh& curves, const std::vector<Tip>& tips)
+  ClosedVertices(const Model& model, const CurveMesh& curves, const std::vector<Cusp>& cusps)
       : _model(model), _curves(curves) {
     std::map<CurveVertex, CurveVertex> parent;
     auto root = [&parent](CurveVertex v) {
@@ -78,12 +78,12 @@ public:
         v = at->second;
       return v;
     };
-    for (const Tip& tip : tips) {
-      for (const auto& pair : tip.pairs) {
+    for (const Cusp& cusp : cusps) {
+      for (const auto& pair : cusp.pairs) {
         const CurveVertex a = root(pair[0]), b = root(pair[1]);
         parent[std::max(a, b)] = std::min(a, b);
         parent.try_emplace(std::min(a, b), std::min(a, b));
-        for (const CurveVertex v : {std::min(a, b), pair[0], pair[1]}) _tip_of[v] = tip.vertex;
+        for (const CurveVertex v : {std::min(a, b), pair[0], pair[1]}) _cusp_of[v] = cusp.vertex;
       }
     }
     std::map<CurveVertex, std::pair<Vec3, int>> sums;
@@ -104,7 +104,7 @@ public:
   }
   bool contains(CurveVertex v) const { return _root.contains(v); }
   Vec3 point(CurveVertex v) const { return _point.at(root(v)); }
-  cad::VertexId tip_of(CurveVertex v) const { return _tip_of.at(root(v)); }
+  cad::VertexId cusp_vertex_of(CurveVertex v) const { return _cusp_of.at(root(v)); }
   mesh::SharedVertexKey vertex_key(CurveVertex v) const { return _curves.vertex_key(_model, root(v)); }
 
 private:
@@ -121,17 +121,17 @@ private:
   const CurveMesh& _curves;
   std::map<CurveVertex, CurveVertex> _root;
   std::map<CurveVertex, Vec3> _point;
-  std::map<CurveVertex, cad::VertexId> _tip_of;
+  std::map<CurveVertex, cad::VertexId> _cusp_of;
 };
 
 /// The piece with vertices that closed, without the triangles that vanish.
 Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, const ClosedVertices& closed,
-                  const std::vector<const Tip*>& tips) {
+                  const std::vector<const Cusp*>& cusps) {
   std::vector<char> vanishes(piece.cell_count(), 0);
-  for (const Tip* tip : tips) {
-    const auto ranks = ranks_in_tip(*tip, on_curve);
+  for (const Cusp* cusp : cusps) {
+    const auto ranks = levels_in_cusp(*cusp, on_curve);
     for (LocalIndex t = 0; t < piece.cell_count(); ++t)
-      vanishes[t] |= level_in_tip(piece.cell(t), ranks) >= 0;
+      vanishes[t] |= level_of_triangle(piece.cell(t), ranks) >= 0;
   }
   std::vector<LocalIndex> stands_for(piece.vertex_count());
   std::iota(stands_for.begin(), stands_for.end(), 0);
@@ -164,7 +164,7 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
     const Vec3 p = moves ? closed.point(on_curve[v]) : piece.point(v);
     result.coordinates.insert(result.coordinates.end(), {p.x, p.y, p.z});
     result.vertex_dimension.push_back(moves ? mesh::CadDimension::vertex : piece.vertex_dimension[v]);
-    result.vertex_entity.push_back(moves ? closed.tip_of(on_curve[v]) : piece.vertex_entity[v]);
+    result.vertex_entity.push_back(moves ? closed.cusp_vertex_of(on_curve[v]) : piece.vertex_entity[v]);
     if (!shared) continue;
     result.shared_vertices.push_back(number[v]);
     result.shared_keys.push_back(moves ? closed.vertex_key(on_curve[v]) : vertex_key);
@@ -175,12 +175,12 @@ Piece close_piece(const Piece& piece, const std::vector<CurveVertex>& on_curve, 
   return result;
 }
 
-std::vector<ClosedTip> describe(const CurveMesh& curves, const std::vector<Tip>& tips,
-                                const ClosedVertices& closed) {
-  std::vector<ClosedTip> result;
-  for (const Tip& tip : tips) {
-    ClosedTip row{tip.face, curves.points[tip.vertex], 0, 0};
-    for (const auto& pair : tip.pairs) {
+std::vector<ClosedCusp> describe(const CurveMesh& curves, const std::vector<Cusp>& cusps,
+                                 const ClosedVertices& closed) {
+  std::vector<ClosedCusp> result;
+  for (const Cusp& cusp : cusps) {
+    ClosedCusp row{cusp.face, curves.points[cusp.vertex], 0, 0};
+    for (const auto& pair : cusp.pairs) {
       row.length = std::max(row.length, distance(closed.point(pair[0]), row.point));
       for (const CurveVertex v : pair)
         row.moved = std::max(row.moved, distance(closed.point(v), curves.points[v]));
@@ -192,31 +192,31 @@ std::vector<ClosedTip> describe(const CurveMesh& curves, const std::vector<Tip>&
 
 }  // namespace
 
-std::vector<ClosedTip> close_cusp_tips(const Model& model, const CurveMesh& curves, double widest,
-                                       mesh::DistributedMesh& surface) {
-  std::vector<Tip> tips;
+std::vector<ClosedCusp> close_cusps(const Model& model, const CurveMesh& curves, double widest,
+                                    mesh::DistributedMesh& surface) {
+  std::vector<Cusp> cusps;
   for (const SharpCorner& corner : curves.sharp_corners) {
     if (!corner.closes) continue;
-    Tip tip = measure_tip(model, curves, widest, corner);
-    if (!tip.pairs.empty()) tips.push_back(std::move(tip));
+    Cusp cusp = measure_cusp(model, curves, widest, corner);
+    if (!cusp.pairs.empty()) cusps.push_back(std::move(cusp));
   }
-  if (tips.empty()) return {};
-  tips = closable_tips(curves, surface, std::move(tips));
-  if (tips.empty()) return {};
-  const ClosedVertices closed(model, curves, tips);
+  if (cusps.empty()) return {};
+  cusps = closable_cusps(curves, surface, std::move(cusps));
+  if (cusps.empty()) return {};
+  const ClosedVertices closed(model, curves, cusps);
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
   for (Piece& piece : surface.pieces) {
     const std::vector<CurveVertex> on_curve = curve_vertices(curves, piece);
     const bool touched = std::any_of(on_curve.begin(), on_curve.end(),
                                      [&](CurveVertex v) { return v >= 0 && closed.contains(v); });
     if (!touched) continue;
-    std::vector<const Tip*> own;
-    for (const Tip& tip : tips) {
-      if (tip.face == piece.common_face()) own.push_back(&tip);
+    std::vector<const Cusp*> own;
+    for (const Cusp& cusp : cusps) {
+      if (cusp.face == piece.common_face()) own.push_back(&cusp);
     }
     piece = close_piece(piece, on_curve, closed, own);
   }
-  return describe(curves, tips, closed);
+  return describe(curves, cusps, closed);
 }
 
 }  // namespace aeroloom::surface
