@@ -1,4 +1,4 @@
-/// A CAD face as a piece: its chart surface, and what meshing a piece makes of it.
+/// Meshes one surface piece, and prepares a whole CAD face as a piece.
 #pragma once
 
 #include "mesh/data/piece.hpp"
@@ -9,16 +9,17 @@
 
 namespace aeroloom::surface {
 
-/// The facets a face's chart surface is made of: they turn by at most options.facet_angle and leave the
-/// surface by a small fraction of the model and of the face's width.
+/// The facets that the parametric triangulation of a face is built from. They turn by at most
+/// options.facet_angle. Their distance from the surface is at most a small fraction of the model and of the
+/// width of the face.
 cad::Facets chart_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options);
 
 /// A whole face as one piece. Throws SurfaceError or cad::CadError.
 PieceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
                              const sizing::SizeField& field, const SurfaceOptions& options);
 
-/// The triangle piece of a piece problem, id 0. A function of the arguments alone: the same bits alone or in
-/// a run with others. Not collective. Throws FaceConflict, SurfaceError or cad::CadError.
+/// The triangles of a piece, as a mesh piece with id 0. The result depends on the arguments alone, whatever
+/// other pieces are meshed. Not collective. Throws FaceConflict, SurfaceError or cad::CadError.
 mesh::Piece mesh_piece(const cad::Model& model, const PieceProblem& problem, const sizing::SizeField& field,
                        const SurfaceOptions& options);
 

@@ -1,5 +1,4 @@
-/// The chart surface of a planar face within loops that need not be those of the CAD: a constrained Delaunay
-/// triangulation of their vertices.
+/// The piece problem of a planar face with given loops, which may differ from those of the CAD.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -9,9 +8,9 @@
 
 namespace aeroloom::surface {
 
-/// The part of a plane that the loops enclose as one piece problem. Crossings are found exactly, in the
-/// coordinates themselves. Throws FaceConflict where loops cross or touch, or enclose nothing;
-/// std::invalid_argument where the face is no plane, or a vertex is not on an exact one
+/// The region of the plane inside the loops, triangulated from their vertices alone (constrained Delaunay).
+/// Crossings are found exactly, from the coordinates. Throws FaceConflict where loops cross or touch, or
+/// enclose nothing. Throws std::invalid_argument where the face is no plane, or a vertex is off an exact one
 /// (Model::is_exact_plane).
 PieceProblem problem_of_plane(const cad::Model& model, cad::FaceId face, const FaceLoops& loops,
                               const sizing::SizeField& field);

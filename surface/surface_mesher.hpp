@@ -1,4 +1,4 @@
-/// The surface stage: from CAD curves and faces to a closed, conforming, oriented triangulation.
+/// The surface stage: meshes CAD curves and faces to a closed, conforming, oriented triangulation.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -18,13 +18,14 @@ struct SurfaceMesh {
   mesh::DistributedMesh
       mesh;  ///< triangle pieces, each part of one CAD face, numbered by face; spread over ranks by load
   SurfaceReport report;
-  /// The field with the sources that mending added; the volume follows this one.
+  /// The size field with the sources that were added where surfaces came too close. The volume is filled
+  /// under it.
   sizing::SizeField field;
 };
 
-/// Meshes the surface of the model on the ranks of the field. Collective. Throws SurfaceError or
-/// CollectiveError, the same on all ranks. Pieces found in `tasks`, whose context stands for the model and
-/// the options, are not meshed again; those meshed are kept there.
+/// Meshes the surface of the model on the ranks of the field. Pieces found in `tasks` are not meshed again,
+/// new ones are kept there. The context of `tasks` must identify the model and the options. Collective.
+/// Throws SurfaceError or CollectiveError, the same on all ranks.
 SurfaceMesh mesh_surface(const cad::Model& model, const sizing::SizeField& field,
                          const SurfaceOptions& options, parallel::TaskStore* tasks = nullptr);
 

@@ -84,7 +84,8 @@ ChartBoundary boundary_of(const Chart& chart) {
   return boundary;
 }
 
-/// Where loops cross, both curves are too coarse for the gap between them: half their length is asked for.
+/// Where loops cross, both curves are too coarse for the gap between them: half their length is field_size
+/// for.
 FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front::FrontError& error,
                          const ChartBoundary& boundary, const FaceVertices& vertices) {
   std::vector<sizing::SizeSource> remedy;
@@ -108,7 +109,7 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front:
           std::move(remedy), std::move(named)};
 }
 
-/// Per point of the chart's chart surface, the length over which the surface turns by an angle; infinite
+/// Per point of the chart, the length over which the surface turns by an angle; infinite
 /// where it is flat.
 std::vector<double> turning_lengths(const cad::Model& model, const ChartSurface& surface, double angle) {
   std::vector<double> lengths(surface.points.size(), -1);
@@ -125,7 +126,7 @@ std::vector<double> turning_lengths(const cad::Model& model, const ChartSurface&
   return lengths;
 }
 
-/// Edge lengths asked for in a chart.
+/// Wanted edge lengths in a chart.
 class ChartSizes {
 public:
   ChartSizes(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
@@ -137,12 +138,12 @@ public:
 
   double operator()(Vec2 point, std::int32_t& hint) const {
     const ChartPoint at = _locator.locate(point, hint);
-    const double asked = _field(at.point);
-    double size = asked;
+    const double field_size = _field(at.point);
+    double size = field_size;
     if (!_turning.empty()) {
       for (const std::int32_t corner : _chart.surface.triangles[at.triangle])
         size = std::min(size, _turning[corner]);
-      size = std::max(size, _least_fraction * asked);
+      size = std::max(size, _least_fraction * field_size);
     }
     return size * _locator.scale(at);
   }
@@ -152,7 +153,7 @@ private:
   const Chart& _chart;
   const ChartLocator& _locator;
   double _least_fraction;
-  std::vector<double> _turning;  // per chart surface point; empty: any
+  std::vector<double> _turning;  // per point of the chart; empty: any
 };
 
 /// Appends the triangles of one chart to the mesh of the piece. Points the front placed return to the CAD

@@ -1,5 +1,5 @@
-/// Fills what a piece is made of: a chart surface, the vertices on its loops, and sizes. Nothing else is
-/// known here, so a whole face and a part of one are meshed alike.
+/// Meshes a parametric triangulation: a whole face or a part of one. It needs the surface, the vertices on
+/// its loops and the size field.
 #pragma once
 
 #include "surface/charts/chart_surface.hpp"
@@ -11,8 +11,8 @@
 
 namespace aeroloom::surface {
 
-/// The loops of a piece cross each other under the present sizes. Carries where sizes have to fall, and to
-/// what, and the vertices with names at the ends of edges that cross.
+/// The loops of a piece cross under the present sizes. Carries the sources that would lower sizes there, and
+/// the keys of the vertices at the ends of crossing edges.
 class FaceConflict : public std::runtime_error {
 public:
   FaceConflict(const std::string& what, std::vector<sizing::SizeSource> remedy,
@@ -28,13 +28,14 @@ private:
 
 struct ChartMeshing {
   double chart_spread = 60;   ///< degrees, as SurfaceOptions::chart_spread
-  double largest_turn = 0;    ///< radians the surface may turn along an edge, whatever the field; 0: any
-  double least_fraction = 1;  ///< of the field's size, that turns may ask for
+  double largest_turn = 0;    ///< radians the surface may turn along an edge, whatever the field says; 0: any
+  double least_fraction = 1;  ///< `largest_turn` lowers sizes to no less than this fraction of the field
   Remeshing remeshing;
 };
 
-/// Charts, front, and the smoothing that leaves no trace of the charts. Of `vertices` those on borders come
-/// first in the result and keep their numbers. Not collective. Throws FaceConflict or SurfaceError.
+/// Maps the surface to charts, fills these by an advancing front, and remeshes in space so that no border
+/// between charts shows. Border vertices come first in the result and keep their numbers. Not collective.
+/// Throws FaceConflict or SurfaceError.
 FaceMesh mesh_charts(const cad::Model& model, const sizing::SizeField& field, const ChartSurface& surface,
                      FaceVertices vertices, const ChartMeshing& options);
 

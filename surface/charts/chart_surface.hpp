@@ -1,5 +1,4 @@
-/// The chart surface of a surface piece: a triangulation that carries charts and leads back to the CAD
-/// surface.
+/// The triangulation that a surface piece is meshed from. It carries the parameters of the CAD face.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -14,18 +13,18 @@
 
 namespace aeroloom::surface {
 
-/// A triangulated part of one CAD face, or all of it. Seams are closed and poles are single points, by
-/// topology: what repeats in the parameter plane occurs once here, and parameters belong to triangle corners.
+/// A parametric triangulation of a CAD face or of a part of one: each triangle corner has parameters (u, v).
+/// Seams are closed and each pole is one point. Points on a seam have other parameters in each triangle.
 struct ChartSurface {
   cad::FaceId face = cad::no_entity;
   std::vector<geometry::Vec3> points;
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
   std::vector<std::array<geometry::Vec2, 3>> corner_uv;  ///< per triangle corner
-  /// Vertex of the face's mesh at this chart surface point, -1 where there is none. Numbers run over the
-  /// face: those of `FaceVertices` below. Where the boundary touches itself, several points share a vertex.
+  /// Per point, the mesh vertex there as an index into FaceVertices; -1: none. Where the boundary touches
+  /// itself, several points have the same vertex.
   std::vector<std::int32_t> mesh_vertex;
-  /// Boundary edges of the mesh as directed pairs of chart surface points, the chart surface on the left:
-  /// chords between consecutive mesh vertices. Empty on a closed surface.
+  /// Boundary edges of the future mesh, as directed pairs of points: chords between consecutive mesh vertices
+  /// on the boundary. The surface lies on their left. Empty on a closed surface.
   std::vector<std::array<std::int32_t, 2>> loop_edges;
 
   static constexpr auto fields() {
@@ -34,8 +33,8 @@ struct ChartSurface {
   }
 };
 
-/// The mesh vertices of a piece known before its interior is meshed: those on its borders first, which have
-/// names and stay, then those on the cuts between its charts.
+/// Mesh vertices of a piece that are known before its interior is meshed. Vertices on its borders come first;
+/// they have keys and stay in place. Vertices on cuts between its charts follow.
 struct FaceVertices {
   std::vector<geometry::Vec3> points;
   std::vector<geometry::Vec2> uv;                  ///< one valid parameter pair on the face for each
@@ -45,18 +44,18 @@ struct FaceVertices {
     return std::tuple(&FaceVertices::points, &FaceVertices::uv, &FaceVertices::vertex_keys);
   }
   std::int32_t border_count() const { return static_cast<std::int32_t>(vertex_keys.size()); }
-  /// The vertex on the border of that name, which must be known.
+  /// The border vertex with this key, which must exist.
   std::int32_t find(mesh::SharedVertexKey vertex_key) const {
     return static_cast<std::int32_t>(std::lower_bound(vertex_keys.begin(), vertex_keys.end(), vertex_key) -
                                      vertex_keys.begin());
   }
 };
 
-/// Builds the chart surface of a whole face from its facets: closes seams and poles, splits boundary edges at
-/// the curve vertices, and reconnects and refines it in the parameter plane until it follows the surface,
-/// however coarse the facets are next to the sizes, as far as elements of these sizes can. `vertices`
-/// receives the curve vertices of the face, ascending. Throws SurfaceError where the facets do not fit the
-/// loops of the face.
+/// Builds the triangulation of a whole face from its facets. Closes seams and poles, and splits boundary
+/// edges at the curve vertices. Then flips and refines triangles in the parameter plane until they follow the
+/// surface, however coarse the facets were. Edges far shorter than the local size are not refined further.
+/// `vertices` receives the curve vertices of the face, ascending. Throws SurfaceError where the facets do not
+/// fit the loops of the face.
 ChartSurface build_chart_surface(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
                                  const cad::Facets& facets, const sizing::SizeField& field,
                                  FaceVertices& vertices);

@@ -130,7 +130,7 @@ private:
 
   void join(std::int32_t a, std::int32_t b) { _joined.insert({std::min(a, b), std::max(a, b)}); }
 
-  /// The chart surface point for a vertex on the half-edge: one of its ends where that is near, else a new
+  /// The point for a vertex on the half-edge: one of its ends where that is near, else a new
   /// one.
   std::int32_t place(geometry::HalfEdge h, double part, double spacing) {
     const double length = distance(start(h), end(h));
@@ -154,7 +154,7 @@ private:
     return point;
   }
 
-  /// Makes a chart surface point a mesh vertex on the CAD surface.
+  /// Makes a point a mesh vertex on the CAD surface.
   void promote(std::int32_t point, geometry::Vec2 guess) {
     const Vec3 facet = _surface.points[point];
     guess = _model.wrap(_surface.face, guess);

@@ -1,4 +1,4 @@
-/// Parameters of one point of a face that stand for it in different places of the parameter plane.
+/// Periodic parameters of CAD faces: one point has several.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -7,12 +7,13 @@
 
 namespace aeroloom::surface {
 
-/// The parameter nearest to `reference` of those that stand for the same place.
+/// The parameter of the same place that is nearest to `reference`.
 inline double unwrap(double parameter, double reference, double period) {
   return period > 0 ? parameter - period * std::round((parameter - reference) / period) : parameter;
 }
 
-/// The parameters of the same point nearest to `reference`; those where they belong to another sheet.
+/// The parameters of the same point nearest to `reference`. If the point lies on another sheet of a joined
+/// face, `reference` itself.
 inline geometry::Vec2 unwrap(const cad::Model& model, cad::FaceId face, geometry::Vec2 uv,
                              geometry::Vec2 reference) {
   if (model.sheet(face, uv) != model.sheet(face, reference)) return reference;

@@ -26,7 +26,7 @@ constexpr double widest_apex_of_facets = std::numbers::pi;
 /// Of the distance to the next point of the chart surface: what tolerances of the CAD model leave between a
 /// vertex and the pole of a surface. Chosen, not measured.
 constexpr double same_place = 1e-3;
-/// Sizes that fit around a apex at the ring of its fan, at least. Chosen, not measured.
+/// Sizes that fit around an apex at the ring of its fan, at least. Chosen, not measured.
 constexpr double least_around = 4;
 /// The disk that gives way grows by this factor, so often, until it is one. Chosen, not measured.
 constexpr double growth_of_disk = 1.3;
@@ -188,8 +188,8 @@ geometry::Vec2 middle_in_parameters(const cad::Model& model, const FaceMesh& mes
 void split_apex(const cad::Model& model, const cad::FaceCorner& corner, std::int32_t vertex, FaceMesh& mesh) {
   const auto at_apex = only_triangle_at(mesh, vertex);
   if (!at_apex) return;
-  const auto apex = mesh.triangles[at_apex->triangle];
-  const std::int32_t from = apex[(at_apex->corner + 1) % 3], to = apex[(at_apex->corner + 2) % 3];
+  const auto filling = mesh.triangles[at_apex->triangle];
+  const std::int32_t from = filling[(at_apex->corner + 1) % 3], to = filling[(at_apex->corner + 2) % 3];
   const auto behind = triangle_behind(mesh, from, to);
   constexpr double part_of_side = 0.5;
   const double near = part_of_side * distance(mesh.points[vertex], mesh.points[from]);

@@ -17,8 +17,8 @@ struct Needle {
   double degrees = 0;
 };
 
-/// The needles on this rank, by piece and triangle. `surface` is as the surface stage makes it: its vertices
-/// on curves bear the names of `curves`.
+/// The needles on this rank, by piece and triangle. `surface` must be as the surface stage makes it, with the
+/// keys of `curves` at its vertices on curves.
 std::vector<Needle> find_needles(const cad::Model& model, const CurveMesh& curves,
                                  const mesh::DistributedMesh& surface);
 

@@ -15,7 +15,7 @@ using mesh::SharedVertexKey;
 
 /// The corner of a piece at one of its border points.
 struct Corner {
-  std::int32_t before = -1, after = -1;  // chart surface points at the other ends of the fine edges there
+  std::int32_t before = -1, after = -1;  // points at the other ends of the fine edges there
 };
 
 std::vector<Corner> corners_of(const ChartSurface& surface) {

@@ -1,4 +1,4 @@
-/// A surface piece before it is meshed.
+/// The input for meshing one surface piece.
 #pragma once
 
 #include "sizing/field/size_field.hpp"
@@ -8,7 +8,7 @@
 
 namespace aeroloom::surface {
 
-/// Everything a rank needs to mesh a piece besides the model and the sizes.
+/// All that a rank needs to mesh a piece, besides the model and the size field.
 struct PieceProblem {
   ChartSurface surface;
   FaceVertices vertices;  ///< on the borders of the piece
@@ -19,12 +19,13 @@ struct PieceProblem {
   }
 };
 
-/// Predicted triangles of a chart surface under a field. Euler's formula gives them from the vertices: those
-/// on the loops are known, those inside are the integral of 2/(sqrt(3) h^2) less what belongs to the loops.
+/// Predicted number of triangles of a surface under a field, by Euler's formula from the number of vertices.
+/// Vertices on the loops are known. The number inside is the integral of 2/(sqrt(3) h^2), less what belongs
+/// to the loops.
 double predict_triangles(const ChartSurface& surface, const sizing::SizeField& field);
 
-/// As a bound on work needs it: the integral alone, over parts of facets that are a few sizes large, so that
-/// sizes that fall at a few places count as far as they fall.
+/// Number of triangles for bounds on work: the integral alone, over parts of facets of a few sizes. So small
+/// regions with small sizes count in full.
 double integrate_triangles(const ChartSurface& surface, const sizing::SizeField& field);
 
 }  // namespace aeroloom::surface

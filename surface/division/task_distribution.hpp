@@ -1,5 +1,4 @@
-/// From whole faces to the piece problems of pieces: divided where they are heavy, and distributed to ranks
-/// by load.
+/// Divides heavy piece problems and distributes all of them over the ranks by load.
 #pragma once
 
 #include "surface/division/face_division.hpp"
@@ -13,19 +12,20 @@
 
 namespace aeroloom::surface {
 
-/// A piece is named by its face, its place among the parts that the face was cut into, and its place among
-/// those that such a part was cut into.
+/// Identifies a piece: its face, its index among the parts that the face was cut into, and its index among
+/// the parts that this part was cut into.
 using PieceKey = std::array<std::int32_t, 3>;
 using PieceProblems = std::map<PieceKey, PieceProblem>;
 
+/// The piece problems after distribution.
 struct TaskDistribution {
-  PieceProblems problems;                   ///< that this rank is to mesh
-  std::map<PieceKey, std::int32_t> places;  ///< of all pieces, on every rank: among those of their face
-  std::map<PieceKey, std::vector<CutAngle>> angles;  ///< of what was divided on this rank
+  PieceProblems problems;                            ///< that this rank is to mesh
+  std::map<PieceKey, std::int32_t> places;           ///< of all pieces, on every rank: index within its face
+  std::map<PieceKey, std::vector<CutAngle>> angles;  ///< of the divisions on this rank
 };
 
-/// The expected cost of meshing a piece of so many triangles and facets, in triangles. No result depends on
-/// it.
+/// The estimated cost of meshing a piece with so many triangles and facets, in triangles. No result depends
+/// on it.
 double load_of_piece(double triangles, double facets);
 
 class TaskDistributor {
@@ -33,10 +33,10 @@ public:
   TaskDistributor(const parallel::Communicator& communicator, const cad::Model& model,
                   const CutOptions& options);
 
-  /// From now on, these faces are one piece each. The same on every rank.
+  /// From now on, these faces are one piece each. Must be called alike on every rank.
   void leave_whole(const std::vector<cad::FaceId>& faces);
-  /// `whole`: piece problems of whole faces, each on one rank, any; `costs`: what making them took on this
-  /// rank, in triangles to mesh. Collective.
+  /// `whole`: problems of whole faces, each on any one rank. `costs`: what this rank spent on making them, in
+  /// triangles to mesh. Collective.
   TaskDistribution distribute(PieceProblems whole, const std::map<PieceKey, double>& costs,
                               const sizing::SizeField& field);
 
@@ -54,8 +54,8 @@ private:
   const cad::Model& _model;
   const CutOptions& _options;
   std::vector<char> _whole;    // per face: 1 where it must not be divided
-  std::vector<double> _loads;  // per rank: what it has done in this deal, in triangles to mesh, about
-  std::map<PieceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank in this deal
+  std::vector<double> _loads;  // per rank: work so far in this distribution, in triangles to mesh
+  std::map<PieceKey, std::vector<CutAngle>> _angles;  // of the divisions on this rank
 };
 
 }  // namespace aeroloom::surface
