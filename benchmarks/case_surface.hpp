@@ -17,7 +17,7 @@ inline surface::SurfaceMesh mesh_surface(const parallel::Communicator& communica
   const cad::Model model = domain::load_domain(communicator, input.domain, domain);
   const domain::SizedDomain sized =
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
-  return surface::mesh_surface(communicator, sized.model, sized.field, input.surface);
+  return surface::mesh_surface(sized.model, sized.field, input.surface);
 }
 
 }  // namespace aeroloom::benchmarks

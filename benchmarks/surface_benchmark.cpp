@@ -232,8 +232,7 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
   clock.end();
   clock.begin("surface");
-  const surface::SurfaceMesh surface =
-      surface::mesh_surface(communicator, sized.model, sized.field, input.surface);
+  const surface::SurfaceMesh surface = surface::mesh_surface(sized.model, sized.field, input.surface);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   const parallel::StageSummary& stage = stages.back();

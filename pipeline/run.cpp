@@ -237,7 +237,7 @@ private:
   }
 
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized) {
-    return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface,
+    return surface::mesh_surface(sized.model, sized.field, _input.surface,
                                  _checkpoints->tasks(SavedStage::surface));
   }
 

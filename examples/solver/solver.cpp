@@ -35,7 +35,7 @@ mesh::DistributedMesh make_mesh(const parallel::Communicator& ranks, const cad::
   const sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, wanted_tetrahedra);
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
 
-  const surface::SurfaceMesh surface = surface::mesh_surface(ranks, model, field, {});
+  const surface::SurfaceMesh surface = surface::mesh_surface(model, field, {});
 
   volume::VolumeOptions pieces;
   pieces.piece_tets = 20'000;

@@ -19,7 +19,7 @@ using mesh::LocalIndex;
 using mesh::Piece;
 
 /// Two curves run along each other where their segments enclose less than 30 degrees, as in
-/// surface/tips/needles.cpp.
+/// surface/cusps/needles.cpp.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
 /// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.

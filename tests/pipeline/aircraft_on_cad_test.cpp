@@ -39,7 +39,7 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;
-  Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options), {}, {}, {}};
+  Aircraft aircraft{model, surface::mesh_surface(model, field, surface_options), {}, {}, {}};
   volume::VolumeOptions options;
   options.piece_tets = 10'000;
   const volume::VolumeInput input{aircraft.surface, options};

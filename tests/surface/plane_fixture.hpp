@@ -40,7 +40,7 @@ struct Meshed {
 inline Meshed mesh_model(const Communicator& communicator, const Model& model,
                          const sizing::SizingOptions& sizes, const SurfaceOptions& options) {
   const sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
-  return {mesh_surface(communicator, model, field, options), cad::shapes::faces_of_patch(model, "symmetry")};
+  return {mesh_surface(model, field, options), cad::shapes::faces_of_patch(model, "symmetry")};
 }
 
 inline PlaneConflicts remesh(const Model& model, const SurfaceOptions& options, Meshed& meshed) {

@@ -156,7 +156,7 @@ TEST(PlaneRemesher, BlamesTheVerticesOfEdgesThatCross) {
   const PlaneConflicts conflicts = remesh(model, {}, meshed);
   EXPECT_TRUE(std::binary_search(conflicts.vertices.begin(), conflicts.vertices.end(), far));
   EXPECT_LT(conflicts.vertices.size(), 10u);
-  EXPECT_NE(conflicts.complaint.find("crosses or touches itself"), std::string::npos) << conflicts.complaint;
+  EXPECT_NE(conflicts.message.find("crosses or touches itself"), std::string::npos) << conflicts.message;
   EXPECT_EQ(hash_of(meshed.surface), hash);
 }
 
@@ -218,7 +218,7 @@ TEST(PlaneRemesher, SpreadsVerticesOnLinesBetweenPlanesAnew) {
       EXPECT_EQ(meshed.planes.size(), 3u);
       thicken_ball(4 * ball_size, meshed.surface);
       const PlaneConflicts conflicts = remesh(model, {}, meshed);
-      EXPECT_TRUE(conflicts.empty()) << conflicts.complaint;
+      EXPECT_TRUE(conflicts.empty()) << conflicts.message;
       expect_closed(meshed);
       EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
       EXPECT_GT(measure_planes(communicator, meshed).least_angle, 20);

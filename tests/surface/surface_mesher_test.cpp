@@ -33,7 +33,7 @@ Meshed mesh_model(const Communicator& communicator, const cad::Model& model, dou
   const sizing::SizingOptions sizes{
       .minimum = 1e-3, .maximum = maximum, .curvature_angle = angle, .growth = 1.3};
   sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
-  SurfaceMesh surface = mesh_surface(communicator, model, field, {});
+  SurfaceMesh surface = mesh_surface(model, field, {});
   return {model, std::move(field), std::move(surface)};
 }
 
@@ -80,8 +80,7 @@ TEST(SurfaceMesher, ChordalDeviationIsBounded) {
     for (const double wanted : {1e-2, 1e-3}) {
       sizing::SizingOptions sizes{.minimum = 1, .maximum = 1, .curvature_angle = 60, .growth = 1.3};
       sizes.chordal_deviation = wanted;
-      const SurfaceMesh surface =
-          mesh_surface(world, model, sizing::build_size_field(world, model, sizes), {});
+      const SurfaceMesh surface = mesh_surface(model, sizing::build_size_field(world, model, sizes), {});
       double largest = 0;
       for (const mesh::Piece& piece : surface.pieces) {
         if (model.is_planar(piece.common_face())) continue;
@@ -127,12 +126,12 @@ INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapes,
 
 /// The same pieces come out alone, in another order, and in the run of all: no piece knows of any other.
 TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
-  const Meshed meshed = mesh_model(world, cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
-  const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field);
+  const Meshed meshed =
+      mesh_model(Communicator::world(), cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
+  const CurveMesh curves = discretise_curves(meshed.model, meshed.field);
   for (const mesh::Piece& piece : meshed.surface.pieces) {
-    const Subface subface = subface_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
-    mesh::Piece alone = mesh_piece(meshed.model, subface, meshed.field, {});
+    const PieceProblem problem = problem_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
+    mesh::Piece alone = mesh_piece(meshed.model, problem, meshed.field, {});
     alone.id = piece.id;
     EXPECT_EQ(parallel::to_wire(piece), parallel::to_wire(alone)) << "face " << piece.common_face();
   }
