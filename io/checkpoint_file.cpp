@@ -19,7 +19,7 @@ using parallel::Communicator;
 using parallel::Digest;
 
 constexpr std::uint64_t magic = 0x54504b43'4f524541;  // "AEROCKPT"
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 /// The beginning of the file.
 struct Preamble {
@@ -100,9 +100,9 @@ Bytes read_header(const std::string& path, Preamble& preamble) {
 /// On every rank; empty where there is no file.
 Bytes broadcast_header(const SharedPath& file) {
   Bytes bytes;
-  parallel::agree(file.communicator, [&] {
+  parallel::on_root(file.communicator, [&] {
     Preamble preamble;
-    if (file.communicator.is_root()) bytes = read_header(file.path, preamble);
+    bytes = read_header(file.path, preamble);
   });
   file.communicator.broadcast(bytes);
   return bytes;
@@ -117,9 +117,7 @@ Header plan(const Communicator& communicator, const CheckpointLabel& label, cons
       mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
     }
   });
-  Header header{label, communicator.all_gather_items<SavedItem>(mine)};
-  std::sort(header.rows.begin(), header.rows.end(),
-            [](const SavedItem& a, const SavedItem& b) { return a.number < b.number; });
+  Header header{label, communicator.gather_sorted(mine, &SavedItem::number)};
   std::vector<SavedItem> common{
       {-1, static_cast<std::int64_t>(draft.common.size()), parallel::digest_of(draft.common)}};
   communicator.broadcast_items(common);
@@ -162,9 +160,7 @@ void write_checkpoint(const SharedPath& file, const CheckpointLabel& label, cons
     }
   };
   parallel::write_shared_file(communicator, fresh, work, parallel::Named::when_written);
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) std::filesystem::rename(fresh, file.path);
-  });
+  parallel::on_root(communicator, [&] { std::filesystem::rename(fresh, file.path); });
 }
 
 std::optional<CheckpointLabel> read_checkpoint_label(const SharedPath& file, std::size_t texts) {

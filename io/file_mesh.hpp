@@ -97,9 +97,8 @@ enum class CountedFaces { all, boundary };
 
 /// A mesh as writers see it, and the parts on this rank. Parts are views: no coordinates or cells are copied.
 struct FileMesh {
-  const mesh::DistributedMesh* pieces = nullptr;  ///< the viewed mesh; must exist unchanged as long as this
-  const mesh::Numbering* numbering = nullptr;
-  std::shared_ptr<const mesh::NumberedMesh> held;  ///< owns both, or is null
+  const mesh::NumberedMesh* pieces = nullptr;      ///< the viewed mesh; must exist unchanged as long as this
+  std::shared_ptr<const mesh::NumberedMesh> held;  ///< owns the mesh, or is null
 
   std::int32_t part_count = 0;         ///< of the whole mesh
   std::vector<MeshPart> parts;         ///< on this rank, by ascending id
@@ -119,11 +118,11 @@ struct FileMesh {
 };
 
 /// The layout of a mesh, with a part for each piece. A patch with boundary faces and faces between regions is
-/// split; the latter become NAME_interior. `mesh` and `numbering` must outlive the result. The second form
-/// keeps the mesh itself. Throws CollectiveError (bug) where arrays of a piece contradict each other, or
-/// numbers of owned vertices are not consecutive. Collective.
-FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering);
-FileMesh file_mesh_of(mesh::NumberedMesh mesh);
+/// split; the latter become NAME_interior. `mesh` must outlive the result; the second form keeps the mesh
+/// itself. Throws CollectiveError (bug) where arrays of a piece contradict each other, or numbers of owned
+/// vertices are not consecutive. Collective.
+FileMesh file_mesh_of(const mesh::NumberedMesh& mesh);
+FileMesh file_mesh_of(mesh::NumberedMesh&& mesh);
 
 /// The mesh in `parts` parts (mesh/transfer/repartition.hpp). Collective.
 FileMesh repartition(const FileMesh& mesh, std::int32_t parts,

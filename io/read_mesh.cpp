@@ -20,8 +20,8 @@ Assembled read_mesh(const SharedPath& file, std::int32_t parts) {
         fmt::format("'{}': no format of meshes that is read here ends like this; known are {}", path,
                     fmt::join(readable_extensions(), ", ")));
   }
-  parallel::agree(file.communicator, [&] {
-    if (file.communicator.is_root() && path.find('*') == std::string::npos && !std::filesystem::exists(path))
+  parallel::on_root(file.communicator, [&] {
+    if (path.find('*') == std::string::npos && !std::filesystem::exists(path))
       throw std::filesystem::filesystem_error("cannot read", path,
                                               std::make_error_code(std::errc::no_such_file_or_directory));
   });

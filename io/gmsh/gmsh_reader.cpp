@@ -260,9 +260,7 @@ void read_elements(Source& source, const GroupIds& groups, RawMesh& raw) {
 RawMesh read_msh(const SharedPath& file) {
   const parallel::Communicator& communicator = file.communicator;
   std::int64_t parts = 0;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) parts = count_parts(file.path);
-  });
+  parallel::on_root(communicator, [&] { parts = count_parts(file.path); });
   parts = communicator.sum(parts);
   std::vector<Source> sources;
   parallel::agree(communicator, [&] { sources = open_sources(file, parts); });

@@ -228,8 +228,7 @@ void write_msh_parts(const FileMesh& mesh, const std::string& path) {
 void remove_later_msh_parts(const SharedPath& file, std::int32_t parts) {
   const fs::path path = file.path;
   const PartNames names{path.parent_path(), path.stem().string()};
-  parallel::agree(file.communicator, [&] {
-    if (!file.communicator.is_root()) return;
+  parallel::on_root(file.communicator, [&] {
     for (std::int32_t part = parts; fs::remove(names.path(part));) ++part;
   });
 }

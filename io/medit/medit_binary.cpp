@@ -201,8 +201,7 @@ LocalMeditMesh read_medit_binary(const SharedPath& file) {
   const parallel::Communicator& communicator = file.communicator;
   std::vector<Widths> widths;
   std::vector<Section> sections;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     RangeReader reader(file.path);
     SectionChain chain(reader);
     chain.follow();

@@ -77,9 +77,7 @@ std::string read_names_file(const std::string& path) {
 MeditNames read_names(const SharedPath& file) {
   const std::string path = medit_names_path(file.path);
   std::string text;
-  parallel::agree(file.communicator, [&] {
-    if (file.communicator.is_root()) text = read_names_file(path);
-  });
+  parallel::on_root(file.communicator, [&] { text = read_names_file(path); });
   file.communicator.broadcast_value(text);
   MeditNames names;
   parallel::agree(file.communicator, [&] { names = parse_medit_names(text, path); });
@@ -89,8 +87,7 @@ MeditNames read_names(const SharedPath& file) {
 /// Whether the file is text. Collective.
 bool is_text(const SharedPath& file) {
   std::int64_t text = 0;
-  parallel::agree(file.communicator, [&] {
-    if (!file.communicator.is_root()) return;
+  parallel::on_root(file.communicator, [&] {
     RangeReader reader(file.path);
     // A binary file begins with the bytes 0 or 1.
     text = reader.size() > 0 && reader.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
@@ -101,9 +98,7 @@ bool is_text(const SharedPath& file) {
 LocalMeditMesh read_local_mesh(const SharedPath& file) {
   if (!is_text(file)) return read_medit_binary(file);
   LocalMeditMesh local;
-  parallel::agree(file.communicator, [&] {
-    if (file.communicator.is_root()) local = read_medit_text(file.path);
-  });
+  parallel::on_root(file.communicator, [&] { local = read_medit_text(file.path); });
   return local;
 }
 

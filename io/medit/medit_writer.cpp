@@ -117,7 +117,7 @@ void write_cells(const FileMesh& mesh, std::size_t shape, const MeditSection& se
   }
 }
 
-void write_local_parts(const FileMesh& mesh, const MeditLayout& layout, bool is_root,
+void write_medit_parts(const FileMesh& mesh, const MeditLayout& layout, bool is_root,
                        parallel::SharedFile& file) {
   LineBuffer buffer(file, layout);
   if (is_root) {
@@ -151,16 +151,14 @@ void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptio
       medit_layout(medit_counts_of(mesh), extension == ".mesh" ? MeditEncoding::text : MeditEncoding::binary,
                    options.wide);
   // Old mesh and new names must not stand beside each other.
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) std::filesystem::remove(path);
-  });
+  parallel::on_root(communicator, [&] { std::filesystem::remove(path); });
   parallel::write_shared_file(communicator, medit_names_path(path), [&](parallel::SharedFile& file) {
     if (!communicator.is_root()) return;
     const std::string names = medit_names_text(mesh);
     file.write(0, std::as_bytes(std::span(names.data(), names.size())));
   });
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
-    write_local_parts(mesh, layout, communicator.is_root(), file);
+    write_medit_parts(mesh, layout, communicator.is_root(), file);
   });
 }
 

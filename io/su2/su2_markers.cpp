@@ -150,9 +150,8 @@ std::string markers_path_of(const std::string& path) {
 }
 
 void remove_markers(const SharedPath& mesh_file) {
-  parallel::agree(mesh_file.communicator, [&] {
-    if (mesh_file.communicator.is_root()) std::filesystem::remove(markers_path_of(mesh_file.path));
-  });
+  parallel::on_root(mesh_file.communicator,
+                    [&] { std::filesystem::remove(markers_path_of(mesh_file.path)); });
 }
 
 void write_markers(const std::string& mesh_path, const FileMesh& mesh, const BoundaryPatches& patches,
@@ -167,9 +166,8 @@ void write_markers(const std::string& mesh_path, const FileMesh& mesh, const Bou
 
 void set_marker_types(const SharedPath& mesh_file, std::vector<mesh::Patch>& patches) {
   std::vector<mesh::PatchType> types;
-  parallel::agree(mesh_file.communicator, [&] {
-    if (mesh_file.communicator.is_root()) types = types_of_markers(markers_path_of(mesh_file.path), patches);
-  });
+  parallel::on_root(mesh_file.communicator,
+                    [&] { types = types_of_markers(markers_path_of(mesh_file.path), patches); });
   mesh_file.communicator.broadcast_items(types);
   for (std::size_t p = 0; p < patches.size(); ++p) patches[p].type = types[p];
 }

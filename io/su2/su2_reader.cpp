@@ -180,9 +180,7 @@ private:
 
 RawMesh read_su2(const SharedPath& file) {
   RawMesh raw(file);
-  parallel::agree(file.communicator, [&] {
-    if (file.communicator.is_root()) Su2Text(file.path, raw).read();
-  });
+  parallel::on_root(file.communicator, [&] { Su2Text(file.path, raw).read(); });
   file.communicator.broadcast_value(raw.patches);
   set_marker_types(file, raw.patches);
   raw.regions = {"fluid"};

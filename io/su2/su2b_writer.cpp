@@ -131,8 +131,8 @@ private:
 };
 
 template <class Integer>
-void write_local_parts(const FileMesh& mesh, const BoundaryPatches& patches,
-                       const std::vector<std::string>& names, bool is_root, RangeWriter& writer) {
+void write_su2b_parts(const FileMesh& mesh, const BoundaryPatches& patches,
+                      const std::vector<std::string>& names, bool is_root, RangeWriter& writer) {
   Su2bParts<Integer> parts(mesh, patches, writer);
   if (is_root) parts.write_heads(names);
   for (const MeshPart& part : mesh.parts) parts.write_part(part);
@@ -150,9 +150,9 @@ void write_su2b(const FileMesh& mesh, const std::string& path) {
   parallel::write_shared_file(mesh.communicator(), path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file, ByteOrder::little);
     if (is_narrow) {
-      write_local_parts<std::uint32_t>(mesh, patches, names, is_root, writer);
+      write_su2b_parts<std::uint32_t>(mesh, patches, names, is_root, writer);
     } else {
-      write_local_parts<std::uint64_t>(mesh, patches, names, is_root, writer);
+      write_su2b_parts<std::uint64_t>(mesh, patches, names, is_root, writer);
     }
   });
   write_markers(path, mesh, patches, names);

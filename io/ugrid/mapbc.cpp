@@ -47,10 +47,9 @@ Table parse_mapbc(const std::string& path) {
 
 Table read_mapbc(const SharedPath& file) {
   Table table;
-  parallel::agree(file.communicator, [&] {
+  parallel::on_root(file.communicator, [&] {
     std::error_code none;
-    if (file.communicator.is_root() && std::filesystem::exists(file.path, none))
-      table = parse_mapbc(file.path);
+    if (std::filesystem::exists(file.path, none)) table = parse_mapbc(file.path);
   });
   file.communicator.broadcast_value(table);
   return table;

@@ -74,12 +74,11 @@ FilePlan plan_for(const parallel::Communicator& communicator, std::span<const Wr
                       .items = items_of(written.part, content),
                       .work = work_of(written.part, content)});
   }
-  auto all = communicator.all_gather_items(std::span<const PartLocation>(places));
-  std::sort(all.begin(), all.end(), [](const PartLocation& a, const PartLocation& b) { return a.id < b.id; });
-  return plan_files(all, items_per_file, communicator.size());
+  return plan_files(communicator.gather_sorted(places, &PartLocation::id), items_per_file,
+                    communicator.size());
 }
 
-/// The arrays of a part that travel.
+/// The arrays of a part in a message.
 template <template <class> class Array>
 struct PartArrays {
   struct Items {
@@ -258,9 +257,7 @@ std::size_t write_files(std::span<const WrittenPart> mine, FileContent content,
                         mesh::GlobalIndex items_per_file, const IndexedFiles& files,
                         const FileWriter& write) {
   const parallel::Communicator& communicator = files.communicator;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) prepare_folder(files);
-  });
+  parallel::on_root(communicator, [&] { prepare_folder(files); });
   const FilePlan plan = plan_for(communicator, mine, content, items_per_file);
   const auto of_this_rank = [&](const PlannedFile& file) { return file.writer == communicator.rank(); };
   parallel::Progress progress("output", std::count_if(plan.files.begin(), plan.files.end(), of_this_rank),
@@ -280,8 +277,7 @@ std::size_t write_files(std::span<const WrittenPart> mine, FileContent content,
 }
 
 void write_index(const IndexedFiles& files, const std::string& text) {
-  parallel::agree(files.communicator, [&] {
-    if (!files.communicator.is_root()) return;
+  parallel::on_root(files.communicator, [&] {
     const std::string path = files.index_path(), unfinished = path + ".unfinished";
     try {
       LocalFile file(unfinished);

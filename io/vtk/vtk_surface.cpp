@@ -100,14 +100,14 @@ void write_face_file(const std::vector<WrittenPart>& parts, const FileMesh& mesh
 }
 
 /// The triangles of a surface as faces without runs.
-std::vector<WrittenPart> parts_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering) {
+std::vector<WrittenPart> parts_of(const mesh::NumberedMesh& surface) {
   std::vector<WrittenPart> parts;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     const mesh::Piece& piece = surface.pieces[i];
     WrittenPart& view = parts.emplace_back();
     view.part.id = piece.id;
     view.part.coordinates = piece.coordinates;
-    view.part.numbers = numbering.vertices[i];
+    view.part.numbers = surface.numbering.vertices[i];
     view.part.faces[0] = {3, piece.cells, {}, 0, {}};
     view.triangle_face = piece.triangle_face;
     view.triangle_patch = piece.triangle_patch;
@@ -115,7 +115,7 @@ std::vector<WrittenPart> parts_of(const mesh::DistributedMesh& surface, const me
   return parts;
 }
 
-/// The parts of a mesh with some of their faces; looks into arrays of its own.
+/// The parts of a mesh with some of their faces, as views of `corners`.
 struct SelectedFaces {
   std::vector<WrittenPart> parts;
   std::vector<std::vector<mesh::LocalIndex>> corners;
@@ -149,14 +149,13 @@ SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
 
 }  // namespace
 
-void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                   const std::string& directory, const std::string& name, Compression compression) {
+void write_surface(const mesh::NumberedMesh& surface, const std::string& directory, const std::string& name,
+                   Compression compression) {
   const IndexedFiles files{surface.communicator, directory, name, "pvtp", "vtp"};
-  const std::size_t count =
-      write_files(parts_of(surface, numbering), FileContent::faces, faces_per_part, files,
-                  [&](const std::vector<WrittenPart>& parts, const std::string& path) {
-                    write_triangle_file(parts, surface, path, compression);
-                  });
+  const std::size_t count = write_files(parts_of(surface), FileContent::faces, faces_per_part, files,
+                                        [&](const std::vector<WrittenPart>& parts, const std::string& path) {
+                                          write_triangle_file(parts, surface, path, compression);
+                                        });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {
       {"Int32", "piece"}, {"Int32", "face"}, {"Int32", "patch"}, {"Float32", "quality"}};

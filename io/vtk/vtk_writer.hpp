@@ -38,8 +38,7 @@ void write_volume(const FileMesh& mesh, const std::string& directory, const std:
 /// Writes a surface mesh to DIRECTORY/NAME.pvtp, with .vtp files in DIRECTORY/NAME/. Cell arrays: `piece`,
 /// `face` and `patch` (ids), `quality`. Field arrays: `face_names`, `patch_names`. Point array: `global_id`.
 /// Collective, as write_volume.
-void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                   const std::string& directory, const std::string& name,
+void write_surface(const mesh::NumberedMesh& surface, const std::string& directory, const std::string& name,
                    Compression compression = Compression::none);
 /// The boundary patches of a mesh, or the patches between its regions.
 enum class SurfaceFaces { outside, between_regions };

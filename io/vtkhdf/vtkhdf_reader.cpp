@@ -164,9 +164,7 @@ void name_patches(const FileFacts& facts, RawMesh& raw) {
 
 RawMesh read_vtkhdf(const SharedPath& file) {
   FileFacts facts;
-  parallel::agree(file.communicator, [&] {
-    if (file.communicator.is_root()) facts = vtkhdf::survey_file(file.path);
-  });
+  parallel::on_root(file.communicator, [&] { facts = vtkhdf::survey_file(file.path); });
   file.communicator.broadcast_value(facts);
   RawMesh raw(file), boundary(file);
   parallel::agree(file.communicator, [&] { vtkhdf::read_local_items(facts, raw, boundary); });
