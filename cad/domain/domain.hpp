@@ -5,7 +5,6 @@
 #include "cad/model/model.hpp"
 #include "cad/repair/change.hpp"
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <tuple>

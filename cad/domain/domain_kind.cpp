@@ -9,8 +9,6 @@
 
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Face.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {

@@ -1,6 +1,5 @@
 #include "cad/domain/far_field_shape.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

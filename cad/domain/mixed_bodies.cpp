@@ -1,6 +1,5 @@
 #include "cad/domain/mixed_bodies.hpp"
 
-#include "cad/domain/domain_kind.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_meeting.hpp"
 #include "cad/faceted/facet_walls.hpp"

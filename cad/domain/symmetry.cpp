@@ -6,7 +6,6 @@
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -12,7 +12,6 @@
 #include <utility>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <fmt/format.h>
 

@@ -4,7 +4,6 @@
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/repair/change.hpp"
 
-#include <vector>
 
 namespace aeroloom::cad {
 

@@ -9,8 +9,6 @@
 #include "cad/faceted/facet_sheets.hpp"
 #include "geometry/box_tree.hpp"
 
-#include <memory>
-#include <span>
 #include <vector>
 
 namespace aeroloom::cad {

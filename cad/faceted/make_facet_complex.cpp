@@ -3,7 +3,6 @@
 #include "cad/faceted/chambers.hpp"
 #include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
-#include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/split_facets.hpp"
 #include "cad/faceted/unite_components.hpp"
 #include "cad/faceted/weld_facets.hpp"

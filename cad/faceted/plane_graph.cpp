@@ -5,7 +5,6 @@
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 

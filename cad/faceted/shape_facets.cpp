@@ -7,7 +7,6 @@
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
-#include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"

@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 #include <queue>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>

@@ -2,9 +2,6 @@
 
 #include "geometry/disjoint_sets.hpp"
 
-#include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace aeroloom::cad {
 namespace {

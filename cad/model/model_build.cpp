@@ -13,11 +13,9 @@
 #include <sstream>
 
 #include <BRepTools.hxx>
-#include <BRep_Tool.hxx>
 #include <BinTools.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {

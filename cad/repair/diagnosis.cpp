@@ -10,9 +10,7 @@
 #include "cad/repair/sewing.hpp"
 #include "cad/tolerances.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepGProp.hxx>
@@ -20,7 +18,6 @@
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
 #include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>

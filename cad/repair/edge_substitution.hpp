@@ -3,7 +3,6 @@
 
 #include "cad/model/named_shape.hpp"
 
-#include <map>
 #include <vector>
 
 #include <TopTools_IndexedMapOfShape.hxx>

@@ -15,14 +15,11 @@
 #include <utility>
 
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {

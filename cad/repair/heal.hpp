@@ -5,7 +5,6 @@
 #include "cad/repair/change.hpp"
 #include "cad/repair/volumes.hpp"
 
-#include <string>
 #include <vector>
 
 #include <TopoDS_Solid.hxx>

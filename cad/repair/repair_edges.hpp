@@ -3,8 +3,6 @@
 
 #include "cad/repair/change.hpp"
 
-#include <string>
-#include <vector>
 
 #include <TopoDS_Shape.hxx>
 

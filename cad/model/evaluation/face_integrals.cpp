@@ -3,7 +3,6 @@
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 

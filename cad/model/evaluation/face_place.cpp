@@ -3,7 +3,6 @@
 #include "cad/faceted/faceted_part.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
-#include "cad/model/topology/joined_faces.hpp"
 #include "cad/model/topology/sheets.hpp"
 
 #include <BRepGProp.hxx>

@@ -1,11 +1,9 @@
 #include "cad/faceted/faceted_part.hpp"
 #include "cad/model/model_data.hpp"
-#include "cad/model/occ_guard.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -3,7 +3,6 @@
 
 #include "cad/model/topology/blunt_edges.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace aeroloom::cad {

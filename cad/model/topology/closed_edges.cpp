@@ -10,7 +10,6 @@
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/facets_aside.hpp"
 #include "cad/model/topology/middle_curves.hpp"
-#include "cad/model/topology/model_topology.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 

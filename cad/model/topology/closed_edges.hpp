@@ -8,7 +8,6 @@
 
 #include "cad/model/topology/blunt_edges.hpp"
 
-#include <span>
 #include <vector>
 
 namespace aeroloom::cad {

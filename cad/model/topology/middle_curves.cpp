@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomConvert.hxx>

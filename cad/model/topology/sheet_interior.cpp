@@ -3,7 +3,6 @@
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <gp_Pnt2d.hxx>
