@@ -6,9 +6,17 @@
 #include <vector>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Solid.hxx>
 
 namespace aeroloom::cad {
+
+template <class Shape>
+TopTools_ListOfShape list_of(const std::vector<Shape>& shapes) {
+  TopTools_ListOfShape list;
+  for (const Shape& shape : shapes) list.Append(shape);
+  return list;
+}
 
 /// Builds an operation whose arguments are set. Throws CadError when the CAD library reports failure; `doing`
 /// says what was tried.

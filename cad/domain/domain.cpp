@@ -4,7 +4,7 @@
 #include "cad/domain/far_field.hpp"
 #include "cad/domain/far_field_shape.hpp"
 #include "cad/domain/mixed_bodies.hpp"
-#include "cad/domain/sharpen.hpp"
+#include "cad/domain/trailing_edges.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/occ_guard.hpp"

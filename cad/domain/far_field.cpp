@@ -28,10 +28,6 @@
 namespace aeroloom::cad {
 namespace {
 
-bool holds(const Box& outer, const Box& inner) {
-  return outer.contains(inner.low) && outer.contains(inner.high);
-}
-
 /// The shells that face the fluid. A body's cavities hold no outside fluid; a body in another's cavity never
 /// meets it.
 std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volumes, Changes& changes) {
@@ -57,7 +53,7 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
   for (std::size_t i = 0; i < nested.size(); ++i) {
     bool buried = false;
     for (std::size_t j = 0; j < nested.size() && !buried; ++j) {
-      const bool may_nest = i != j && (holds(boxes[i], boxes[j]) || holds(boxes[j], boxes[i]));
+      const bool may_nest = i != j && (boxes[i].contains(boxes[j]) || boxes[j].contains(boxes[i]));
       buried = may_nest && nest_shells({outer[j], outer[i]}, volumes).size() == 1;
     }
     if (!buried) outermost.push_back(outer[i]);

@@ -42,12 +42,6 @@ void append_soup(FacetSoup& all, const FacetSoup& more) {
   }
 }
 
-Box box_of(const FacetSoup& soup) {
-  Box box;
-  for (const Vec3 p : soup.points) box.add(p);
-  return box;
-}
-
 std::string name_of_soup(const FacetSoup& soup) {
   const FacetSoup::Group& group = soup.groups[soup.group_of.front()];
   return group.part.empty() ? group.name : group.part;
@@ -164,7 +158,7 @@ private:
   /// What a CAD body overlaps among the triangles.
   std::optional<std::string> overlapped_by(CadBody& body) {
     for (const FacetSoup& soup : _facets) {
-      if (!box_of(soup).overlaps(body.box.dilated(2 * deflection(body)))) continue;
+      if (!box_of_points(soup.points).overlaps(body.box.dilated(2 * deflection(body)))) continue;
       const MeetingPlace found = meet(body, [&](double) -> const FacetSoup& { return soup; });
       if (found.meeting == FacetMeeting::crossing) return name_of_soup(soup);
       if (found.meeting == FacetMeeting::apart) continue;
@@ -233,8 +227,7 @@ MixedFluid surround_mixed(NamedShape bodies, const std::vector<RefusedUnion>& re
     fluid.shape = far_field_around(*walls, far_field);
     fluid.shape.unit_name = bodies.unit_name, fluid.shape.unit_in_metres = bodies.unit_in_metres;
   } else {
-    Box beside;
-    for (std::size_t p = 0; walls && p < walls->points.size(); ++p) beside.add(walls->points[p]);
+    const Box beside = walls ? box_of_points(walls->points) : Box{};
     bodies.shape = make_compound(solids);
     fluid.shape = surround(std::move(bodies), far_field, volumes, changes, beside);
   }

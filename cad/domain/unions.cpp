@@ -18,19 +18,12 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
 namespace {
 
 using Solids = std::vector<TopoDS_Solid>;
-
-TopTools_ListOfShape list_of(const Solids& solids) {
-  TopTools_ListOfShape list;
-  for (const TopoDS_Solid& solid : solids) list.Append(solid);
-  return list;
-}
 
 /// One way to have the CAD library unite solids.
 struct Way {
@@ -74,12 +67,6 @@ Union fuse(const Solids& arguments, const Solids& tools, const Way& way, const F
   Union result{solids_of(fuse.Shape()), labels};
   follow_labels(fuse, inputs, result.labels);
   return result;
-}
-
-double volume_of(const Solids& solids, Volumes& volumes) {
-  double sum = 0;
-  for (const TopoDS_Solid& solid : solids) sum += volumes.of(solid);
-  return sum;
 }
 
 /// Why a union is none; empty where it is sound.
@@ -165,14 +152,17 @@ Vec3 meeting_place(const Box& a, const Box& b) {
 
 }  // namespace
 
+double volume_of(const Solids& solids, Volumes& volumes) {
+  double sum = 0;
+  for (const TopoDS_Solid& solid : solids) sum += volumes.of(solid);
+  return sum;
+}
+
 double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, double tolerance,
                      Volumes& volumes) {
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(first);
-  tools.Append(second);
   BRepAlgoAPI_Common common;
-  common.SetArguments(arguments);
-  common.SetTools(tools);
+  common.SetArguments(list_of(std::vector{first}));
+  common.SetTools(list_of(std::vector{second}));
   if (tolerance > 0) common.SetFuzzyValue(tolerance);
   perform(common, "intersecting two bodies");
   return common.Shape().IsNull() ? 0 : std::abs(volumes.of(common.Shape()));

@@ -11,6 +11,9 @@
 
 namespace aeroloom::cad {
 
+/// The sum of their volumes.
+double volume_of(const std::vector<TopoDS_Solid>& solids, Volumes& volumes);
+
 /// The volume that two shapes have in common, as the CAD library finds it with this tolerance (0: its own).
 double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, double tolerance,
                      Volumes& volumes);

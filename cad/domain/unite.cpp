@@ -12,7 +12,6 @@
 #include <utility>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -119,19 +118,13 @@ NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) 
       result.push_back(group.front());
       continue;
     }
-    TopTools_ListOfShape arguments;
-    double parts = 0;
-    for (const TopoDS_Solid& solid : group) {
-      arguments.Append(solid);
-      parts += volumes.of(solid);
-    }
+    const double parts = volume_of(group, volumes);
     BRepAlgoAPI_BuilderAlgo join;
-    join.SetArguments(arguments);
+    join.SetArguments(list_of(group));
     perform(join, "joining regions that touch");
     follow_labels(join, group, regions.labels);
     const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
-    double whole = 0;
-    for (const TopoDS_Solid& solid : joined) whole += volumes.of(solid);
+    const double whole = volume_of(joined, volumes);
     if (joined.size() < group.size() || std::abs(whole - parts) > tolerances::integrated_volume * parts) {
       throw CadError(
           fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}{}. Remedy: make "

@@ -22,12 +22,6 @@ namespace {
 /// Points are one only where they are nearer than this fraction of the shortest open side at either.
 constexpr double fraction_of_side = 0.25;
 
-double diagonal_of_points(const FacetSoup& soup) {
-  geometry::Box box;
-  for (const Vec3 p : soup.points) box.add(p);
-  return box.diagonal();
-}
-
 /// Pairs of open points that are nearest to each other.
 class NearOpenPoints {
 public:
@@ -113,7 +107,7 @@ void close_facets(FacetSoup& soup, Changes& changes) {
   constexpr int rounds = 8;
   for (int i = 0; i < rounds && split_open_sides(soup, 0, changes) > 0; ++i)
     drop_void_triangles(soup, changes);
-  const double diagonal = diagonal_of_points(soup);
+  const double diagonal = box_of_points(soup.points).diagonal();
   for (const double fraction : tolerances::sewing) {
     if (!is_open()) return;
     weld_open_points(soup, fraction * diagonal, changes);

@@ -1,6 +1,7 @@
 /// Flat triangles that enclose regions, cut into faces along curves: a faceted model once it is repaired.
 #pragma once
 
+#include "cad/faceted/facet_soup.hpp"
 #include "cad/model/model.hpp"
 
 #include <array>
@@ -10,16 +11,17 @@
 
 namespace aeroloom::cad {
 
+/// What a triangle lies between.
+struct FacetSkin {
+  RegionId front = no_entity, back = no_entity;  ///< as in Face
+  bool cavity = false;                           ///< beyond it lies a void that is enclosed by its region
+  friend bool operator==(const FacetSkin&, const FacetSkin&) = default;
+};
+
 /// Every point is used. Triangles meet in common points and sides only, and every side has two or more of
 /// them.
 struct FacetComplex {
-  struct Face {
-    std::string name, part;                        ///< as in the file; empty where it gives none
-    RegionId front = no_entity, back = no_entity;  ///< as in Face
-    bool cavity = false;                           ///< beyond it lies a void that is enclosed by its region
-    std::string patch = {}, layer = {}, colour = {};  ///< of faces of CAD, as in FacetSoup::Group
-    std::int32_t number = -1;
-  };
+  struct Face : FacetSoup::Group, FacetSkin {};
   /// A chain of sides between two of `vertices`; a closed one begins and ends with the same vertex.
   struct Curve {
     std::vector<std::int32_t> points;

@@ -15,6 +15,8 @@
 namespace aeroloom::cad {
 namespace {
 
+using geometry::Vec3;
+
 constexpr int facets_per_leaf = 8;  // chosen, not measured
 
 /// Whether the corners of b, but for the common one, surely lie strictly on one side of a's plane: quick, and
@@ -240,11 +242,6 @@ FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& 
   });
   const FacetContact& shown = apart == all.end() ? all.front() : *apart;
   return {all.size(), shown.first, shown.second};
-}
-
-Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle) {
-  const auto& [a, b, c] = soup.triangles[triangle];
-  return (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
 }
 
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle) {

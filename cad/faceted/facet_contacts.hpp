@@ -10,8 +10,6 @@
 
 namespace aeroloom::cad {
 
-using geometry::Vec3;
-
 /// For each triangle what hangs together with it over sides, counted in the order of the file.
 struct FacetComponents {
   std::vector<std::int32_t> of;
@@ -34,9 +32,8 @@ struct FacetContact {
 /// All pairs, ascending. Exact. Points with equal coordinates must be one.
 std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup);
 
-/// What a component is called in messages, by one of its triangles, and where that is.
+/// What a component is called in messages, by one of its triangles.
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle);
-Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle);
 
 /// As list_facet_contacts.
 FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components);

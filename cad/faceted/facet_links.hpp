@@ -36,9 +36,5 @@ inline std::array<Vec3, 3> corners_of(const FacetComplex& complex, std::int32_t 
   const auto& [a, b, c] = complex.triangles[triangle];
   return {complex.points[a], complex.points[b], complex.points[c]};
 }
-/// The normal of a triangle times twice its area.
-inline Vec3 area_vector2(const std::array<Vec3, 3>& corners) {
-  return cross(corners[1] - corners[0], corners[2] - corners[0]);
-}
 
 }  // namespace aeroloom::cad

@@ -1,6 +1,8 @@
-/// The sides of triangles by their end points: who meets at each. Seen by this folder only.
+/// The sides of triangles by their end points: who meets at each, and how much the surface turns there. Seen
+/// by this folder only.
 #pragma once
 
+#include "cad/faceted/facet_soup.hpp"
 #include "geometry/half_edges.hpp"
 #include "geometry/runs.hpp"
 
@@ -53,5 +55,24 @@ inline std::int32_t side_end(const std::vector<geometry::TriangleCorners>& trian
 inline std::int32_t side_apex(const std::vector<geometry::TriangleCorners>& triangles, geometry::HalfEdge h) {
   return triangles[h / 3][(h % 3 + 2) % 3];
 }
+
+/// A side and its passes in `SideTable::passes`.
+struct SideRecord {
+  std::int32_t low, high;
+  std::int32_t begin, end;
+  std::int32_t passes() const { return end - begin; }
+};
+
+struct SideTable {
+  std::vector<FacetSide> passes;
+  std::vector<SideRecord> sides;
+  std::vector<std::int32_t> side_of;  ///< of each half-edge
+};
+SideTable make_side_table(const std::vector<geometry::TriangleCorners>& triangles);
+
+/// Radians between the normals of the two triangles of each side, which run along it in opposite directions;
+/// pi where there are not two. Triangles so thin that rounding of the file decides about their normals take
+/// that of the neighbour over their longest side.
+std::vector<double> measure_turns(const FacetSoup& soup, const SideTable& table);
 
 }  // namespace aeroloom::cad

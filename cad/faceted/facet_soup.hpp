@@ -8,6 +8,8 @@
 #include "geometry/vec.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,6 +43,31 @@ struct FacetSoup {
   std::vector<geometry::Vec3> holes;  ///< points in spaces that are no material
   std::vector<RegionPoint> regions;   ///< points in spaces that have a name
 };
+
+inline geometry::Box box_of_points(const std::vector<geometry::Vec3>& points) {
+  geometry::Box box;
+  for (const geometry::Vec3 p : points) box.add(p);
+  return box;
+}
+inline std::array<geometry::Vec3, 3> corners_of(const FacetSoup& soup, std::size_t triangle) {
+  const auto& [a, b, c] = soup.triangles[triangle];
+  return {soup.points[a], soup.points[b], soup.points[c]};
+}
+inline geometry::Vec3 middle_of(const FacetSoup& soup, std::size_t triangle) {
+  const auto [a, b, c] = corners_of(soup, triangle);
+  return (a + b + c) / 3.0;
+}
+/// The normal of a triangle times twice its area.
+inline geometry::Vec3 area_vector2(const std::array<geometry::Vec3, 3>& corners) {
+  return cross(corners[1] - corners[0], corners[2] - corners[0]);
+}
+
+/// The coordinate axis that is farthest from a direction.
+inline geometry::Vec3 farthest_axis(geometry::Vec3 direction) {
+  const double x = std::abs(direction.x), y = std::abs(direction.y), z = std::abs(direction.z);
+  if (x <= y && x <= z) return {1, 0, 0};
+  return y <= z ? geometry::Vec3{0, 1, 0} : geometry::Vec3{0, 0, 1};
+}
 
 /// Whether the file is one of read_facets: by extension, and an .stl by content too, since many programs
 /// write "solid" at the head of binary files. False where it cannot be opened.

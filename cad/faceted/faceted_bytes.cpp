@@ -4,21 +4,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 namespace aeroloom::cad {
 namespace {
-
-void put_texts(const std::vector<std::string>& texts, ByteWriter& writer) {
-  writer.put<std::uint64_t>(texts.size());
-  for (const std::string& text : texts) writer.put_text(text);
-}
-
-std::vector<std::string> get_texts(ByteReader& reader) {
-  std::vector<std::string> texts;
-  for (auto left = reader.get<std::uint64_t>(); left > 0; --left) texts.push_back(reader.get_text());
-  return texts;
-}
 
 FacetComplex get_complex(ByteReader& reader) {
   FacetComplex complex;
@@ -34,7 +24,7 @@ FacetComplex get_complex(ByteReader& reader) {
     face.front = reader.get<RegionId>(), face.back = reader.get<RegionId>();
     face.cavity = reader.get<char>() != 0;
   }
-  complex.regions = get_texts(reader);
+  complex.regions = reader.get_texts();
   return complex;
 }
 
@@ -69,7 +59,7 @@ void put_faceted(const FacetedPart* part, ByteWriter& writer) {
     writer.put(face.front), writer.put(face.back);
     writer.put<char>(face.cavity);
   }
-  put_texts(complex.regions, writer);
+  writer.put_texts(complex.regions);
   writer.put_all(part->sheets().sheets);
   writer.put_all(part->sheets().of);
 }
@@ -107,9 +97,7 @@ void number_facets(Model::Data& data) {
     const FacetedFace& own = part.faces()[f];
     Face& face = data.faces.emplace_back();
     face.loops = own.loops;
-    for (auto& loop : face.loops) {
-      for (Coedge& use : loop) use.edge += data.first_faceted_edge;
-    }
+    for (Coedge& use : face.loops | std::views::join) use.edge += data.first_faceted_edge;
     face.front = complex.faces[f].front, face.back = complex.faces[f].back;
     Snap& snap = data.face_snaps.emplace_back();
     if (const auto axis = exact_axis(part, own)) snap.fix(*axis, complex.points[own.points.front()][*axis]);

@@ -6,14 +6,13 @@
 #include "cad/faceted/faceted_part.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <BRep_Builder.hxx>
-#include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -21,8 +20,7 @@ namespace {
 
 /// Patches of faces without a name go by part, then by the side of the domain they lie on.
 std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullComparison* hull) {
-  Box all;
-  for (const Vec3 p : complex.points) all.add(p);
+  const Box all = box_of_points(complex.points);
   std::vector<Box> boxes(complex.faces.size());
   for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
     for (const std::int32_t p : complex.triangles[t]) boxes[complex.face_of[t]].add(complex.points[p]);
@@ -109,14 +107,9 @@ void refuse_symmetry(const FarFieldOptions& options, const std::string& who) {
 }
 
 NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options) {
-  Box box;
-  for (const Vec3 p : walls.points) box.add(p);
+  const Box box = box_of_points(walls.points);
   NamedShape named;
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  builder.Add(compound, place_far_field(options, {box, box}, std::nullopt, named.labels));
-  named.shape = compound;
+  named.shape = make_compound({place_far_field(options, {box, box}, std::nullopt, named.labels)});
   return named;
 }
 

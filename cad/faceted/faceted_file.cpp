@@ -35,8 +35,7 @@ FacetSoup soup_of(const FacetComplex& walls, const std::string& file) {
   FacetSoup soup;
   soup.file = file;
   soup.points = walls.points;
-  for (const FacetComplex::Face& face : walls.faces)
-    soup.groups.push_back({face.name, face.part, face.patch, face.layer, face.colour, face.number});
+  soup.groups.assign(walls.faces.begin(), walls.faces.end());
   soup.group_of.assign(walls.face_of.begin(), walls.face_of.end());
   for (const auto& [a, b, c] : walls.triangles) soup.triangles.push_back({a, c, b});
   return soup;
@@ -100,9 +99,7 @@ CadFacts look_at_faceted_file(const std::string& file) {
   CadFacts facts;
   facts.format = found.format;
   facts.bounds = found.bounds;
-  facts.facets = FacetCounts{
-      found.points,         found.triangles,         found.components, found.without_area, found.open_sides,
-      found.junction_sides, found.misoriented_sides, found.area,       found.volume};
+  facts.facets = found;
   for (const FacetGroupFacts& group : found.groups) {
     if (!group.name.empty()) facts.face_names.push_back({group.name, group.triangles});
     if (!group.part.empty()) facts.parts.push_back({group.part, group.triangles});

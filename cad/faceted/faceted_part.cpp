@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -197,13 +198,11 @@ Facets FacetedPart::facets(FaceId id) const {
     return static_cast<std::int32_t>(std::lower_bound(face.points.begin(), face.points.end(), p) -
                                      face.points.begin());
   };
-  for (const auto& loop : face.loops) {
-    for (const Coedge& use : loop) {
-      const FacetedEdge& edge = _edges[use.edge];
-      Facets::BoundaryLine line{use, {}, edge.along};
-      for (const std::int32_t p : edge.points) line.nodes.push_back(number(p));
-      facets.boundary.push_back(std::move(line));
-    }
+  for (const Coedge& use : face.loops | std::views::join) {
+    const FacetedEdge& edge = _edges[use.edge];
+    Facets::BoundaryLine line{use, {}, edge.along};
+    for (const std::int32_t p : edge.points) line.nodes.push_back(number(p));
+    facets.boundary.push_back(std::move(line));
   }
   return facets;
 }
@@ -231,13 +230,11 @@ FacePlace FacetedPart::face_place(FaceId id) const {
 FacetedPart make_faceted_part(FacetComplex complex) {
   divide_at_sharp_seams(complex);
   FacetSheets sheets = cut_into_sheets(complex, link_facets(complex));
-  Box box;
   double farthest = 0;
-  for (const Vec3 p : complex.points) {
-    box.add(p);
+  for (const Vec3 p : complex.points)
     farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  const double tolerance = std::max(tolerances::coincident * box.diagonal(), 2 * single_precision * farthest);
+  const double tolerance = std::max(tolerances::coincident * box_of_points(complex.points).diagonal(),
+                                    2 * single_precision * farthest);
   return FacetedPart(std::move(complex), std::move(sheets), tolerance);
 }
 

@@ -1,21 +1,13 @@
 /// The sides along which a faceted surface is cut into faces, and the points where curves of them end.
 #pragma once
 
-#include "cad/faceted/facet_soup.hpp"
-#include "cad/faceted/facet_turns.hpp"
-#include "cad/model/model.hpp"
+#include "cad/faceted/facet_complex.hpp"
+#include "cad/faceted/facet_sides.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace aeroloom::cad {
-
-/// What a triangle lies between: regions, and whether the space beyond it is an enclosed void.
-struct FacetSkin {
-  RegionId front = no_entity, back = no_entity;
-  bool cavity = false;
-  friend bool operator==(const FacetSkin&, const FacetSkin&) = default;
-};
 
 struct FacetFeatures {
   std::vector<char> is_feature;        ///< per side of the table

@@ -5,6 +5,7 @@
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/weld_facets.hpp"
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
@@ -23,10 +24,8 @@
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
 
@@ -45,8 +44,7 @@ class ShapeTriangles {
 public:
   /// `copy` is triangulated already.
   explicit ShapeTriangles(const TopoDS_Shape& copy) {
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(copy, TopAbs_FACE, faces);
+    const TopTools_IndexedMapOfShape faces = map_of(copy, TopAbs_FACE);
     for (int i = 1; i <= faces.Extent(); ++i) add_face(TopoDS::Face(faces(i)), i - 1);
   }
 

@@ -2,7 +2,6 @@
 
 #include "geometry/disjoint_sets.hpp"
 
-
 namespace aeroloom::cad {
 namespace {
 
@@ -77,11 +76,8 @@ FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetSkin>& s
   complex.triangles = soup.triangles;
   std::vector<std::int32_t> first_of_face;
   complex.face_of = gather_faces(soup, table, features, first_of_face);
-  for (const std::int32_t t : first_of_face) {
-    const FacetSoup::Group& group = soup.groups[soup.group_of[t]];
-    complex.faces.push_back({group.name, group.part, skins[t].front, skins[t].back, skins[t].cavity,
-                             group.patch, group.layer, group.colour, group.number});
-  }
+  for (const std::int32_t t : first_of_face)
+    complex.faces.push_back({soup.groups[soup.group_of[t]], skins[t]});
   complex.curves = CurveTracer(table, features, soup.points.size()).curves;
   complex.vertices = features.vertices;
   return complex;

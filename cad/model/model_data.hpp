@@ -6,7 +6,6 @@
 #include "cad/model/named_shape.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -43,6 +42,9 @@ Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags,
 /// The bytes of a model with these strips closed (closed_edges.hpp), from those of the model before.
 std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips);
 
+/// The number of the patch with this name, which is appended where there is none yet.
+std::int32_t patch_number(std::vector<std::string>& patches, const std::string& name);
+
 /// The box of a shape's geometry, without the gaps that tolerances and control points would add.
 Box tight_box(const TopoDS_Shape& shape);
 /// The box of several shapes' geometry: faces within the box of the others' edges and faces cost next to
@@ -78,11 +80,7 @@ struct ParameterRange {
   /// The length after which points repeat; 0 where they do not.
   double repeats_after() const { return period > 0 ? period : closed ? high - low : 0; }
   /// The parameter of the same point inside the range.
-  double wrap(double parameter) const {
-    const double length = repeats_after();
-    if (length == 0 || (parameter >= low && parameter <= high)) return parameter;
-    return parameter - length * std::floor((parameter - low) / length);
-  }
+  double wrap(double parameter) const { return wrap_parameter(parameter, low, high, repeats_after()); }
 };
 
 struct FaceEvaluator {

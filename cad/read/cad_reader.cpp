@@ -1,6 +1,7 @@
 #include "cad/read/cad_reader.hpp"
 
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 
 #include <algorithm>
@@ -15,8 +16,6 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
 
@@ -115,8 +114,7 @@ private:
 
 /// Half of the vertices are exact to this.
 double median_tolerance(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape vertices;
-  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  const TopTools_IndexedMapOfShape vertices = map_of(shape, TopAbs_VERTEX);
   std::vector<double> tolerances;
   for (int i = 1; i <= vertices.Extent(); ++i)
     tolerances.push_back(BRep_Tool::Tolerance(TopoDS::Vertex(vertices(i))));
@@ -200,8 +198,7 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
 
 /// In the order of the file, which no repair, cut or far field changes.
 void number_faces(NamedShape& named) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i) {
     if (!named.labels.IsBound(faces(i))) named.labels.Bind(faces(i), FaceLabel{});
     named.labels.ChangeFind(faces(i)).number = i - 1;

@@ -1,11 +1,13 @@
-/// Edges cut into pieces, some of which take the place of others. Seen by this folder only.
+/// The workings of plan_closing(): edges cut into pieces, and vertices that become one. Seen by
+/// noise_closing.cpp only.
 #pragma once
 
 #include "geometry/vec.hpp"
 
-#include <BRep_Tool.hxx>
+#include <utility>
+#include <vector>
+
 #include <TopoDS_Edge.hxx>
-#include <TopoDS_Vertex.hxx>
 
 namespace aeroloom::cad {
 
@@ -29,9 +31,44 @@ struct EdgePiece {
   TopoDS_Edge made = {};
 };
 
-inline Vec3 place_of_vertex(const TopoDS_Vertex& vertex) {
-  const gp_Pnt p = BRep_Tool::Pnt(vertex);
-  return {p.X(), p.Y(), p.Z()};
-}
+/// Vertices by number, united as far as their boxes stay small.
+class UnitedVertices {
+public:
+  int add(Vec3 place) {
+    const int number = static_cast<int>(_parents.size());
+    _parents.push_back(number);
+    _places.push_back(place);
+    _boxes.emplace_back().add(place);
+    return number;
+  }
+  int root(int v) const {
+    while (_parents[v] != v) v = _parents[v];
+    return v;
+  }
+  Vec3 place(int v) const { return _places[v]; }
+  int count() const { return static_cast<int>(_parents.size()); }
+  bool unite(int a, int b, double widest) {
+    a = root(a), b = root(b);
+    if (a == b) return true;
+    geometry::Box both = _boxes[a];
+    both.add(_boxes[b].low);
+    both.add(_boxes[b].high);
+    if (both.diagonal() > widest) return false;
+    if (a > b) std::swap(a, b);
+    _parents[b] = a;
+    _boxes[a] = both;
+    return true;
+  }
+  /// The middle of those united, and how far they are from it.
+  std::pair<Vec3, double> middle(int root) const {
+    const Vec3 at = _boxes[root].center();
+    return {at, 0.5 * _boxes[root].diagonal()};
+  }
+
+private:
+  std::vector<int> _parents;
+  std::vector<Vec3> _places;
+  std::vector<geometry::Box> _boxes;
+};
 
 }  // namespace aeroloom::cad

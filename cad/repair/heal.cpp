@@ -1,6 +1,7 @@
 #include "cad/repair/heal.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/repair_edges.hpp"
@@ -15,9 +16,7 @@
 #include <utility>
 
 #include <BRep_Builder.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
@@ -43,8 +42,8 @@ std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
 
 Parts take_apart(const TopoDS_Shape& shape, Changes& changes) {
   Parts parts;
-  TopTools_IndexedMapOfShape solids, shells, faces;
-  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  const TopTools_IndexedMapOfShape solids = map_of(shape, TopAbs_SOLID);
+  TopTools_IndexedMapOfShape shells;
   for (int i = 1; i <= solids.Extent(); ++i) {
     const std::vector<TopoDS_Shell> bounds = shells_of(solids(i));
     const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed);
@@ -129,8 +128,7 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
 }  // namespace
 
 std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, TopAbs_SOLID, map);
+  const TopTools_IndexedMapOfShape map = map_of(shape, TopAbs_SOLID);
   std::vector<TopoDS_Solid> solids;
   for (int i = 1; i <= map.Extent(); ++i) solids.push_back(TopoDS::Solid(map(i)));
   return solids;

@@ -1,6 +1,7 @@
 #include "cad/repair/noise.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/noise_closing.hpp"
 #include "cad/repair/noise_faces.hpp"
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include <BRep_Tool.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
@@ -37,9 +37,9 @@ struct NoiseItem {
 
 std::vector<NoiseItem> find_items(const TopoDS_Shape& shape, const FaceLabels& labels, double tolerance) {
   std::vector<NoiseItem> items;
-  TopTools_IndexedMapOfShape faces, edges, of_noise;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
+  const TopTools_IndexedMapOfShape edges = map_of(shape, TopAbs_EDGE);
+  TopTools_IndexedMapOfShape of_noise;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(faces(i));
     const auto noise = examine_noise(face, tolerance);

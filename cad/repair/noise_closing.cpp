@@ -1,10 +1,11 @@
 #include "cad/repair/noise_closing.hpp"
 
 #include "cad/model/model.hpp"
+#include "cad/model/shape_map.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/repair/edge_on_face.hpp"
 #include "cad/repair/edge_pieces.hpp"
 #include "cad/repair/sampled_edge.hpp"
-#include "cad/repair/united_vertices.hpp"
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
@@ -18,7 +19,6 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
@@ -76,7 +76,8 @@ private:
   void number_vertices() {
     _samples.resize(_edges.Extent());
     _cuts.resize(_edges.Extent());
-    for (int v = 1; v <= _vertices.Extent(); ++v) _united.add(place_of_vertex(TopoDS::Vertex(_vertices(v))));
+    for (int v = 1; v <= _vertices.Extent(); ++v)
+      _united.add(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(_vertices(v)))));
     for (int e = 0; e < _edges.Extent(); ++e) {
       TopoDS_Vertex first, last;
       TopExp::Vertices(edge(e), first, last);
@@ -95,8 +96,7 @@ private:
   }
 
   std::vector<int> edges_of(const TopoDS_Shape& face) const {
-    TopTools_IndexedMapOfShape own;
-    TopExp::MapShapes(face, TopAbs_EDGE, own);
+    const TopTools_IndexedMapOfShape own = map_of(face, TopAbs_EDGE);
     std::vector<int> edges;
     for (int i = 1; i <= own.Extent(); ++i) {
       const int e = _edges.FindIndex(own(i)) - 1;

@@ -1,6 +1,8 @@
 /// Closed loops of edges in planes, and planar faces between them. Seen by this folder only.
 #pragma once
 
+#include "geometry/vec.hpp"
+
 #include <optional>
 #include <vector>
 
@@ -35,5 +37,17 @@ TopoDS_Face make_plane_face(const gp_Pln& plane, const TopoDS_Wire& outer,
 
 /// The face of a loop with its children as holes.
 TopoDS_Face make_plane_face(const std::vector<PlaneLoop>& loops, std::size_t index);
+
+struct Cap {
+  TopoDS_Face face;
+  geometry::Vec3 center;
+  double area = 0;
+  double deviation = 0;  ///< largest distance of the opening's edges from the plane
+};
+
+/// Faces that close the openings bounded by `open` edges: one per opening, with holes where one opening's
+/// edges run inside another's in the same plane. Nothing where an opening is no simple closed loop or leaves
+/// its plane by more than `tolerance`.
+std::vector<Cap> cap_openings(const std::vector<TopoDS_Edge>& open, double tolerance);
 
 }  // namespace aeroloom::cad

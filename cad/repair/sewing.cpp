@@ -1,12 +1,13 @@
 #include "cad/repair/sewing.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/model/topology/model_topology.hpp"
-#include "cad/repair/caps.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"
+#include "cad/repair/plane_loops.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
@@ -27,7 +28,6 @@
 #include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
@@ -108,9 +108,8 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
       if (image.IsNull() || BRep_Tool::Surface(face).IsNull()) continue;
       const FaceEvaluator evaluator = make_evaluator(face, 0);
       for (int k = 0; k <= samples; ++k) {
-        const gp_Pnt on_curve = curve->Value(first + (last - first) * k / samples);
+        const Vec3 point = to_vec(curve->Value(first + (last - first) * k / samples));
         const gp_Pnt2d guess = image->Value(low + (high - low) * k / samples);
-        const Vec3 point{on_curve.X(), on_curve.Y(), on_curve.Z()};
         const Vec2 uv = find_parameters(evaluator, point, {guess.X(), guess.Y()}, tolerance);
         const double width = distance(point, evaluator.surface.point(uv));
         if (width > gap.width) gap = {width, point};
@@ -176,8 +175,7 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
     if (cap.area < tolerances::narrowest_opening * diagonal * length_of(cap.face)) return {};
   }
   if (!close_bodies(sewn.shape, caps)) return {};
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
+  TopTools_IndexedMapOfShape faces = map_of(sewn.shape, TopAbs_FACE);
   FaceLabels labels = sewn.labels;
   for (std::size_t i = 0; i < caps.size(); ++i) {
     FaceLabel label;

@@ -22,9 +22,9 @@ struct SewnShells {
 
 /// Sews faces with tolerances from 1e-7 to 1e-4 of their diagonal, none above `largest_tolerance`, until all
 /// of them form closed shells; where strips are noise (noise.hpp), with less before, and without the strips.
-/// Where none does it, planar openings are capped (caps.hpp) at the smallest tolerance that leaves no others.
-/// Labels follow; what was sewn, how far it moved and every cap are appended to `changes`. Throws CadError
-/// listing the open edges.
+/// Where none does it, planar openings are capped (plane_loops.hpp) at the smallest tolerance that leaves no
+/// others. Labels follow; what was sewn, how far it moved and every cap are appended to `changes`. Throws
+/// CadError listing the open edges.
 SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
                Changes& changes);
 

@@ -1,6 +1,6 @@
 #include "pipeline/domain/trailing_edges.hpp"
 
-#include "cad/domain/close_strips.hpp"
+#include "cad/domain/trailing_edges.hpp"
 #include "cad/model/topology/closed_edges.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "sizing/lifting/trailing_edges.hpp"

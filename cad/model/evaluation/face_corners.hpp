@@ -35,6 +35,9 @@ std::vector<FaceCorner> corners_of(const Model& model, FaceId face);
 /// The other face along an edge of a face; no_entity where not exactly two faces pass it, the other one once.
 FaceId neighbour_face(const Model& model, FaceId face, EdgeId edge);
 
+/// The coedge of a face along an edge that it passes once. Throws std::logic_error where it does not pass it.
+Coedge coedge_along(const Model& model, FaceId face, EdgeId edge);
+
 /// The other faces along the two edges of a corner: two faces that have no further edge at its vertex in
 /// common, or that meet there in one as at the section of a wedge; or anything else.
 enum class CornerNeighbours { two_faces, faces_that_meet, other };

@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
 #include <TColStd_Array1OfReal.hxx>
 
 namespace aeroloom::cad {
@@ -169,20 +172,14 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_point(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->ask(&Model::face_point, id, uv);
   if (const FacetedPart* part = _data->faceted_face(id))
     return part->face_point(id - _data->first_faceted_face, uv);
   return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_frame(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->ask(&Model::face_frame, id, uv);
   if (const FacetedPart* part = _data->faceted_face(id))
     return part->face_frame(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -197,10 +194,7 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 }
 
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_curvatures(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->ask(&Model::face_curvatures, id, uv);
   if (const FacetedPart* part = _data->faceted_face(id))
     return part->face_curvatures(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -209,10 +203,7 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
 }
 
 CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_curved_point(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->ask(&Model::face_curved_point, id, uv);
   if (_data->faceted_face(id)) return {face_point(id, uv), face_curvatures(id, uv)};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {face_point(id, uv), {0, 0, true}};
@@ -221,10 +212,7 @@ CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.parameter_periods(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->ask(&Model::parameter_periods, id, uv);
   if (_data->faceted_face(id)) return {};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.repeats_after(), face.v.repeats_after()};
@@ -295,9 +283,7 @@ bool Model::is_seam(EdgeId id) const {
   const Edge& edge = _data->edges.at(id);
   if (edge.faces.size() != 1) return false;
   int uses = 0;
-  for (const auto& loop : _data->faces[edge.faces.front()].loops) {
-    for (const Coedge& use : loop) uses += use.edge == id;
-  }
+  for (const Coedge& use : _data->faces[edge.faces.front()].loops | std::views::join) uses += use.edge == id;
   return uses > 1;
 }
 
@@ -313,6 +299,31 @@ double Model::face_area(FaceId id) const {
 Vec3 Model::face_area_vector(FaceId id) const {
   const FaceIntegrals& sums = _data->integrals(id);
   return _data->is_reversed(id) ? -sums.area_vector : sums.area_vector;
+}
+
+FacePlace place_of(const TopoDS_Face& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties, area_precision);
+  return {properties.Mass(), to_vec(properties.CentreOfMass()), tight_box(face)};
+}
+
+FacePlace Model::face_place(FaceId id) const {
+  if (const JoinedModel* joined = _data->joined.get()) {
+    FacePlace whole;
+    Vec3 moment;
+    for (const Sheet& sheet : joined->faces.at(id).sheets) {
+      const FacePlace place = joined->base.face_place(sheet.face);
+      whole.area += place.area;
+      moment = moment + place.area * place.centre;
+      whole.box.add(place.box.low), whole.box.add(place.box.high);
+    }
+    whole.centre = 1 / whole.area * moment;
+    return whole;
+  }
+  if (const FacetedPart* part = _data->faceted_face(id))
+    return part->face_place(id - _data->first_faceted_face);
+  return guarded("looking where " + _data->describe_face(id) + " is",
+                 [&] { return place_of(_data->face_evaluators.at(id).shape); });
 }
 
 double Model::region_volume(RegionId id) const {

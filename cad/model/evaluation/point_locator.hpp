@@ -44,4 +44,14 @@ private:
 /// within the edge's interval, on closed edges too.
 double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess);
 
+struct EdgeFoot {
+  double parameter;
+  Vec3 point;
+  double away;  ///< distance of the point from it
+};
+
+/// The nearest place of the edge around the parameter `guess`, by Newton's method with steps that never lead
+/// further away; within the edge's ends. Not for degenerate edges.
+EdgeFoot foot_on_edge(const Model& model, EdgeId edge, Vec3 point, double guess);
+
 }  // namespace aeroloom::cad

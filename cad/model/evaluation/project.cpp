@@ -178,11 +178,9 @@ private:
     return uv;
   }
 
-  Vec2 wrap(Vec2 uv) const { return {wrap(uv.x, _face.u), wrap(uv.y, _face.v)}; }
-
-  static double wrap(double parameter, const ParameterRange& range) {
-    if (range.period == 0 || (parameter >= range.low && parameter <= range.high)) return parameter;
-    return parameter - range.period * std::floor((parameter - range.low) / range.period);
+  Vec2 wrap(Vec2 uv) const {
+    return {wrap_parameter(uv.x, _face.u.low, _face.u.high, _face.u.period),
+            wrap_parameter(uv.y, _face.v.low, _face.v.high, _face.v.period)};
   }
 
   const FaceEvaluator& _face;

@@ -4,6 +4,7 @@
 #include "geometry/vec.hpp"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,12 @@ namespace aeroloom::cad {
 
 using geometry::Vec2;
 using geometry::Vec3;
+
+/// The parameter of the same point in [low, high], where points repeat after `period`; 0: they do not.
+inline double wrap_parameter(double parameter, double low, double high, double period) {
+  if (period == 0 || (parameter >= low && parameter <= high)) return parameter;
+  return parameter - period * std::floor((parameter - low) / period);
+}
 
 /// Point and derivatives up to second order.
 struct SurfaceJet {
@@ -42,7 +49,7 @@ private:
 
     /// Index of the knot span, the nearest one for parameters outside.
     int span(double parameter) const;
-    double wrap(double parameter) const;
+    double wrap(double parameter) const { return wrap_parameter(parameter, low, high, period); }
   };
   /// Basis functions that do not vanish on a span: [derivative][function].
   using Basis = std::array<std::array<double, max_count>, 3>;

@@ -119,9 +119,6 @@ private:
   bool should_flip(std::int32_t t, int i) const;
   void flip(std::int32_t t, int i);
   void store_lines();
-
-  /// Takes out what contractions left behind, order kept.
-  void drop_unused();
   struct StackedSide {
     std::int32_t from, to, triangle;
   };

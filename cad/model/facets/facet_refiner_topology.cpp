@@ -1,3 +1,4 @@
+#include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/facets/facet_refiner.hpp"
 #include "geometry/angle.hpp"
 
@@ -242,23 +243,22 @@ void FacetRefiner::store_lines() {
   }
 }
 
-void FacetRefiner::drop_unused() {
-  std::erase_if(_facets.triangles, [](const Triangle& t) { return t[0] < 0; });
-  std::vector<std::int32_t> index(_facets.points.size(), -1);
+void drop_unused_points(Facets& facets) {
+  std::vector<std::int32_t> index(facets.points.size(), -1);
   const auto visit = [&](auto&& action) {
-    for (Triangle& t : _facets.triangles) std::for_each(t.begin(), t.end(), action);
-    for (auto& line : _facets.boundary) std::for_each(line.nodes.begin(), line.nodes.end(), action);
+    for (auto& t : facets.triangles) std::for_each(t.begin(), t.end(), action);
+    for (auto& line : facets.boundary) std::for_each(line.nodes.begin(), line.nodes.end(), action);
   };
   visit([&](std::int32_t node) { index[node] = 0; });
   std::int32_t next = 0;
   for (std::size_t i = 0; i < index.size(); ++i) {
     if (index[i] < 0) continue;
-    _facets.points[next] = _facets.points[i];
-    _facets.uv[next] = _facets.uv[i];
+    facets.points[next] = facets.points[i];
+    facets.uv[next] = facets.uv[i];
     index[i] = next++;
   }
-  _facets.points.resize(next);
-  _facets.uv.resize(next);
+  facets.points.resize(next);
+  facets.uv.resize(next);
   visit([&](std::int32_t& node) { node = index[node]; });
 }
 

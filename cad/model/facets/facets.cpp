@@ -2,7 +2,6 @@
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/facets/corner_parameters.hpp"
 #include "cad/model/facets/facet_refinement.hpp"
-#include "cad/model/facets/pole_facets.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/step_trace.hpp"

@@ -1,5 +1,4 @@
-#include "cad/model/facets/pole_facets.hpp"
-
+#include "cad/model/facets/facet_refinement.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>

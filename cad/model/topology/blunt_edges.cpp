@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -125,16 +126,6 @@ struct Section {
   Vec3 along, into;          ///< of a station
 };
 
-/// The coedge of a face along an edge that it passes once.
-Coedge use_of(const Model& model, FaceId face, EdgeId edge) {
-  for (const auto& loop : model.face(face).loops) {
-    for (const Coedge& use : loop) {
-      if (use.edge == edge) return use;
-    }
-  }
-  return {};
-}
-
 Section section_at(const Model& model, const BluntEdge& strip,
                    const std::array<BorderPath::ChainPlace, 2>& at) {
   Section section;
@@ -142,7 +133,7 @@ Section section_at(const Model& model, const BluntEdge& strip,
   section.convex = true;
   for (int side = 0; side < 2; ++side) {
     const BorderEdge& border = strip.borders[side][at[side].edge];
-    const Coedge use = use_of(model, border.neighbour, border.strip_use.edge);
+    const Coedge use = coedge_along(model, border.neighbour, border.strip_use.edge);
     const double t = at[side].parameter;
     const Vec3 own = model.face_frame(strip.face, model.edge_uv(strip.face, border.strip_use, t)).normal;
     const Vec3 normal = model.face_frame(border.neighbour, model.edge_uv(border.neighbour, use, t)).normal;
@@ -261,9 +252,7 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
   const Face& face = model.face(id);
   if (model.is_far_field(id) || model.is_faceted(id)) return finding;
   double perimeter = 0;
-  for (const auto& loop : face.loops) {
-    for (const Coedge& use : loop) perimeter += rough_length(model, use.edge);
-  }
+  for (const Coedge& use : face.loops | std::views::join) perimeter += rough_length(model, use.edge);
   const double mean = mean_width(model, id);
   if (!(mean * slenderness < 0.5 * perimeter)) return finding;
   const auto refuse = [&](std::string reason) {

@@ -8,7 +8,6 @@
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/topology/border_path.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
-#include "cad/model/topology/facets_aside.hpp"
 #include "cad/model/topology/middle_curves.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
@@ -18,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -154,10 +154,7 @@ private:
     for (FaceId id = 0; id < _base.face_count(); ++id) {
       if (closed[id]) continue;
       Face face = from.faces[id];
-      const std::string& patch = from.patches[face.patch];
-      const auto found = std::find(to.patches.begin(), to.patches.end(), patch);
-      face.patch = static_cast<std::int32_t>(found - to.patches.begin());
-      if (found == to.patches.end()) to.patches.push_back(patch);
+      face.patch = patch_number(to.patches, from.patches[face.patch]);
       to.faces.push_back(std::move(face));
       to.face_evaluators.push_back(from.face_evaluators[id]);
       to.face_snaps.push_back(from.face_snaps[id]);
@@ -191,9 +188,7 @@ private:
     to.edges.clear(), to.edge_evaluators.clear(), to.edge_snaps.clear();
     std::vector<char> used(_base.edge_count(), 0);
     for (const FaceId id : _closed.base_faces) {
-      for (const auto& loop : from.faces[id].loops) {
-        for (const Coedge& use : loop) used[use.edge] = 1;
-      }
+      for (const Coedge& use : from.faces[id].loops | std::views::join) used[use.edge] = 1;
     }
     const std::vector<double> radii = radii_of_vertices(used);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
@@ -265,8 +260,8 @@ private:
       std::array<BorderPart, 2> parts;
       for (int side = 0; side < 2; ++side) {
         const BorderEdge& border = strip.borders[side][middle.edges[side]];
-        parts[side] = {border.neighbour, coedge(border), middle.parameters,
-                       std::move(middle.border_parameters[side])};
+        parts[side] = {border.neighbour, coedge_along(_base, border.neighbour, border.strip_use.edge),
+                       middle.parameters, std::move(middle.border_parameters[side])};
         _closed.fates[border.strip_use.edge].parts.push_back(id);
       }
       _closed.closed.push_back(std::move(parts));
@@ -284,16 +279,6 @@ private:
     }
   }
 
-  /// As the neighbour's loop passes the edge.
-  Coedge coedge(const BorderEdge& border) const {
-    for (const auto& loop : _base.face(border.neighbour).loops) {
-      for (const Coedge& use : loop) {
-        if (use.edge == border.strip_use.edge) return use;
-      }
-    }
-    throw std::logic_error("a strip's neighbour does not pass their common edge");
-  }
-
   void rewrite_loops() {
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
       for (auto& loop : _data->faces[id].loops) {
@@ -309,11 +294,9 @@ private:
     }
     for (Edge& edge : _data->edges) edge.faces.clear();
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
-      for (const auto& loop : _data->faces[id].loops) {
-        for (const Coedge& use : loop) {
-          auto& users = _data->edges[use.edge].faces;
-          if (users.empty() || users.back() != id) users.push_back(id);
-        }
+      for (const Coedge& use : _data->faces[id].loops | std::views::join) {
+        auto& users = _data->edges[use.edge].faces;
+        if (users.empty() || users.back() != id) users.push_back(id);
       }
     }
   }
@@ -324,12 +307,10 @@ private:
     const auto count = [](const Edge& edge, const Coedge& use, std::map<VertexId, int>& visits) {
       ++visits[use.reversed ? edge.last : edge.first];
     };
-    for (const auto& loop : _base.face(_closed.base_faces[id]).loops) {
-      for (const Coedge& use : loop) count(_base.edge(use.edge), use, before);
-    }
-    for (const auto& loop : _data->faces[id].loops) {
-      for (const Coedge& use : loop) count(_data->edges[use.edge], use, now);
-    }
+    for (const Coedge& use : _base.face(_closed.base_faces[id]).loops | std::views::join)
+      count(_base.edge(use.edge), use, before);
+    for (const Coedge& use : _data->faces[id].loops | std::views::join)
+      count(_data->edges[use.edge], use, now);
     for (const auto& [v, visits] : before) {
       int& most = allowed[_roots->root(v)];
       most = std::max(most, visits);

@@ -45,4 +45,11 @@ struct ClosedEdges {
   Facets facets(const Model& model, FaceId id, double deflection, double angle) const;
 };
 
+/// The faces, edges and vertices of the shape alone. It has the bytes of the whole model.
+Model without_facets(const Model& model);
+
+/// A model with closed strips, made of without_facets(before), and behind its faces those of facets of the
+/// model before.
+Model with_facets_of(const Model& before, const Model& closed);
+
 }  // namespace aeroloom::cad

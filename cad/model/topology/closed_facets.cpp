@@ -1,3 +1,4 @@
+#include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "geometry/disjoint_sets.hpp"
@@ -47,7 +48,7 @@ public:
     std::erase_if(_facets.triangles,
                   [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     place_boundary();
-    drop_unused();
+    drop_unused_points(_facets);
     return std::move(_facets);
   }
 
@@ -117,31 +118,6 @@ private:
         _facets.points[line.nodes[i]] = _model.edge_point(line.use.edge, line.parameters[i]);
         _facets.uv[line.nodes[i]] = _model.edge_uv(_id, line.use, line.parameters[i]);
       }
-    }
-  }
-
-  void drop_unused() {
-    std::vector<std::int32_t> number(_facets.points.size(), -1);
-    for (const auto& triangle : _facets.triangles) {
-      for (const std::int32_t node : triangle) number[node] = 0;
-    }
-    for (const auto& line : _facets.boundary) {
-      for (const std::int32_t node : line.nodes) number[node] = 0;
-    }
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < number.size(); ++i) {
-      if (number[i] < 0) continue;
-      number[i] = count;
-      _facets.points[count] = _facets.points[i];
-      _facets.uv[count++] = _facets.uv[i];
-    }
-    _facets.points.resize(count);
-    _facets.uv.resize(count);
-    for (auto& triangle : _facets.triangles) {
-      for (std::int32_t& node : triangle) node = number[node];
-    }
-    for (auto& line : _facets.boundary) {
-      for (std::int32_t& node : line.nodes) node = number[node];
     }
   }
 

@@ -1,5 +1,6 @@
 #include "cad/model/topology/middle_curves.hpp"
 
+#include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
 
@@ -54,10 +55,6 @@ std::vector<Joint> inner_joints(const Model& model, const std::vector<BorderEdge
   }
   std::sort(joints.begin(), joints.end(), [](const Joint& a, const Joint& b) { return a.passed < b.passed; });
   return joints;
-}
-
-gp_Pnt to_gp(Vec3 p) {
-  return {p.x, p.y, p.z};
 }
 
 Handle(Geom_BSplineCurve) interpolate(const std::vector<Vec3>& points, const std::vector<double>& at) {
@@ -230,10 +227,7 @@ Vec3 EndMove::operator()(Vec3 point) const {
 
 Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, const EndMove& first, const EndMove& last) {
   const double low = curve.FirstParameter(), high = curve.LastParameter();
-  const auto value = [&](double t) {
-    const gp_Pnt p = curve.Value(t);
-    return Vec3{p.X(), p.Y(), p.Z()};
-  };
+  const auto value = [&](double t) { return to_vec(curve.Value(t)); };
   if (curve.GetType() == GeomAbs_Line)
     return straight(value(low) + first.by, value(high) + last.by, low, high);
   const auto moved = [&](double t) { return first(value(t)) + last(value(t)); };

@@ -1,6 +1,7 @@
 #include "cad/model/topology/model_topology.hpp"
 
 #include "cad/model/evaluation/plane_snap.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
 
@@ -67,10 +68,8 @@ Maps map_shapes(const TopoDS_Shape& shape) {
 }
 
 void add_vertices(const Maps& maps, Model::Data& data) {
-  for (int i = 1; i <= maps.vertices.Extent(); ++i) {
-    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)));
-    data.vertices.push_back({p.X(), p.Y(), p.Z()});
-  }
+  for (int i = 1; i <= maps.vertices.Extent(); ++i)
+    data.vertices.push_back(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)))));
 }
 
 void add_edges(const Maps& maps, Model::Data& data) {

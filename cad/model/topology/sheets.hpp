@@ -61,6 +61,12 @@ struct JoinedModel {
   std::vector<JoinedFace> faces;
 
   Place locate(FaceId id, Vec2 uv) const;
+  /// What the base model answers at a point of a face's parameter plane.
+  template <class Answer>
+  Answer ask(Answer (Model::*question)(FaceId, Vec2) const, FaceId id, Vec2 uv) const {
+    const Place at = locate(id, uv);
+    return (base.*question)(at.face, at.uv);
+  }
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
   Facets facets(FaceId id, double deflection, double angle, Model::Keep keep) const;
 };

@@ -1,8 +1,8 @@
-/// Strips closed to edges, as many as can be.
+/// Blunt trailing edges of a domain closed.
 #pragma once
 
+#include "cad/domain/domain.hpp"
 #include "cad/model/topology/blunt_edges.hpp"
-#include "cad/repair/change.hpp"
 
 #include <string>
 #include <vector>
@@ -25,5 +25,10 @@ ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips);
 
 /// The entry in the list of changes for a strip that was closed.
 Change describe_closed(const Model& model, const BluntEdge& strip);
+
+/// The model with the strips closed that the options ask for. Every strip that was closed is appended to
+/// `changes`, and so is every one that was left, with the reason. Throws CadError for a pattern that no
+/// face's name matches.
+Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes);
 
 }  // namespace aeroloom::cad

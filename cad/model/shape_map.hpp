@@ -1,0 +1,17 @@
+/// The faces, edges or other parts of a shape. Seen by cad/ only.
+#pragma once
+
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+
+namespace aeroloom::cad {
+
+/// All parts of one kind, numbered from 1 in the order of TopExp. Each part is there once, however often the
+/// shape uses it.
+inline TopTools_IndexedMapOfShape map_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return map;
+}
+
+}  // namespace aeroloom::cad
