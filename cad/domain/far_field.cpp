@@ -170,7 +170,7 @@ TopoDS_Solid make_fluid_solid(const Walls& walls, const FaceLabels& labels, Volu
   const auto groups = connected_groups(all);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const TopoDS_Shell shell = make_closed_shell(groups[i]);
-    const bool has_island = std::any_of(groups[i].begin(), groups[i].end(), [&](const TopoDS_Face& face) {
+    const bool has_island = std::ranges::any_of(groups[i], [&](const TopoDS_Face& face) {
       const FaceLabel* label = labels.Seek(face);
       return label != nullptr && label->symmetry;
     });

@@ -93,13 +93,13 @@ public:
   /// What lies inside a body of the other kind does not reach the fluid.
   void drop_buried() {
     const auto is_buried = [&](const FacetSoup& soup) {
-      return std::any_of(_solids.begin(), _solids.end(), [&](CadBody& body) {
+      return std::ranges::any_of(_solids, [&](CadBody& body) {
         return !body.facets.soup.triangles.empty() && encloses(body.facets.soup, soup.points.front());
       });
     };
     const std::size_t facets = std::erase_if(_facets, is_buried);
     const std::size_t solids = std::erase_if(_solids, [&](const CadBody& body) {
-      return std::any_of(_facets.begin(), _facets.end(), [&](const FacetSoup& soup) {
+      return std::ranges::any_of(_facets, [&](const FacetSoup& soup) {
         return !body.facets.soup.triangles.empty() && encloses(soup, body.facets.soup.points.front());
       });
     });

@@ -2,7 +2,7 @@
 
 #include "cad/model/patches.hpp"
 #include "cad/model/step_trace.hpp"
-#include "cad/model/topology/closed_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -36,7 +36,7 @@ bool is_remarkable(const BluntEdgeFinding& found, const TrailingEdgeOptions& opt
 bool is_asked_for(const Model& model, FaceId id, const std::vector<std::string>& patterns) {
   if (patterns.empty()) return true;
   const Face& face = model.face(id);
-  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+  return std::ranges::any_of(patterns, [&](const std::string& pattern) {
     return matches_pattern(face.name, pattern) || matches_pattern(model.patches()[face.patch], pattern);
   });
 }
@@ -74,8 +74,8 @@ ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips) {
   std::string reason;
   if (auto closed = attempt(strips, reason)) return {*std::move(closed), std::move(strips), {}};
   ClosedStrips result{model, {}, {}};
-  std::stable_sort(strips.begin(), strips.end(),
-                   [](const BluntEdge& a, const BluntEdge& b) { return a.length > b.length; });
+  std::ranges::stable_sort(strips,
+                           [](const BluntEdge& a, const BluntEdge& b) { return a.length > b.length; });
   for (const BluntEdge& strip : strips) {
     result.closed.push_back(strip);
     if (auto closed = attempt(result.closed, reason)) {

@@ -1,5 +1,3 @@
-#include "cad/domain/unions.hpp"
-
 #include "cad/domain/booleans.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
@@ -118,16 +116,7 @@ std::string name_of_body(const TopoDS_Shape& body, const FaceLabels& labels) {
     if (const std::string name = shown_name(*label); !name.empty())
       return fmt::format("that with face '{}'", name);
   }
-  const Vec3 at = tight_box(body).center();
-  return fmt::format("that around {}", geometry::place_text(at));
-}
-
-/// The middle of what the boxes of two shapes share.
-Vec3 meeting_place(const Box& a, const Box& b) {
-  Vec3 middle;
-  for (int axis = 0; axis < 3; ++axis)
-    middle[axis] = 0.5 * (std::max(a.low[axis], b.low[axis]) + std::min(a.high[axis], b.high[axis]));
-  return middle;
+  return fmt::format("that around {}", geometry::place_text(tight_box(body).center()));
 }
 
 [[noreturn]] void refuse_union(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
@@ -143,14 +132,21 @@ Vec3 meeting_place(const Box& a, const Box& b) {
                                       std::max(box.low[axis], other_box.low[axis]));
     if (overlap > most) most = overlap, nearest = &other;
   }
-  const Vec3 at = meeting_place(box, tight_box(*nearest));
   throw CadError(fmt::format(
       "the bodies {} and {} touch or overlap near {}, and no way of the CAD library unites them soundly: {}. "
       "Remedy: unite them in the CAD program, or move one so that they overlap clearly or stay apart",
-      name_of_body(*nearest, labels), name_of_body(solid, labels), geometry::place_text(at), fault));
+      name_of_body(*nearest, labels), name_of_body(solid, labels),
+      geometry::place_text(meeting_place(box, tight_box(*nearest))), fault));
 }
 
 }  // namespace
+
+Vec3 meeting_place(const Box& a, const Box& b) {
+  Vec3 middle;
+  for (int axis = 0; axis < 3; ++axis)
+    middle[axis] = 0.5 * (std::max(a.low[axis], b.low[axis]) + std::min(a.high[axis], b.high[axis]));
+  return middle;
+}
 
 double volume_of(const Solids& solids, Volumes& volumes) {
   double sum = 0;

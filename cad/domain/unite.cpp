@@ -1,6 +1,5 @@
 #include "cad/domain/booleans.hpp"
 #include "cad/domain/far_field.hpp"
-#include "cad/domain/unions.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
@@ -98,12 +97,8 @@ std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volum
       if (common <= tolerances::integrated_volume * std::min(volumes.of(group[i]), volumes.of(group[j])))
         continue;
       ++found;
-      const Vec3 low{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
-                     std::max(boxes[i].low.z, boxes[j].low.z)};
-      const Vec3 high{std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y),
-                      std::min(boxes[i].high.z, boxes[j].high.z)};
-      const Vec3 at = 0.5 * (low + high);
-      text += fmt::format("; two share a volume of {:.6g} around {}", common, geometry::place_text(at));
+      text += fmt::format("; two share a volume of {:.6g} around {}", common,
+                          geometry::place_text(meeting_place(boxes[i], boxes[j])));
     }
   }
   return text;

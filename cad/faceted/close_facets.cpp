@@ -1,7 +1,6 @@
 #include "cad/faceted/close_facets.hpp"
 
 #include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/box_tree.hpp"
@@ -131,11 +130,10 @@ void refuse_open_sides(const FacetSoup& soup) {
     length[loop] += distance(soup.points[a], soup.points[side_end(soup.triangles, h)]);
     if (longest < 0 || length[loop] > length[longest]) longest = loop;
   }
-  const Vec3 at = soup.points[longest];
-  throw CadError(
-      fmt::format("{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
-                  "length {:.6g}, passes {}; close the surface there and export it again",
-                  soup.file, open.size(), loops, length[longest], geometry::place_text(at)));
+  throw CadError(fmt::format(
+      "{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
+      "length {:.6g}, passes {}; close the surface there and export it again",
+      soup.file, open.size(), loops, length[longest], geometry::place_text(soup.points[longest])));
 }
 
 }  // namespace aeroloom::cad

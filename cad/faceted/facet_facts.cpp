@@ -1,8 +1,8 @@
 #include "cad/faceted/facet_facts.hpp"
 
+#include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/weld_facets.hpp"
 
 namespace aeroloom::cad {
 

@@ -32,4 +32,9 @@ FacetSheets cut_into_sheets(const FacetComplex& complex, const FacetLinks& links
 /// Parameters at the corners of each triangle, for sheets made before: the same on every machine.
 std::vector<CornerUv> flatten(const FacetComplex& complex, const FacetSheets& sheets);
 
+/// Divides faces so that none has both sides of a curve: each triangle joins the side that is nearer over the
+/// face, so that the division goes on from where a curve ends inside. The parts keep names and regions.
+/// Triangles come out sorted by face. Throws CadError where that does not separate them.
+void divide_at_sharp_seams(FacetComplex& complex);
+
 }  // namespace aeroloom::cad

@@ -78,8 +78,7 @@ private:
                       point(side_end(_soup.triangles, 3 * t + i)));
     };
     std::array<std::int32_t, 3> order = {0, 1, 2};
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t i, std::int32_t j) { return length(i) > length(j); });
+    std::ranges::stable_sort(order, [&](std::int32_t i, std::int32_t j) { return length(i) > length(j); });
     return order;
   }
 

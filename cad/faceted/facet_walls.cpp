@@ -57,7 +57,7 @@ int drop_buried(const FacetComplex& complex, const std::vector<WallShell>& shell
   int buried = 0;
   for (const WallShell& inner : shells) {
     const Vec3 point = complex.points[complex.triangles[inner.triangles.front()][0]];
-    const bool inside = std::any_of(shells.begin(), shells.end(), [&](const WallShell& outer) {
+    const bool inside = std::ranges::any_of(shells, [&](const WallShell& outer) {
       return &outer != &inner && outer.box.contains(inner.box) && encloses(complex, outer, point);
     });
     if (!inside) continue;

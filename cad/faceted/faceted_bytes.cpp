@@ -32,9 +32,8 @@ FacetComplex get_complex(ByteReader& reader) {
 std::optional<int> exact_axis(const FacetedPart& part, const FacetedFace& face) {
   const Vec3 first = part.complex().points[face.points.front()];
   for (int axis = 0; axis < 3; ++axis) {
-    const bool same = std::all_of(face.points.begin(), face.points.end(), [&](std::int32_t p) {
-      return part.complex().points[p][axis] == first[axis];
-    });
+    const bool same = std::ranges::all_of(
+        face.points, [&](std::int32_t p) { return part.complex().points[p][axis] == first[axis]; });
     if (same) return axis;
   }
   return std::nullopt;

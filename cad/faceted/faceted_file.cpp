@@ -67,9 +67,8 @@ FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& chan
     change.what = fmt::format("part '{}': {}", part.name, change.what);
     changes.push_back(std::move(change));
   }
-  const bool several =
-      std::any_of(soup.groups.begin(), soup.groups.end(),
-                  [&](const FacetSoup::Group& group) { return group.name != soup.groups.front().name; });
+  const bool several = std::ranges::any_of(
+      soup.groups, [&](const FacetSoup::Group& group) { return group.name != soup.groups.front().name; });
   for (FacetSoup::Group& group : soup.groups) {
     const bool named = several && !group.name.empty();
     group.name = named ? part.name + "_" + group.name : part.name;

@@ -1,6 +1,6 @@
 #include "cad/faceted/faceted_part.hpp"
 
-#include "cad/faceted/sharp_seams.hpp"
+#include "cad/faceted/facet_sheets.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
 #include "geometry/place_text.hpp"
@@ -151,12 +151,11 @@ void FacetedPart::trace_loops() {
   std::vector<char> seen(_links.on_curve.size(), 0);
   for (EdgeId e = 0; e < static_cast<EdgeId>(_edges.size()); ++e) {
     for (const FacetedUse& use : _edges[e].uses) {
-      if (std::find(use.half_edges.begin(), use.half_edges.end(), -1) != use.half_edges.end()) {
-        const Vec3 at = _complex.points[_edges[e].points.front()];
-        throw CadError(
-            fmt::format("face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
-                        "there in the program that made the file",
-                        _complex.faces[use.face].name, geometry::place_text(at)));
+      if (std::ranges::find(use.half_edges, -1) != use.half_edges.end()) {
+        throw CadError(fmt::format(
+            "face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
+            "there in the program that made the file",
+            _complex.faces[use.face].name, geometry::place_text(_complex.points[_edges[e].points.front()])));
       }
       geometry::HalfEdge h = use.reversed ? use.half_edges.back() : use.half_edges.front();
       if (seen[h]) continue;

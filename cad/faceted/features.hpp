@@ -22,4 +22,7 @@ struct FacetFeatures {
 FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetSkin>& skins,
                             const SideTable& table, double angle);
 
+/// The triangles of a soup are oriented: normals point out of `front`. Names of regions are the caller's.
+FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetSkin>& skins, double feature_angle);
+
 }  // namespace aeroloom::cad

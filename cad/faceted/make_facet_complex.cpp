@@ -3,9 +3,8 @@
 #include "cad/faceted/chambers.hpp"
 #include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
-#include "cad/faceted/split_facets.hpp"
+#include "cad/faceted/features.hpp"
 #include "cad/faceted/unite_components.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 

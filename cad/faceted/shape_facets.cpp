@@ -1,9 +1,9 @@
 #include "cad/faceted/shape_facets.hpp"
 
 #include "cad/domain/domain_kind.hpp"
+#include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
@@ -180,11 +180,10 @@ ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const
     name_groups(solid, labels, facets.soup);
     return facets;
   }
-  const Vec3 at = tight_box(solid).center();
   throw CadError(
       fmt::format("the body around {} cannot be cut into triangles that close without crossing each other. "
                   "Remedy: repair the body in the CAD program",
-                  geometry::place_text(at)));
+                  geometry::place_text(tight_box(solid).center())));
 }
 
 }  // namespace aeroloom::cad

@@ -1,5 +1,4 @@
-#include "cad/faceted/split_facets.hpp"
-
+#include "cad/faceted/features.hpp"
 #include "geometry/disjoint_sets.hpp"
 
 namespace aeroloom::cad {

@@ -1,5 +1,4 @@
-#include "cad/faceted/weld_facets.hpp"
-
+#include "cad/faceted/close_facets.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -69,7 +68,7 @@ void weld_equal_points(FacetSoup& soup) {
   for (Vec3& p : soup.points) p += zero;  // -0 becomes 0
   std::vector<std::int32_t> order(soup.points.size()), representative(soup.points.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+  std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
     const Vec3 &p = soup.points[a], &q = soup.points[b];
     return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   });

@@ -5,7 +5,7 @@
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
-#include "cad/model/topology/closed_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "geometry/place_text.hpp"
 

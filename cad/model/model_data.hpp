@@ -39,7 +39,7 @@ class FacetedPart;
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags,
                   const FacetedPart* faceted = nullptr);
 
-/// The bytes of a model with these strips closed (closed_edges.hpp), from those of the model before.
+/// The bytes of a model with these strips closed (blunt_edges.hpp), from those of the model before.
 std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips);
 
 /// The number of the patch with this name, which is appended where there is none yet.

@@ -38,6 +38,13 @@ inline std::string shown_name(const FaceLabels& labels, const TopoDS_Shape& face
   return label != nullptr ? shown_name(*label) : std::string();
 }
 
+/// Gives a face the label of another one, if that has a label.
+inline void copy_label(FaceLabels& labels, const TopoDS_Shape& from, const TopoDS_Shape& to) {
+  if (!labels.IsBound(from)) return;
+  const FaceLabel label = labels.Find(from);
+  labels.Bind(to, label);
+}
+
 struct NamedShape {
   TopoDS_Shape shape;
   FaceLabels labels;

@@ -14,4 +14,9 @@ inline TopTools_IndexedMapOfShape map_of(const TopoDS_Shape& shape, TopAbs_Shape
   return map;
 }
 
+/// False for edges and faces that lie inside a face or a solid.
+inline bool bounds_material(const TopoDS_Shape& part) {
+  return part.Orientation() == TopAbs_FORWARD || part.Orientation() == TopAbs_REVERSED;
+}
+
 }  // namespace aeroloom::cad

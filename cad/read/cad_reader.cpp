@@ -72,8 +72,8 @@ std::string trimmed(std::string text) {
 std::string excerpt(const std::string& head) {
   constexpr std::size_t shown = 40;  // characters, in one line of a message
   std::string text = trimmed(head).substr(0, shown);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '.');
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return !std::isprint(c); }, '.');
   return text;
 }
 

@@ -68,12 +68,7 @@ private:
                                      [&](const TopoDS_Shape& edge) { return _what.edges.Contains(edge); });
     TopoDS_Shape result = touched ? with_new_wires(forward) : TopoDS_Shape(forward);
     remember(shape, result);
-    if (touched) {
-      if (const FaceLabel* label = _labels.Seek(shape)) {
-        const FaceLabel kept = *label;
-        _labels.Bind(result, kept);
-      }
-    }
+    if (touched) copy_label(_labels, shape, result);
     return result.Oriented(shape.Orientation());
   }
 

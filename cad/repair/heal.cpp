@@ -104,9 +104,8 @@ void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
   for (const TopoDS_Solid& solid : solids) TopExp::MapShapes(solid, TopAbs_FACE, used);
   for (int i = 1; i <= faces.Extent(); ++i) {
     if (used.Contains(faces(i))) continue;
-    const Vec3 center = tight_box(faces(i)).center();
-    changes.push_back(
-        {fmt::format("a loose face around {} belongs to no solid: dropped", geometry::place_text(center))});
+    changes.push_back({fmt::format("a loose face around {} belongs to no solid: dropped",
+                                   geometry::place_text(tight_box(faces(i)).center()))});
   }
 }
 
@@ -117,11 +116,10 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
     const Box& box = boxes[i];
     const double volume = volumes.of(solids[i]);
     if (volume > tolerances::no_volume * std::pow(box.diagonal(), 3)) continue;
-    const Vec3 at = box.center();
     throw CadError(
         fmt::format("solid {} around {} encloses next to no volume ({:.3g} in a box of diagonal {:.6g}): "
                     "what is as thin as that, a sheet or a wire, cannot be meshed as a body",
-                    i, geometry::place_text(at), volume, box.diagonal()));
+                    i, geometry::place_text(box.center()), volume, box.diagonal()));
   }
 }
 

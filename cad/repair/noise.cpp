@@ -112,9 +112,8 @@ void tell_left(const NoiseItem& item, double tolerance, const char* reason, Chan
 }
 
 bool is_among(const std::vector<NoiseItem>& items, const NoiseItem& wanted) {
-  return std::any_of(items.begin(), items.end(), [&](const NoiseItem& item) {
-    return item.face == wanted.face && item.place == wanted.place;
-  });
+  return std::ranges::any_of(
+      items, [&](const NoiseItem& item) { return item.face == wanted.face && item.place == wanted.place; });
 }
 
 /// Closes what closes, one after the other.
@@ -122,8 +121,8 @@ NamedShape close_singly(NamedShape named, double tolerance, Changes& changes) {
   std::vector<NoiseItem> refused, closed;
   for (int attempt = 0; attempt < most_single_attempts; ++attempt) {
     const std::vector<NoiseItem> items = find_items(named.shape, named.labels, tolerance);
-    const auto next = std::find_if(items.begin(), items.end(),
-                                   [&](const NoiseItem& item) { return !is_among(refused, item); });
+    const auto next =
+        std::ranges::find_if(items, [&](const NoiseItem& item) { return !is_among(refused, item); });
     if (next == items.end()) break;
     try {
       named = close_items(named, {*next}, tolerance);

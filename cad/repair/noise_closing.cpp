@@ -89,7 +89,7 @@ private:
   void collapse_edges() {
     std::vector<int> shorts;
     for (int i = 1; i <= _items.edges.Extent(); ++i) shorts.push_back(_edges.FindIndex(_items.edges(i)) - 1);
-    std::sort(shorts.begin(), shorts.end(), [&](int a, int b) {
+    std::ranges::sort(shorts, [&](int a, int b) {
       return std::pair(samples(a).length(), a) < std::pair(samples(b).length(), b);
     });
     for (const int e : shorts) _united.unite(_ends[e].first, _ends[e].second, widest_union * _tolerance);
@@ -107,8 +107,8 @@ private:
 
   bool is_at(int e, int root) const {
     if (_united.root(_ends[e].first) == root || _united.root(_ends[e].second) == root) return true;
-    return std::any_of(_cuts[e].begin(), _cuts[e].end(),
-                       [&](const EdgeCut& cut) { return _united.root(cut.vertex) == root; });
+    return std::ranges::any_of(_cuts[e],
+                               [&](const EdgeCut& cut) { return _united.root(cut.vertex) == root; });
   }
 
   /// Every vertex of a noise face is joined with what is opposite.
@@ -130,7 +130,7 @@ private:
         // Other noise faces along that edge have to follow.
         for (int other = 0; other < _items.faces.Extent(); ++other) {
           const auto& edges = _noise_edges[other];
-          if (other != f && std::find(edges.begin(), edges.end(), e) != edges.end())
+          if (other != f && std::ranges::find(edges, e) != edges.end())
             wanted.emplace_back(other, _cuts[e].back().vertex);
         }
       }
@@ -168,8 +168,7 @@ private:
         continue;
       }
       auto& cuts = _cuts[e];
-      std::sort(cuts.begin(), cuts.end(),
-                [](const EdgeCut& a, const EdgeCut& b) { return a.parameter < b.parameter; });
+      std::ranges::sort(cuts, [](const EdgeCut& a, const EdgeCut& b) { return a.parameter < b.parameter; });
       if (!cuts.empty()) BRepLib::SameRange(edge(e));
       double first, last;
       BRep_Tool::Range(edge(e), first, last);

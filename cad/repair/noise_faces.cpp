@@ -49,8 +49,8 @@ std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance
   if (border.size() < 2) return std::nullopt;
   std::vector<std::size_t> order(border.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return border[a].length() > border[b].length(); });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return border[a].length() > border[b].length(); });
   NoiseFace noise;
   noise.place = border[order.front()].point(border[order.front()].parameter(0.5));
   for (const std::size_t own : order) {

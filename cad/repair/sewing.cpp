@@ -53,12 +53,8 @@ struct Sewn {
 void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_Sewing& sewing,
                  FaceLabels& labels) {
   for (int i = 1; i <= faces.Extent(); ++i) {
-    const FaceLabel* label = labels.Seek(faces(i));
-    if (!label) continue;
-    const FaceLabel kept = *label;
-    for (TopExp_Explorer sewn(sewing.ModifiedSubShape(faces(i)), TopAbs_FACE); sewn.More(); sewn.Next()) {
-      labels.Bind(sewn.Current(), kept);
-    }
+    for (TopExp_Explorer sewn(sewing.ModifiedSubShape(faces(i)), TopAbs_FACE); sewn.More(); sewn.Next())
+      copy_label(labels, faces(i), sewn.Current());
   }
 }
 
@@ -268,8 +264,8 @@ std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
   std::vector<TopoDS_Edge> open;
   for (int i = 1; i <= users.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
-    const bool inside_a_face = edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED;
-    if (users(i).Extent() == 1 && !inside_a_face && !BRep_Tool::Degenerated(edge)) open.push_back(edge);
+    if (users(i).Extent() == 1 && bounds_material(edge) && !BRep_Tool::Degenerated(edge))
+      open.push_back(edge);
   }
   return open;
 }
@@ -310,10 +306,9 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
   }
   const Sewn& last = tried.back();
   if (faces.Extent() == 1) {
-    const Vec3 at = box.center();
     throw CadError(fmt::format(
         "a single face, around {}, bounds no volume: {}. Add the faces that close it in the CAD program",
-        geometry::place_text(at), list_open_edges(faces(1), labels)));
+        geometry::place_text(box.center()), list_open_edges(faces(1), labels)));
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "

@@ -76,9 +76,8 @@ bool is_closed(const TopoDS_Shell& shell) {
   TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, users);
   for (int i = 1; i <= users.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
-    const bool inside_a_face = edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED;
     // A face is listed once per coedge, so a seam counts twice.
-    if (!BRep_Tool::Degenerated(edge) && !inside_a_face && users(i).Extent() < 2) return false;
+    if (!BRep_Tool::Degenerated(edge) && bounds_material(edge) && users(i).Extent() < 2) return false;
   }
   return !users.IsEmpty();
 }

@@ -76,7 +76,7 @@ CornerNeighbours neighbours_at_corner(const Model& model, const FaceCorner& corn
   for (const Coedge& use : model.face(first).loops | std::views::join) {
     const Edge& edge = model.edge(use.edge);
     const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
-    if (at_corner && std::find(edge.faces.begin(), edge.faces.end(), second) != edge.faces.end())
+    if (at_corner && std::ranges::find(edge.faces, second) != edge.faces.end())
       return CornerNeighbours::faces_that_meet;
   }
   return CornerNeighbours::two_faces;

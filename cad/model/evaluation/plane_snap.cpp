@@ -31,7 +31,7 @@ std::optional<Plane> aligned_plane(const Model::Data& data, FaceId id) {
 
 /// Gives planes that nearly coincide one position: the least of theirs, or zero.
 void merge_positions(std::vector<Plane>& planes, double diagonal) {
-  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) {
+  std::ranges::sort(planes, [](const Plane& a, const Plane& b) {
     if (a.axis != b.axis) return a.axis < b.axis;
     return a.position != b.position ? a.position < b.position : a.face < b.face;
   });

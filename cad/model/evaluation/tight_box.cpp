@@ -144,7 +144,7 @@ public:
         return (side % 2 ? 1 : -1) * grid[i].point.Coord(side / 2 + 1);
       };
       std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+      std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
         return height(a) != height(b) ? height(a) > height(b) : a < b;
       });
       const auto highest =

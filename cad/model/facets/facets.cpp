@@ -156,8 +156,7 @@ std::string find_defect(const Facets& facets) {
   for (const FacetSide& side : open_sides(facets)) {
     if (!std::binary_search(boundary.begin(), boundary.end(),
                             FacetSide(std::minmax(side.first, side.second)))) {
-      const Vec3 at = facets.points[side.first];
-      return fmt::format("a hole at {}", geometry::place_text(at));
+      return fmt::format("a hole at {}", geometry::place_text(facets.points[side.first]));
     }
   }
   return {};

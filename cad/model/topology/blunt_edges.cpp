@@ -89,8 +89,8 @@ Sides tell_sides(std::vector<Run> runs) {
     return {{runs[0], runs[2]}, {runs[1], runs[3]}};
   }
   if (runs.size() == 3) {
-    const auto shortest = std::min_element(runs.begin(), runs.end(),
-                                           [](const Run& a, const Run& b) { return a.length < b.length; });
+    const auto shortest =
+        std::ranges::min_element(runs, [](const Run& a, const Run& b) { return a.length < b.length; });
     rotate(static_cast<std::size_t>(shortest - runs.begin()));
     return {{runs[2], runs[1]}, {runs[0], {}}};
   }

@@ -58,4 +58,9 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId face, double widt
 /// breadth (area over border; skins may be cut along the span): bars are as thick as they are broad.
 inline constexpr double blunt_edge_length_fraction = 0.03, blunt_edge_breadth_fraction = 0.1;
 
+/// The model with these strips closed; their faces vanish, the others keep their order. serialise() gives the
+/// closed model. Throws CadError naming the face where what is left would be no model: borders that
+/// another strip closes, ends that become one vertex.
+Model close_blunt_edges(const Model& model, const std::vector<BluntEdge>& strips);
+
 }  // namespace aeroloom::cad

@@ -1,11 +1,10 @@
-#include "cad/model/topology/closed_edges.hpp"
-
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/evaluation/plane_snap.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/border_path.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/middle_curves.hpp"
@@ -317,9 +316,8 @@ private:
     }
     for (const auto& [v, visits] : now) {
       if (visits <= std::max(1, allowed[v])) continue;
-      const Vec3 at = _places[v];
-      throw CadError(
-          fmt::format("face '{}' would touch itself at {}", _data->faces[id].name, geometry::place_text(at)));
+      throw CadError(fmt::format("face '{}' would touch itself at {}", _data->faces[id].name,
+                                 geometry::place_text(_places[v])));
     }
   }
 

@@ -158,7 +158,7 @@ Facets ClosedEdges::facets(const Model& model, FaceId id, double deflection, dou
     const BaseEdgeFate& fate = fates[line.use.edge];
     return fate.kind == BaseEdgeFate::Kind::kept && !moved[fate.edge];
   };
-  if (std::all_of(facets.boundary.begin(), facets.boundary.end(), unchanged)) {
+  if (std::ranges::all_of(facets.boundary, unchanged)) {
     for (auto& line : facets.boundary) line.use.edge = fates[line.use.edge].edge;
     return facets;
   }

@@ -174,8 +174,8 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
   std::vector<Station> stations = facing;
   for (int side = 0; side < 2; ++side) {
     for (const Joint& joint : joints[side]) {
-      const auto above = std::find_if(facing.begin(), facing.end(),
-                                      [&](const Station& s) { return s.passed[side] >= joint.passed; });
+      const auto above =
+          std::ranges::find_if(facing, [&](const Station& s) { return s.passed[side] >= joint.passed; });
       if (above->passed[side] == joint.passed) continue;
       const Station &low = *(above - 1), &high = *above;
       const double fraction = (joint.passed - low.passed[side]) / (high.passed[side] - low.passed[side]);
@@ -186,8 +186,7 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
       stations.push_back(alone);
     }
   }
-  std::sort(stations.begin(), stations.end(),
-            [](const Station& a, const Station& b) { return a.passed[0] < b.passed[0]; });
+  std::ranges::sort(stations, [](const Station& a, const Station& b) { return a.passed[0] < b.passed[0]; });
   return stations;
 }
 

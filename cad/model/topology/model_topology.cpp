@@ -1,6 +1,7 @@
 #include "cad/model/topology/model_topology.hpp"
 
 #include "cad/model/evaluation/plane_snap.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
@@ -15,9 +16,7 @@
 #include <GeomLib_IsPlanarSurface.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -31,10 +30,6 @@ namespace {
 struct Maps {  // NOLINT(bugprone-exception-escape)
   TopTools_IndexedMapOfShape vertices, edges, faces, solids;
 };
-
-bool bounds_material(const TopoDS_Shape& part) {
-  return part.Orientation() == TopAbs_FORWARD || part.Orientation() == TopAbs_REVERSED;
-}
 
 /// Visits the edges of a face loop by loop, oriented as in the face oriented forward. Edges lying inside the
 /// face bound no material and are passed over.
@@ -87,8 +82,8 @@ void add_edges(const Maps& maps, Model::Data& data) {
       double low, high;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(evaluator.shape, low, high);
       if (curve.IsNull()) {
-        const Vec3 at = data.vertices[edge.first];
-        throw CadError(fmt::format("edge {} at {} has no curve", i - 1, geometry::place_text(at)));
+        throw CadError(fmt::format("edge {} at {} has no curve", i - 1,
+                                   geometry::place_text(data.vertices[edge.first])));
       }
       evaluator.curve.Load(curve, low, high);
       edge.first_parameter = low, edge.last_parameter = high;
@@ -188,7 +183,7 @@ std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, F
   for (auto& wire : parts) {
     for (auto& loop : chain_loops(std::move(wire), scale)) loops.push_back(std::move(loop));
   }
-  std::sort(face.uses.begin(), face.uses.end(), [](const UseCurve& a, const UseCurve& b) {
+  std::ranges::sort(face.uses, [](const UseCurve& a, const UseCurve& b) {
     return std::pair(a.use.edge, a.use.use) < std::pair(b.use.edge, b.use.use);
   });
   return loops;
