@@ -21,7 +21,7 @@ void follow_labels(BRepBuilderAPI_MakeShape& operation, const std::vector<TopoDS
 }
 
 void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing) {
-  tell_step(doing);
+  report_step(doing);
   operation.SetRunParallel(false);
   operation.SetToFillHistory(true);
   operation.Build();

@@ -123,13 +123,13 @@ struct Domain {
 /// std::ios_base::failure when the file cannot be opened.
 Domain prepare_domain(const DomainOptions& options);
 
-enum class ExportedPart {
+enum class ExportedShape {
   geometry,  ///< as read and healed, before any far field
   domain     ///< what is meshed: bodies united, regions joined, the far field around them
 };
 
 /// Writes the model's shape with names as STEP; joined faces and closed trailing edges are as in the CAD. Not
 /// collective. Throws as prepare_domain; std::ios_base::failure when the file cannot be written.
-void export_step(const DomainOptions& options, ExportedPart part, const std::string& file);
+void export_step(const DomainOptions& options, ExportedShape shape, const std::string& file);
 
 }  // namespace aeroloom::cad

@@ -72,7 +72,7 @@ double radical_inverse(int base, int index) {
   return result;
 }
 
-/// Share of the box, by Halton's points.
+/// The fraction of the box, by Halton's points.
 double Polytope::volume(const Box& box) const {
   constexpr int samples = 20000;  // chosen, not measured
   const Vec3 size = box.size();

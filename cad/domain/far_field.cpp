@@ -245,7 +245,7 @@ void require_off_plane(const Box& beside, const SymmetryPlane& symmetry) {
 
 NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes,
                     const Box& beside) {
-  tell_step("building the far field");
+  report_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
   Box box = tight_box(bodies.shape);
   if (symmetry && !beside.empty()) require_off_plane(beside, *symmetry);

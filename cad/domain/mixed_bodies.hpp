@@ -3,7 +3,7 @@
 
 #include "cad/domain/domain.hpp"
 #include "cad/domain/far_field.hpp"
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/model_data.hpp"
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace aeroloom::cad {
 /// The fluid around them: the CAD library's faces, with the far field, and those of triangles.
 struct MixedFluid {
   NamedShape shape;
-  std::optional<FacetedPart> walls;  ///< none where all triangles lie inside bodies
+  std::optional<FacetedGeometry> walls;  ///< none where all triangles lie inside bodies
   std::vector<FaceTag> wall_tags;
   double walled_volume = 0;  ///< of the bodies of triangles
 };

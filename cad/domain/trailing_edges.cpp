@@ -99,7 +99,7 @@ Change describe_closed(const Model& model, const BluntEdge& strip) {
 
 Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes) {
   if (options.treatment != TrailingEdges::sharpen) return model;
-  tell_step("sharpening trailing edges");
+  report_step("sharpening trailing edges");
   require_matches(model, options.faces);
   std::vector<BluntEdge> strips;
   Changes left;

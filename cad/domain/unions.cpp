@@ -38,8 +38,8 @@ std::vector<Way> ways(double diagonal) {
   std::vector<Way> all{{"as they are", false, false, 0, false, true},
                        {"the other way round", true},
                        {"one by one", false, true}};
-  for (const double share : tolerances::uniting) {
-    const double length = share * diagonal;
+  for (const double fraction : tolerances::uniting) {
+    const double length = fraction * diagonal;
     all.push_back({fmt::format("with points up to {:.3g} apart taken as one", length), false, false, length});
     all.push_back({fmt::format("the other way round, with points up to {:.3g} apart taken as one", length),
                    true, false, length});

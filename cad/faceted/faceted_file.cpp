@@ -17,12 +17,12 @@ namespace {
 
 Domain prepare_triangles(const DomainOptions& options, CrossingFacets crossing) {
   Changes changes;
-  tell_step("reading the triangles");
+  report_step("reading the triangles");
   FacetSoup soup = read_facets(options.file);
-  tell_step("repairing the triangles");
+  report_step("repairing the triangles");
   const FacetComplex complex =
       make_facet_complex(std::move(soup), options.feature_angle * geometry::degree, changes, crossing);
-  tell_step("making faces of the triangles");
+  report_step("making faces of the triangles");
   Domain domain = make_faceted_domain(options, complex, std::move(changes));
   // What crosses is united as bodies; a fluid is what is left between them, and is for the user to make.
   if (complex.united && domain.report.kind == DomainKind::fluid)

@@ -164,7 +164,7 @@ void name_groups(const TopoDS_Solid& solid, const FaceLabels& labels, FacetSoup&
 }  // namespace
 
 ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const FacetLimits& limits) {
-  tell_step("triangulating a body");
+  report_step("triangulating a body");
   for (const double fraction : {1.0, 0.25, 0.06, 0.015}) {
     BRepBuilderAPI_Copy copy(solid, false, false);
     IMeshTools_Parameters parameters;

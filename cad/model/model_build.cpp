@@ -27,7 +27,7 @@ struct Bounds {
   Box all, body;
 };
 
-Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedPart* faceted,
+Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedGeometry* faceted,
                  const std::vector<FaceTag>& tags) {
   std::vector<TopoDS_Shape> body, far_field;
   for (int i = 1; i <= faces.Extent(); ++i) (tags[i - 1].far_field ? far_field : body).push_back(faces(i));
@@ -60,7 +60,7 @@ std::vector<std::string> region_names(const NamedShape& named) {
   return names;
 }
 
-void put_labels(const NamedShape& named, const FacetedPart* faceted, const std::vector<FaceTag>& tags,
+void put_labels(const NamedShape& named, const FacetedGeometry* faceted, const std::vector<FaceTag>& tags,
                 ByteWriter& writer) {
   writer.put_text(named.unit_name);
   writer.put(named.unit_in_metres);
@@ -120,8 +120,8 @@ std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape) {
   return around;
 }
 
-Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags, const FacetedPart* faceted) {
-  tell_step("building the model");
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags, const FacetedGeometry* faceted) {
+  report_step("building the model");
   return guarded("building the model", [&] {
     TopTools_IndexedMapOfShape faces;
     std::ostringstream stream;
@@ -189,8 +189,8 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
 
 std::string Model::Data::describe_face(FaceId id) const {
   Vec3 at;
-  if (const FacetedPart* part = faceted_face(id)) {
-    at = part->complex().points[part->faces()[id - first_faceted_face].points.front()];
+  if (const FacetedGeometry* faceted = faceted_face(id)) {
+    at = faceted->complex().points[faceted->faces()[id - first_faceted_face].points.front()];
   } else {
     const FaceEvaluator& face = face_evaluators.at(id);
     at = face.surface.point(0.5 * (face.uv_low + face.uv_high));

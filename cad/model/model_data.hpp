@@ -32,12 +32,12 @@ struct FaceTag {
 /// The solids of a shape around each of its faces, both by TopExp's order; one, or two for inner faces.
 std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);
 
-class FacetedPart;
+class FacetedGeometry;
 
 /// Builds the model of a shape whose faces all belong to solids, and of facets: of one of the two, or both.
 /// `tags` follow TopExp's order of faces, then that of the faces of facets. Throws CadError.
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags,
-                  const FacetedPart* faceted = nullptr);
+                  const FacetedGeometry* faceted = nullptr);
 
 /// The bytes of a model with these strips closed (blunt_edges.hpp), from those of the model before.
 std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips);
@@ -146,16 +146,16 @@ struct Model::Data {
   std::shared_ptr<const JoinedModel> joined;  ///< where faces are joined: evaluators and snaps are its base's
 
   /// Entities of facets: numbered after those of the shape, from these numbers on. They have no evaluators.
-  std::shared_ptr<const FacetedPart> faceted;
+  std::shared_ptr<const FacetedGeometry> faceted;
   VertexId first_faceted_vertex = 0;
   EdgeId first_faceted_edge = 0;
   FaceId first_faceted_face = 0;
 
   /// The part that the face or edge belongs to; null where it is of the shape.
-  const FacetedPart* faceted_face(FaceId id) const {
+  const FacetedGeometry* faceted_face(FaceId id) const {
     return faceted && id >= first_faceted_face ? faceted.get() : nullptr;
   }
-  const FacetedPart* faceted_edge(EdgeId id) const {
+  const FacetedGeometry* faceted_edge(EdgeId id) const {
     return faceted && id >= first_faceted_edge ? faceted.get() : nullptr;
   }
 

@@ -11,6 +11,6 @@ using StepListener = void (*)(const std::string& step);
 void listen_to_steps(StepListener listener);
 
 /// Tells the listener, if any.
-void tell_step(const std::string& step);
+void report_step(const std::string& step);
 
 }  // namespace aeroloom::cad

@@ -225,7 +225,7 @@ std::string format_of_cad_file(const std::string& file) {
 NamedShape read_cad_file(const std::string& file) {
   const Ends ends = read_ends(file);
   require(!trimmed(ends.head).empty(), file, "the file is empty");
-  tell_step("reading the file");
+  report_step("reading the file");
   return guarded(fmt::format("reading '{}'", file), [&] {
     NamedShape named = read_by_content(file, ends);
     number_faces(named);

@@ -10,7 +10,7 @@
 namespace aeroloom::cad {
 
 /// A stretch of an edge.
-struct EdgePart {
+struct EdgeInterval {
   TopoDS_Edge edge;
   double first = 0, last = 1;  ///< ascending
 };
@@ -18,7 +18,7 @@ struct EdgePart {
 /// The image of `edge`, in its parameter, on a face that `other` bounds, which runs beside it: where the
 /// nearest places of the other are. `image` is the other's, in its parameter. `against`: the other runs
 /// against it.
-Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
+Handle(Geom2d_Curve) image_beside(const EdgeInterval& edge, const EdgeInterval& other,
                                   const Handle(Geom2d_Curve) & image, bool against, double tolerance);
 
 /// Gives the edge an image on a face, for its coedge forward or reversed; where the face sees it already it

@@ -141,7 +141,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 }
 
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
-  tell_step("healing the shape");
+  report_step("healing the shape");
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)

@@ -83,7 +83,7 @@ NamedShape close_items(NamedShape named, const std::vector<NoiseItem>& some, dou
   return named;
 }
 
-void tell_closed(const std::vector<NoiseItem>& closed, double tolerance, Changes& changes) {
+void report_closed(const std::vector<NoiseItem>& closed, double tolerance, Changes& changes) {
   std::size_t edges = 0;
   for (const NoiseItem& item : closed) {
     if (item.face) {
@@ -104,7 +104,7 @@ void tell_closed(const std::vector<NoiseItem>& closed, double tolerance, Changes
   }
 }
 
-void tell_left(const NoiseItem& item, double tolerance, const char* reason, Changes& changes) {
+void report_left(const NoiseItem& item, double tolerance, const char* reason, Changes& changes) {
   const std::string what = item.face ? fmt::format("strip '{}', at most {:.4g} wide", item.name, item.width)
                                      : fmt::format("an edge of length {:.4g}", item.width);
   changes.push_back(
@@ -129,10 +129,10 @@ NamedShape close_singly(NamedShape named, double tolerance, Changes& changes) {
       closed.push_back(*next);
     } catch (const CadError& error) {
       refused.push_back(*next);
-      tell_left(*next, tolerance, error.what(), changes);
+      report_left(*next, tolerance, error.what(), changes);
     }
   }
-  tell_closed(closed, tolerance, changes);
+  report_closed(closed, tolerance, changes);
   return named;
 }
 
@@ -149,10 +149,10 @@ NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes)
   const double tolerance = noise_tolerance(tight_box(named.shape).diagonal(), named.precision, smallest_size);
   const std::vector<NoiseItem> items = find_items(named.shape, named.labels, tolerance);
   if (items.empty()) return named;
-  tell_step("closing noise");
+  report_step("closing noise");
   try {
     NamedShape closed = close_items(named, items, tolerance);
-    tell_closed(items, tolerance, changes);
+    report_closed(items, tolerance, changes);
     return closed;
   } catch (const CadError&) {
     return close_singly(std::move(named), tolerance, changes);

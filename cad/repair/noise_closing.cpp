@@ -336,7 +336,7 @@ private:
   /// The faces that lose a piece see the one that takes its place.
   void give_images(const EdgePiece& lost, EdgePiece& taken) {
     BRep_Builder builder;
-    const EdgePart own{edge(taken.edge), taken.first, taken.last},
+    const EdgeInterval own{edge(taken.edge), taken.first, taken.last},
         other{edge(lost.edge), lost.first, lost.last};
     for (const TopoDS_Shape& user : _users.FindFromKey(_edges(lost.edge + 1))) {
       if (_items.faces.Contains(user)) continue;

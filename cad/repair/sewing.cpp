@@ -59,7 +59,7 @@ void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_S
 }
 
 Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, const FaceLabels& labels) {
-  tell_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), tolerance));
+  report_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), tolerance));
   BRepBuilderAPI_Sewing sewing(tolerance);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();
@@ -116,7 +116,7 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
 }
 
 /// Returns the widest gap.
-double tell_sewn(const Sewn& sewn, int face_count, Changes& changes) {
+double report_sewn(const Sewn& sewn, int face_count, Changes& changes) {
   const Gap gap = largest_gap(sewn.shape, tolerances::foot_that_measures * sewn.tolerance);
   const char* caution =
       sewn.fraction > tolerances::cautioned_sewing ? "; such gaps are wide: look at the mesh there" : "";
@@ -290,7 +290,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
                        shown_name(labels, faces(index)), noise.length, noise.widest),
            noise.place, noise.widest});
     }
-    const double gap = tell_sewn(sewn, attempt.faces.Extent(), changes);
+    const double gap = report_sewn(sewn, attempt.faces.Extent(), changes);
     labels = sewn.labels;
     return {sewn.closed, gap};
   }
@@ -300,7 +300,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     Sewn capped = cap_and_sew(open, diagonal, caps_made);
     if (!capped.complete) continue;
     changes.insert(changes.end(), caps_made.begin(), caps_made.end());
-    const double gap = tell_sewn(capped, faces.Extent(), changes);
+    const double gap = report_sewn(capped, faces.Extent(), changes);
     labels = capped.labels;
     return {capped.closed, gap};
   }

@@ -1,4 +1,4 @@
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "cad/tolerances.hpp"
@@ -228,8 +228,8 @@ Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double t
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
   if (_data->joined) return _data->joined->project(id, point, guess);
-  if (const FacetedPart* part = _data->faceted_face(id))
-    return part->project(id - _data->first_faceted_face, point, guess);
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->project(id - _data->first_faceted_face, point, guess);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const Projector projector(face, point, tolerances::foot * _data->bounds.diagonal());
   Projection best = projector.from(guess);

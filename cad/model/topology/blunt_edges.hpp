@@ -50,7 +50,7 @@ struct BluntEdgeFinding {
   double limit = 0;  ///< of the width that may be closed; where the shape is that of a blunt edge
 };
 
-/// Looks at one face. `width`: the widest that may be closed; 0: the shares below.
+/// Looks at one face. `width`: the widest that may be closed; 0: the fractions below.
 BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId face, double width);
 
 /// Without a width asked for, strips are closed up to this fraction of their length: trailing edges have at

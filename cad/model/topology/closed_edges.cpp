@@ -256,14 +256,14 @@ private:
       EdgeEvaluator evaluator;
       evaluator.curve.Load(middle.curve, edge.first_parameter, edge.last_parameter);
       const auto id = static_cast<EdgeId>(_data->edges.size());
-      std::array<BorderPart, 2> parts;
+      std::array<BorderPiece, 2> pieces;
       for (int side = 0; side < 2; ++side) {
         const BorderEdge& border = strip.borders[side][middle.edges[side]];
-        parts[side] = {border.neighbour, coedge_along(_base, border.neighbour, border.strip_use.edge),
-                       middle.parameters, std::move(middle.border_parameters[side])};
-        _closed.fates[border.strip_use.edge].parts.push_back(id);
+        pieces[side] = {border.neighbour, coedge_along(_base, border.neighbour, border.strip_use.edge),
+                        middle.parameters, std::move(middle.border_parameters[side])};
+        _closed.fates[border.strip_use.edge].pieces.push_back(id);
       }
-      _closed.closed.push_back(std::move(parts));
+      _closed.closed.push_back(std::move(pieces));
       _closed.base_edges.push_back(no_entity);
       _closed.moved.push_back(1);
       _data->edges.push_back(std::move(edge));
@@ -272,8 +272,8 @@ private:
     }
     for (int side = 0; side < 2; ++side) {
       for (const BorderEdge& border : strip.borders[side]) {
-        auto& parts = _closed.fates[border.strip_use.edge].parts;
-        if (border.against) std::reverse(parts.begin(), parts.end());
+        auto& pieces = _closed.fates[border.strip_use.edge].pieces;
+        if (border.against) std::reverse(pieces.begin(), pieces.end());
       }
     }
   }
@@ -300,7 +300,7 @@ private:
     }
   }
 
-  /// Where a strip's end was all that kept two parts of a loop apart, the face would touch itself there.
+  /// Where a strip's end was all that kept two pieces of a loop apart, the face would touch itself there.
   void require_simple(FaceId id) {
     std::map<VertexId, int> before, allowed, now;  // how often loops come by
     const auto count = [](const Edge& edge, const Coedge& use, std::map<VertexId, int>& visits) {
@@ -325,8 +325,8 @@ private:
     const BaseEdgeFate& fate = _closed.fates[use.edge];
     if (fate.kind == BaseEdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
     const std::size_t first = loop.size();
-    for (const EdgeId id : fate.parts)
-      loop.push_back({id, 0, use.reversed == _closed.part(id, base_face).is_along()});
+    for (const EdgeId id : fate.pieces)
+      loop.push_back({id, 0, use.reversed == _closed.piece(id, base_face).is_along()});
     if (use.reversed) std::reverse(loop.begin() + static_cast<std::ptrdiff_t>(first), loop.end());
   }
 

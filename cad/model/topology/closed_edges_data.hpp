@@ -9,7 +9,7 @@
 namespace aeroloom::cad {
 
 /// A closed edge as one of its two faces has it: part of an edge of the base model.
-struct BorderPart {
+struct BorderPiece {
   FaceId face = no_entity;        ///< of the base model
   Coedge use;                     ///< the face's coedge along the base model's edge
   std::vector<double> own, base;  ///< parameters of the closed edge, ascending, and of the base model's
@@ -25,20 +25,20 @@ struct BorderPart {
 struct BaseEdgeFate {
   enum class Kind : std::uint8_t { kept, closed, collapsed };
   Kind kind = Kind::kept;
-  EdgeId edge = no_entity;    ///< kept: its number now
-  std::vector<EdgeId> parts;  ///< closed: in the order of the base model's parameter
+  EdgeId edge = no_entity;     ///< kept: its number now
+  std::vector<EdgeId> pieces;  ///< closed: in the order of the base model's parameter
 };
 
 struct ClosedEdges {
   Model base;
-  std::vector<FaceId> base_faces;                 ///< per face
-  std::vector<EdgeId> base_edges;                 ///< per edge; no_entity for closed ones, which come last
-  std::vector<char> moved;                        ///< per edge: the curve is not that of the base model
-  std::vector<std::array<BorderPart, 2>> closed;  ///< per closed edge
-  std::vector<BaseEdgeFate> fates;                ///< per edge of the base model
+  std::vector<FaceId> base_faces;                  ///< per face
+  std::vector<EdgeId> base_edges;                  ///< per edge; no_entity for closed ones, which come last
+  std::vector<char> moved;                         ///< per edge: the curve is not that of the base model
+  std::vector<std::array<BorderPiece, 2>> closed;  ///< per closed edge
+  std::vector<BaseEdgeFate> fates;                 ///< per edge of the base model
 
   /// The part of a closed edge that lies on a face of the base model.
-  const BorderPart& part(EdgeId id, FaceId base_face) const;
+  const BorderPiece& piece(EdgeId id, FaceId base_face) const;
   /// A guess of parameters on the face: those of the base model's edge.
   Vec2 base_uv(FaceId id, const Coedge& use, double parameter) const;
   /// The base model's triangulation drawn to the closed edges.

@@ -59,8 +59,8 @@ private:
   /// Gives the line a node wherever its edge is divided.
   void divide(Facets::BoundaryLine& line) {
     const BaseEdgeFate& what = fate(line);
-    for (std::size_t i = 1; i < what.parts.size(); ++i) {
-      const double t = _closed.part(what.parts[i], base_face()).low();
+    for (std::size_t i = 1; i < what.pieces.size(); ++i) {
+      const double t = _closed.piece(what.pieces[i], base_face()).low();
       const auto above = std::lower_bound(line.parameters.begin() + 1, line.parameters.end() - 1, t);
       const auto k = above - line.parameters.begin();
       if (*above == t) continue;
@@ -93,17 +93,17 @@ private:
       _facets.boundary.push_back(line);
       _facets.boundary.back().use.edge = what.edge;
     }
-    for (const EdgeId id : what.parts) {
-      const BorderPart& part = _closed.part(id, base_face());
-      const auto [low, high] = std::minmax(part.base.front(), part.base.back());
+    for (const EdgeId id : what.pieces) {
+      const BorderPiece& piece = _closed.piece(id, base_face());
+      const auto [low, high] = std::minmax(piece.base.front(), piece.base.back());
       Facets::BoundaryLine own;
-      own.use = {id, 0, line.use.reversed == part.is_along()};
+      own.use = {id, 0, line.use.reversed == piece.is_along()};
       for (std::size_t i = 0; i < line.nodes.size(); ++i) {
         if (line.parameters[i] < low || line.parameters[i] > high) continue;
         own.nodes.push_back(line.nodes[i]);
-        own.parameters.push_back(part.from_base(line.parameters[i]));
+        own.parameters.push_back(piece.from_base(line.parameters[i]));
       }
-      if (!part.is_along()) {
+      if (!piece.is_along()) {
         std::reverse(own.nodes.begin(), own.nodes.end());
         std::reverse(own.parameters.begin(), own.parameters.end());
       }
@@ -130,24 +130,24 @@ private:
 
 }  // namespace
 
-double BorderPart::to_base(double parameter) const {
+double BorderPiece::to_base(double parameter) const {
   return interpolate(own, base, parameter);
 }
 
-double BorderPart::from_base(double parameter) const {
+double BorderPiece::from_base(double parameter) const {
   return interpolate(base, own, parameter);
 }
 
-const BorderPart& ClosedEdges::part(EdgeId id, FaceId base_face) const {
-  const auto& parts = closed.at(id - (base_edges.size() - closed.size()));
-  return parts[0].face == base_face ? parts[0] : parts[1];
+const BorderPiece& ClosedEdges::piece(EdgeId id, FaceId base_face) const {
+  const auto& pieces = closed.at(id - (base_edges.size() - closed.size()));
+  return pieces[0].face == base_face ? pieces[0] : pieces[1];
 }
 
 Vec2 ClosedEdges::base_uv(FaceId id, const Coedge& use, double parameter) const {
   const FaceId face = base_faces[id];
   if (base_edges[use.edge] != no_entity)
     return base.edge_uv(face, {base_edges[use.edge], use.use, use.reversed}, parameter);
-  const BorderPart& there = part(use.edge, face);
+  const BorderPiece& there = piece(use.edge, face);
   return base.edge_uv(face, there.use, there.to_base(parameter));
 }
 

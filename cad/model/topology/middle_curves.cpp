@@ -71,7 +71,7 @@ Handle(Geom_BSplineCurve) interpolate(const std::vector<Vec3>& points, const std
   return interpolation.Curve();
 }
 
-/// Middles and their places on the borders at even shares between two stations.
+/// Middles and their places on the borders at even fractions between two stations.
 struct Middles {
   std::vector<Vec3> points;
   std::array<std::vector<double>, 2> parameters;

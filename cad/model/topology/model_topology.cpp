@@ -109,45 +109,45 @@ ParameterRange parameter_range(double low, double high, double period, bool clos
 }
 
 /// One use with where it starts and ends in the loop's direction.
-struct LoopPart {
+struct LoopSegment {
   Coedge use;
   VertexId start, end;
   Vec2 uv_start, uv_end;
 };
 
-LoopPart loop_part(const Model::Data& data, const UseCurve& curve) {
+LoopSegment loop_segment(const Model::Data& data, const UseCurve& curve) {
   const Edge& edge = data.edges[curve.use.edge];
   const gp_Pnt2d low = curve.curve.Value(curve.first), high = curve.curve.Value(curve.last);
-  LoopPart part{curve.use, edge.first, edge.last, {low.X(), low.Y()}, {high.X(), high.Y()}};
+  LoopSegment segment{curve.use, edge.first, edge.last, {low.X(), low.Y()}, {high.X(), high.Y()}};
   if (curve.use.reversed) {
-    std::swap(part.start, part.end);
-    std::swap(part.uv_start, part.uv_end);
+    std::swap(segment.start, segment.end);
+    std::swap(segment.uv_start, segment.uv_end);
   }
-  return part;
+  return segment;
 }
 
 /// Chains the edges of a wire head to tail. Where several start at the vertex, the nearest in parameters
 /// follows. A wire that touches itself may give several loops.
-std::vector<std::vector<Coedge>> chain_loops(std::vector<LoopPart> parts, Vec2 scale) {
+std::vector<std::vector<Coedge>> chain_loops(std::vector<LoopSegment> segments, Vec2 scale) {
   std::vector<std::vector<Coedge>> loops;
-  while (!parts.empty()) {
+  while (!segments.empty()) {
     std::vector<Coedge>& loop = loops.emplace_back();
-    const VertexId begin = parts.front().start;
-    LoopPart current = parts.front();
-    parts.erase(parts.begin());
+    const VertexId begin = segments.front().start;
+    LoopSegment current = segments.front();
+    segments.erase(segments.begin());
     loop.push_back(current.use);
     while (true) {
-      auto best = parts.end();
+      auto best = segments.end();
       double least = std::numeric_limits<double>::max();
-      for (auto part = parts.begin(); part != parts.end(); ++part) {
-        if (part->start != current.end) continue;
-        const Vec2 gap = part->uv_start - current.uv_end;
+      for (auto segment = segments.begin(); segment != segments.end(); ++segment) {
+        if (segment->start != current.end) continue;
+        const Vec2 gap = segment->uv_start - current.uv_end;
         const double away = std::hypot(gap.x * scale.x, gap.y * scale.y);
-        if (away < least) least = away, best = part;
+        if (away < least) least = away, best = segment;
       }
-      if (best == parts.end()) break;
+      if (best == segments.end()) break;
       current = *best;
-      parts.erase(best);
+      segments.erase(best);
       loop.push_back(current.use);
     }
     if (current.end != begin) {
@@ -164,10 +164,10 @@ std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, F
   const TopoDS_Wire outer = BRepTools::OuterWire(face.shape);
   TopTools_IndexedMapOfShape wires;
   if (!outer.IsNull()) wires.Add(outer);
-  std::vector<std::vector<LoopPart>> parts(wires.Extent());
+  std::vector<std::vector<LoopSegment>> segments(wires.Extent());
   for_each_edge(face.shape, [&](const TopoDS_Wire& wire, const TopoDS_Edge& edge) {
     const std::size_t loop = wires.Add(wire) - 1;
-    parts.resize(wires.Extent());
+    segments.resize(wires.Extent());
     Coedge use{maps.edges.FindIndex(edge) - 1, 0, edge.Orientation() == TopAbs_REVERSED};
     if (use.reversed && BRep_Tool::IsClosed(edge, face.shape)) use.use = 1;
     const auto taken = [&](const UseCurve& other) {
@@ -175,12 +175,12 @@ std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, F
     };
     if (std::any_of(face.uses.begin(), face.uses.end(), taken)) use.use = 1 - use.use;
     face.uses.push_back(use_curve(face.shape, edge, use));
-    parts[loop].push_back(loop_part(data, face.uses.back()));
+    segments[loop].push_back(loop_segment(data, face.uses.back()));
   });
   const Vec2 extent = face.uv_high - face.uv_low;
   const Vec2 scale{extent.x > 0 ? 1 / extent.x : 1, extent.y > 0 ? 1 / extent.y : 1};
   std::vector<std::vector<Coedge>> loops;
-  for (auto& wire : parts) {
+  for (auto& wire : segments) {
     for (auto& loop : chain_loops(std::move(wire), scale)) loops.push_back(std::move(loop));
   }
   std::ranges::sort(face.uses, [](const UseCurve& a, const UseCurve& b) {

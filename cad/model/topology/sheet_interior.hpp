@@ -29,7 +29,7 @@ private:
   void mark_cells_around(Vec2 place);
   void classify_cells();
   void spread(int start, Cell cell);
-  bool ask_library(Vec2 uv) const;
+  bool classify_by_library(Vec2 uv) const;
 
   bool _periodic;
   Vec2 _box_low, _box_high;  // of the loops

@@ -39,11 +39,11 @@ struct FacetedEdge {
 };
 
 /// Immutable.
-class FacetedPart {
+class FacetedGeometry {
 public:
   /// Of a complex whose triangles are sorted by face and whose faces pass no curve twice
   /// (divide_at_sharp_seams). Lengths beneath `planar_tolerance` do not make a face curved. Throws CadError.
-  FacetedPart(FacetComplex complex, FacetSheets sheets, double planar_tolerance);
+  FacetedGeometry(FacetComplex complex, FacetSheets sheets, double planar_tolerance);
 
   const FacetComplex& complex() const { return _complex; }
   const FacetSheets& sheets() const { return _sheets; }
@@ -101,6 +101,6 @@ private:
 };
 
 /// A complex that is ready to be a part: sharp seams divided, sheets cut.
-FacetedPart make_faceted_part(FacetComplex complex);
+FacetedGeometry make_faceted_geometry(FacetComplex complex);
 
 }  // namespace aeroloom::cad

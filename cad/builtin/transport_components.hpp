@@ -22,13 +22,13 @@ struct NamedFace {
 };
 
 /// A closed solid and its faces as they occur in it.
-struct Part {
+struct Component {
   TopoDS_Shape solid;
   std::vector<NamedFace> faces;
 };
 
 /// Sews faces that meet along whole edges into one solid, its faces oriented outward.
-Part sew_part(const std::vector<NamedFace>& faces);
+Component sew_component(const std::vector<NamedFace>& faces);
 
 /// The face that covers the whole surface.
 TopoDS_Face whole_face(const Handle(Geom_Surface) & surface);
@@ -38,7 +38,7 @@ class Fuselage {
 public:
   explicit Fuselage(const TransportDimensions& dimensions);
 
-  Part make_part() const;
+  Component make_component() const;
   /// How deep the point lies inside; negative outside.
   double depth(Vec3 point) const;
 
@@ -63,7 +63,7 @@ class Lifting {
 public:
   Lifting(const LiftingSurface& surface, SpreadTo to) : _surface(surface), _to(to) {}
 
-  Part make_part(const std::string& name, double inner_station) const;
+  Component make_component(const std::string& name, double inner_station) const;
   /// Points around the section at a station.
   std::vector<Vec3> section(double station) const;
 
