@@ -1,5 +1,4 @@
-/// Boolean operations that fail loudly and keep names; unions by whichever way of the CAD library gives a
-/// sound one. Seen by this folder only.
+/// Boolean operations that throw when they fail and keep the names of faces. Internal to cad/.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -22,29 +21,30 @@ TopTools_ListOfShape list_of(const std::vector<Shape>& shapes) {
   return list;
 }
 
-/// Builds an operation whose arguments are set. Throws CadError when the CAD library reports failure; `doing`
-/// says what was tried.
+/// Runs an operation whose arguments are set. `doing` names the operation in messages. Throws CadError when
+/// the CAD library reports failure.
 void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing);
 
-/// Gives faces that an operation made of the arguments' faces the labels of those.
+/// Copies the labels of the arguments' faces to the faces that the operation made from them.
 void follow_labels(BRepBuilderAPI_MakeShape& operation, const std::vector<TopoDS_Solid>& arguments,
                    FaceLabels& labels);
 
-/// The sum of their volumes.
+/// The sum of the volumes.
 double volume_of(const std::vector<TopoDS_Solid>& solids, Volumes& volumes);
 
-/// The middle of what two boxes share.
+/// The middle of the intersection of two boxes.
 Vec3 meeting_place(const Box& a, const Box& b);
 
-/// The volume that two shapes have in common, as the CAD library finds it with this tolerance (0: its own).
+/// The volume of the intersection of two shapes. `tolerance` is that of the boolean operation; 0 takes the
+/// default of the CAD library.
 double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, double tolerance,
                      Volumes& volumes);
 
-/// Unites a solid with others that may touch or overlap it; labels follow. A union is sound when its volume
-/// is that of the parts, less what they share. Tried in turn until one is: as they are, the other way round,
-/// one by one, with points up to some tolerances taken as one, and as shapes that share whole faces. What
-/// comes of other ways than the first has to be valid to the CAD library too, and is listed as a change.
-/// Throws CadError naming both bodies and a place.
+/// Unites a solid with others that may touch or overlap it. Labels follow.
+/// A union is valid if its volume is the sum of all volumes less that of the intersection. Several ways are
+/// tried until one gives a valid union: the bodies as they are; in the other order; one by one; with a larger
+/// tolerance; as shapes that share whole faces. From the second way on, the result must also pass the checks
+/// of the CAD library, and it is listed as a change. Throws CadError that names both bodies and a place.
 std::vector<TopoDS_Solid> unite_with(const std::vector<TopoDS_Solid>& united, const TopoDS_Solid& solid,
                                      Volumes& volumes, FaceLabels& labels, Changes& changes);
 

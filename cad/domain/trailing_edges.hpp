@@ -1,4 +1,4 @@
-/// Blunt trailing edges of a domain closed.
+/// Closes blunt trailing edges of a domain.
 #pragma once
 
 #include "cad/domain/domain.hpp"
@@ -16,19 +16,18 @@ struct ClosedStrips {
   };
   Model model;
   std::vector<BluntEdge> closed;
-  std::vector<Left> left;  ///< where what is left would be no model
+  std::vector<Left> left;  ///< strips that cannot be closed
 };
 
-/// Closes them all or else, the longest first, as many as can be, by close_blunt_edges(). A function of the
+/// Closes all strips. If that fails, closes as many as possible, the longest first. The result depends on the
 /// model and the strips alone.
 ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips);
 
-/// The entry in the list of changes for a strip that was closed.
+/// The entry in the list of changes for a closed strip.
 Change describe_closed(const Model& model, const BluntEdge& strip);
 
-/// The model with the strips closed that the options ask for. Every strip that was closed is appended to
-/// `changes`, and so is every one that was left, with the reason. Throws CadError for a pattern that no
-/// face's name matches.
+/// The model with those strips closed that the options ask for. Every closed strip is appended to `changes`,
+/// and every other one with the reason. Throws CadError if a pattern matches no name.
 Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes);
 
 }  // namespace aeroloom::cad

@@ -1,4 +1,4 @@
-/// Figures of a faceted file as it stands there, for a look.
+/// Counts and sizes of a faceted file before any repair.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -22,7 +22,7 @@ struct FacetFacts : FacetCounts {
   std::vector<FacetGroupFacts> groups;
 };
 
-/// Equal points count as one.
+/// Points with equal coordinates count once.
 FacetFacts look_at_facets(const FacetSoup& soup);
 
 }  // namespace aeroloom::cad

@@ -1,4 +1,4 @@
-/// Numbers and texts as bytes, for ranks that run the same program. Seen by cad/ only.
+/// Writes numbers and texts to bytes and reads them, between ranks of the same program. Internal to cad/.
 #pragma once
 
 #include "cad/model/model.hpp"

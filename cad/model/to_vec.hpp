@@ -1,4 +1,4 @@
-/// Points and vectors of OpenCASCADE as ours, and points the other way.
+/// Converts points and vectors from and to OpenCASCADE.
 #pragma once
 
 #include "geometry/vec.hpp"

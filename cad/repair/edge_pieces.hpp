@@ -1,5 +1,4 @@
-/// The workings of plan_closing(): edges cut into pieces, and vertices that become one. Seen by
-/// noise_closing.cpp only.
+/// Data of plan_closing(): edges cut into pieces, and vertices that are united. For noise_closing.cpp only.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -13,25 +12,25 @@ namespace aeroloom::cad {
 
 using geometry::Vec3;
 
-/// Where an edge is cut.
+/// A cut of an edge.
 struct EdgeCut {
   double parameter;
   int vertex;
 };
-/// A stretch of an edge between vertices or cuts.
+/// An interval of an edge between two vertices or cuts.
 struct EdgePiece {
   EdgePiece(int edge, double first, double last, int start, int end)
       : edge(edge), first(first), last(last), start(start), end(end) {}
   int edge;
   double first, last;
-  int start, end;        // vertices' roots
-  double length = 0;     // where it matters
-  int like = -1;         // the piece that takes its place; itself
-  bool against = false;  // runs against that one
+  int start, end;        // representatives of the vertices
+  double length = 0;     // only computed where it is needed
+  int like = -1;         // the piece that replaces this one, or itself
+  bool against = false;  // opposite direction to that piece
   TopoDS_Edge made = {};
 };
 
-/// Vertices by number, united as far as their boxes stay small.
+/// Sets of united vertices. A set stays small: its box is bounded.
 class UnitedVertices {
 public:
   int add(Vec3 place) {
@@ -59,7 +58,7 @@ public:
     _boxes[a] = both;
     return true;
   }
-  /// The middle of those united, and how far they are from it.
+  /// The middle of a set, and the largest distance of its vertices from there.
   std::pair<Vec3, double> middle(int root) const {
     const Vec3 at = _boxes[root].center();
     return {at, 0.5 * _boxes[root].diagonal()};
