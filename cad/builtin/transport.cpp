@@ -174,12 +174,10 @@ NamedShape unite_all(const std::vector<Component>& components) {
   check_union(result.shape, components);
   for (const Component& component : components) {
     for (const NamedFace& face : component.faces) {
+      const FaceLabel label{face.name, "", "", "transport", false};
       const TopTools_ListOfShape& modified = fuse.Modified(face.face);
-      for (const TopoDS_Shape& piece : modified)
-        result.labels.Bind(piece, {face.name, "", "", "transport", false});
-      if (modified.IsEmpty() && !fuse.IsDeleted(face.face)) {
-        result.labels.Bind(face.face, {face.name, "", "", "transport", false});
-      }
+      for (const TopoDS_Shape& piece : modified) result.labels.Bind(piece, label);
+      if (modified.IsEmpty() && !fuse.IsDeleted(face.face)) result.labels.Bind(face.face, label);
     }
   }
   result.unit_name.assign(1, 'm');

@@ -188,14 +188,10 @@ Domain prepare(const DomainOptions& options, const std::string& distrust) {
   return {std::move(model), std::move(report)};
 }
 
-std::string source_name(const DomainOptions& options) {
-  return options.transport ? "the built-in aircraft" : fmt::format("'{}'", options.file);
-}
-
 /// Errors below know the entity, not the file.
 template <class Action>
 auto with_source(const DomainOptions& options, Action&& action) {
-  const std::string source = source_name(options);
+  const std::string source = options.transport ? "the built-in aircraft" : fmt::format("'{}'", options.file);
   try {
     return guarded("preparing the domain", std::forward<Action>(action));
   } catch (const CadError& error) {

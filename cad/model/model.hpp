@@ -135,9 +135,8 @@ public:
 
   /// Point, derivative and curvature of the edge. Not for degenerate edges.
   Vec3 edge_point(EdgeId id, double parameter) const;
-  Vec3 edge_tangent(EdgeId id, double parameter) const;  ///< first derivative
-  double edge_curvature(EdgeId id,
-                        double parameter) const;  ///< 1/length; 0 on lines and where it is undefined
+  Vec3 edge_tangent(EdgeId id, double parameter) const;      ///< first derivative
+  double edge_curvature(EdgeId id, double parameter) const;  ///< 1/length; 0 on lines and if undefined
   /// Parameters of the edge's point on a face that uses it.
   Vec2 edge_uv(FaceId face, const Coedge& use, double parameter) const;
   /// The parameter interval, split where the curve is not smooth (C1). Ends included, ascending.

@@ -116,7 +116,6 @@ private:
 
   void push_sides(std::int32_t t);
   void flip();
-  static double angle_at(Vec3 apex, Vec3 p, Vec3 q);
   bool should_flip(std::int32_t t, int i) const;
   void flip(std::int32_t t, int i);
   void store_lines();

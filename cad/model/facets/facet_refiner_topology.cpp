@@ -195,10 +195,6 @@ void FacetRefiner::flip() {
   _stack.clear();
 }
 
-double FacetRefiner::angle_at(Vec3 apex, Vec3 p, Vec3 q) {
-  return angle_between(p - apex, q - apex);
-}
-
 bool FacetRefiner::should_flip(std::int32_t t, int i) const {
   const std::int32_t u = _links[t][i];
   const std::int32_t a = corner(t, i), b = corner(t, i + 1), c = corner(t, i + 2);
@@ -209,7 +205,8 @@ bool FacetRefiner::should_flip(std::int32_t t, int i) const {
   if (distance(point(a), point(d)) <= collapsed_side * _deflection) return false;
   const double before = std::max(error(t), error(u)), after = std::max(error(a, b, d), error(a, d, c));
   if (std::max(before, after) > _error_limit) return after < before - least_gain;
-  return angle_at(point(a), point(b), point(c)) + angle_at(point(d), point(b), point(c)) >
+  return angle_between(point(b) - point(a), point(c) - point(a)) +
+             angle_between(point(b) - point(d), point(c) - point(d)) >
          std::numbers::pi + least_gain;
 }
 

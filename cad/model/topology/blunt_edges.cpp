@@ -34,15 +34,11 @@ struct Run {
   double length = 0;
 };
 
-bool is_reversed_end(const Coedge& use, bool at_start) {
-  return use.reversed == at_start;
-}
-
 /// The direction of the loop at the start or end of a coedge, as a chord over a small fraction of the edge.
 Vec3 direction_at(const Model& model, const Coedge& use, bool at_start) {
   const Edge& edge = model.edge(use.edge);
   const double range = edge.last_parameter - edge.first_parameter;
-  const bool at_last = is_reversed_end(use, at_start);
+  const bool at_last = use.reversed == at_start;
   const double end = at_last ? edge.last_parameter : edge.first_parameter;
   const Vec3 inner =
       model.edge_point(use.edge, end + (at_last ? -tolerances::beside_end : tolerances::beside_end) * range);
