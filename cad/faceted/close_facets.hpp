@@ -9,7 +9,7 @@ namespace aeroloom::cad {
 /// Closes open sides (sides of one triangle only). The steps below run in this order, each while sides are
 /// open. Triangles are split where open points lie on their open sides. Open points are welded if they are
 /// near each other and that leaves fewer open sides. Planar openings are capped. Equal points must be one,
-/// and no triangle void (weld_equal_points, drop_void_triangles).
+/// and there may be no void triangles (weld_equal_points, drop_void_triangles).
 void close_facets(FacetSoup& soup, Changes& changes);
 
 /// Splits triangles at open points on their open sides. With a tolerance, points near a side count too if
@@ -32,8 +32,8 @@ void replace_points(FacetSoup& soup, const std::vector<std::int32_t>& representa
 /// Whether three points are collinear. Exact.
 bool on_one_line(Vec3 a, Vec3 b, Vec3 c);
 
-/// Drops triangles with collinear or equal corners, and all but the first of triangles with the same corners.
-/// This may leave open sides.
+/// Drops void triangles, whose corners are collinear or equal, and all but the first of triangles with the
+/// same corners. This may leave open sides.
 void drop_void_triangles(FacetSoup& soup, Changes& changes);
 
 }  // namespace aeroloom::cad

@@ -12,16 +12,16 @@
 namespace aeroloom::cad {
 
 /// The regions on the two sides of a triangle.
-struct FacetSkin {
+struct FacetRegions {
   RegionId front = no_entity, back = no_entity;  ///< as in Face
   bool cavity = false;                           ///< `back` is a void inside its own region
-  friend bool operator==(const FacetSkin&, const FacetSkin&) = default;
+  friend bool operator==(const FacetRegions&, const FacetRegions&) = default;
 };
 
 /// Every point is used. Triangles meet in common points and sides only. Every side has at least two
 /// triangles.
 struct FacetComplex {
-  struct Face : FacetSoup::Group, FacetSkin {};
+  struct Face : FacetSoup::Group, FacetRegions {};
   /// A chain of sides between two of `vertices`. A closed curve begins and ends at the same vertex.
   struct Curve {
     std::vector<std::int32_t> points;

@@ -19,11 +19,12 @@ struct FacetFeatures {
 /// sharper count as noise. The others are continued over less sharp sides if these lead to another feature.
 /// Vertices are points where other than two feature sides meet, or where a chain turns by more than `angle`.
 /// Every closed chain has a vertex. Normals of triangles must point out of `front`.
-FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetSkin>& skins,
+FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetRegions>& regions,
                             const SideTable& table, double angle);
 
 /// Divides a soup into faces, curves and vertices. Normals of triangles must point out of `front`. The caller
 /// names the regions.
-FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetSkin>& skins, double feature_angle);
+FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetRegions>& regions,
+                          double feature_angle);
 
 }  // namespace aeroloom::cad

@@ -173,14 +173,14 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
-  if (_data->joined) return _data->joined->ask(&Model::face_point, id, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_point, id, uv);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->face_point(id - _data->first_faceted_face, uv);
   return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
-  if (_data->joined) return _data->joined->ask(&Model::face_frame, id, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_frame, id, uv);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->face_frame(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -195,7 +195,7 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 }
 
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
-  if (_data->joined) return _data->joined->ask(&Model::face_curvatures, id, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_curvatures, id, uv);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->face_curvatures(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -204,7 +204,7 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
 }
 
 CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
-  if (_data->joined) return _data->joined->ask(&Model::face_curved_point, id, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_curved_point, id, uv);
   if (_data->faceted_face(id)) return {face_point(id, uv), face_curvatures(id, uv)};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {face_point(id, uv), {0, 0, true}};
@@ -213,7 +213,7 @@ CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
-  if (_data->joined) return _data->joined->ask(&Model::parameter_periods, id, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::parameter_periods, id, uv);
   if (_data->faceted_face(id)) return {};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.repeats_after(), face.v.repeats_after()};

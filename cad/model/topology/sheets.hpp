@@ -64,10 +64,10 @@ struct JoinedModel {
 
   Place locate(FaceId id, Vec2 uv) const;
   /// Calls a function of the base model at a point of a face's parameter plane.
-  template <class Answer>
-  Answer ask(Answer (Model::*question)(FaceId, Vec2) const, FaceId id, Vec2 uv) const {
+  template <class Result>
+  Result evaluate(Result (Model::*function)(FaceId, Vec2) const, FaceId id, Vec2 uv) const {
     const Place at = locate(id, uv);
-    return (base.*question)(at.face, at.uv);
+    return (base.*function)(at.face, at.uv);
   }
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
   Facets facets(FaceId id, double deflection, double angle, Model::Keep keep) const;
