@@ -1,7 +1,7 @@
 #include "pipeline/domain/trailing_edges.hpp"
 
-#include "cad/domain/close_strips.hpp"
-#include "cad/model/topology/closed_edges.hpp"
+#include "cad/domain/trailing_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
 

@@ -1,5 +1,5 @@
 // Narrow faces: where two edges of a face come closer than its elements are large.
-#include "cad/model/evaluation/edge_foot.hpp"
+#include "cad/model/evaluation/point_locator.hpp"
 #include "sizing/features/model_sources.hpp"
 #include "sizing/features/segment_tree.hpp"
 #include "sizing/field/closed_corners.hpp"

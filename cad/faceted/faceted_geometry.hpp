@@ -1,7 +1,6 @@
-/// The faces and edges of a model that are made of flat triangles. Seen by this folder and model/ only.
+/// Geometry of faces and edges made of flat triangles: evaluation, projection, facets. Internal to cad/.
 ///
-/// Numbers are local: the model numbers its faceted vertices, edges and faces after those of the CAD
-/// library's shape.
+/// Numbers are local. The model numbers faceted vertices, edges and faces after those of the CAD shape.
 #pragma once
 
 #include "cad/faceted/facet_links.hpp"
@@ -9,43 +8,41 @@
 #include "cad/faceted/facet_sheets.hpp"
 #include "geometry/box_tree.hpp"
 
-#include <memory>
-#include <span>
 #include <vector>
 
 namespace aeroloom::cad {
 
 struct FacetedFace {
-  std::int32_t first = 0, count = 0;  ///< its triangles in the complex
+  std::int32_t first = 0, count = 0;  ///< triangles of the complex
   std::int32_t first_sheet = 0, sheet_count = 0;
   std::vector<std::int32_t> points;                  ///< of the complex, ascending
-  std::vector<geometry::TriangleCorners> triangles;  ///< of `points`
+  std::vector<geometry::TriangleCorners> triangles;  ///< corners are indices into `points`
   FacetShape shape;
   bool planar = false;
-  std::vector<std::vector<Coedge>> loops;  ///< edges are local
-  geometry::BoxTree in_space, in_plane;    ///< of its triangles
+  std::vector<std::vector<Coedge>> loops;  ///< local edge numbers
+  geometry::BoxTree in_space, in_plane;    ///< boxes of the triangles
 };
 
-/// One pass of a face along an edge.
+/// An edge as one face uses it.
 struct FacetedUse {
   FaceId face = no_entity;
   bool reversed = false;
-  std::vector<geometry::HalfEdge> half_edges;  ///< per side of the edge, of the complex's triangles
+  std::vector<geometry::HalfEdge> half_edges;  ///< per side of the edge
 };
 
 struct FacetedEdge {
   std::vector<std::int32_t> points;  ///< of the complex
-  std::vector<double> along;         ///< per point, the length of the way to it: the edge's parameter
+  std::vector<double> along;         ///< parameter of the edge at each point: the length from its start
   std::vector<double> curvatures;    ///< per point
-  std::vector<FacetedUse> uses;      ///< by face
+  std::vector<FacetedUse> uses;      ///< sorted by face
 };
 
 /// Immutable.
-class FacetedPart {
+class FacetedGeometry {
 public:
-  /// Of a complex whose triangles are sorted by face and whose faces pass no curve twice
-  /// (divide_at_sharp_seams). Lengths beneath `planar_tolerance` do not make a face curved. Throws CadError.
-  FacetedPart(FacetComplex complex, FacetSheets sheets, double planar_tolerance);
+  /// Triangles must be sorted by face, and no face may have both sides of a curve (divide_at_sharp_seams). A
+  /// face is planar if it leaves a plane by at most `planar_tolerance`. Throws CadError.
+  FacetedGeometry(FacetComplex complex, FacetSheets sheets, double planar_tolerance);
 
   const FacetComplex& complex() const { return _complex; }
   const FacetSheets& sheets() const { return _sheets; }
@@ -62,16 +59,17 @@ public:
   Vec3 face_point(FaceId face, Vec2 uv) const;
   SurfaceFrame face_frame(FaceId face, Vec2 uv) const;
   PrincipalCurvatures face_curvatures(FaceId face, Vec2 uv) const;
-  std::int32_t sheet(FaceId face, Vec2 uv) const;  ///< of the face's own, from 0
-  /// The nearest point of the face; of two that are about as near, the one on the side of the guess.
+  std::int32_t sheet(FaceId face, Vec2 uv) const;  ///< number among the face's sheets
+  /// The nearest point of the face. If two points are about equally near, the one that a walk from the guess
+  /// reaches.
   Projection project(FaceId face, Vec3 point, Vec2 guess) const;
-  /// The triangles themselves: points once each, with the parameters of one sheet.
+  /// The triangles of the face. Each point occurs once, with its parameters in one sheet.
   Facets facets(FaceId face) const;
   FacePlace face_place(FaceId face) const;
   double face_area(FaceId face) const;
 
 private:
-  /// A place in a triangle of the complex.
+  /// A point in a triangle, in barycentric coordinates.
   struct Place {
     std::int32_t triangle = -1;
     std::array<double, 3> weights{};
@@ -102,7 +100,7 @@ private:
   std::vector<FacetedEdge> _edges;
 };
 
-/// A complex that is ready to be a part: sharp seams divided, sheets cut.
-FacetedPart make_faceted_part(FacetComplex complex);
+/// Divides sharp seams, cuts sheets and makes the geometry.
+FacetedGeometry make_faceted_geometry(FacetComplex complex);
 
 }  // namespace aeroloom::cad

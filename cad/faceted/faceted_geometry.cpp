@@ -1,6 +1,6 @@
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 
-#include "cad/faceted/sharp_seams.hpp"
+#include "cad/faceted/facet_sheets.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
 #include "geometry/place_text.hpp"
@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,7 +61,7 @@ std::vector<double> curvatures_along(const FacetComplex& complex, const FacetedE
 
 }  // namespace
 
-FacetedPart::FacetedPart(FacetComplex complex, FacetSheets sheets, double planar_tolerance)
+FacetedGeometry::FacetedGeometry(FacetComplex complex, FacetSheets sheets, double planar_tolerance)
     : _complex(std::move(complex)),
       _sheets(std::move(sheets)),
       _planar_tolerance(planar_tolerance),
@@ -71,7 +72,7 @@ FacetedPart::FacetedPart(FacetComplex complex, FacetSheets sheets, double planar
   trace_loops();
 }
 
-void FacetedPart::collect_faces() {
+void FacetedGeometry::collect_faces() {
   _faces.resize(_complex.faces.size());
   const auto triangles = static_cast<std::int32_t>(_complex.triangles.size());
   std::vector<std::int32_t> number(_complex.points.size(), -1);
@@ -106,7 +107,7 @@ void FacetedPart::collect_faces() {
   }
 }
 
-bool FacetedPart::lies_in_plane(const FacetedFace& face) const {
+bool FacetedGeometry::lies_in_plane(const FacetedFace& face) const {
   Vec3 sum;
   for (std::int32_t t = face.first; t < face.first + face.count; ++t)
     sum += area_vector2(corners_of(_complex, t));
@@ -121,7 +122,7 @@ bool FacetedPart::lies_in_plane(const FacetedFace& face) const {
   return true;
 }
 
-void FacetedPart::collect_edges() {
+void FacetedGeometry::collect_edges() {
   for (const FacetComplex::Curve& curve : _complex.curves) {
     FacetedEdge& edge = _edges.emplace_back();
     edge.points = curve.points;
@@ -146,16 +147,15 @@ void FacetedPart::collect_edges() {
   }
 }
 
-void FacetedPart::trace_loops() {
+void FacetedGeometry::trace_loops() {
   std::vector<char> seen(_links.on_curve.size(), 0);
   for (EdgeId e = 0; e < static_cast<EdgeId>(_edges.size()); ++e) {
     for (const FacetedUse& use : _edges[e].uses) {
-      if (std::find(use.half_edges.begin(), use.half_edges.end(), -1) != use.half_edges.end()) {
-        const Vec3 at = _complex.points[_edges[e].points.front()];
-        throw CadError(
-            fmt::format("face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
-                        "there in the program that made the file",
-                        _complex.faces[use.face].name, geometry::place_text(at)));
+      if (std::ranges::find(use.half_edges, -1) != use.half_edges.end()) {
+        throw CadError(fmt::format(
+            "face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
+            "there in the program that made the file",
+            _complex.faces[use.face].name, geometry::place_text(_complex.points[_edges[e].points.front()])));
       }
       geometry::HalfEdge h = use.reversed ? use.half_edges.back() : use.half_edges.front();
       if (seen[h]) continue;
@@ -179,7 +179,7 @@ void FacetedPart::trace_loops() {
   }
 }
 
-Facets FacetedPart::facets(FaceId id) const {
+Facets FacetedGeometry::facets(FaceId id) const {
   const FacetedFace& face = _faces[id];
   Facets facets;
   facets.triangles = face.triangles;
@@ -197,25 +197,23 @@ Facets FacetedPart::facets(FaceId id) const {
     return static_cast<std::int32_t>(std::lower_bound(face.points.begin(), face.points.end(), p) -
                                      face.points.begin());
   };
-  for (const auto& loop : face.loops) {
-    for (const Coedge& use : loop) {
-      const FacetedEdge& edge = _edges[use.edge];
-      Facets::BoundaryLine line{use, {}, edge.along};
-      for (const std::int32_t p : edge.points) line.nodes.push_back(number(p));
-      facets.boundary.push_back(std::move(line));
-    }
+  for (const Coedge& use : face.loops | std::views::join) {
+    const FacetedEdge& edge = _edges[use.edge];
+    Facets::BoundaryLine line{use, {}, edge.along};
+    for (const std::int32_t p : edge.points) line.nodes.push_back(number(p));
+    facets.boundary.push_back(std::move(line));
   }
   return facets;
 }
 
-double FacetedPart::face_area(FaceId id) const {
+double FacetedGeometry::face_area(FaceId id) const {
   double area = 0;
   for (std::int32_t t = _faces[id].first; t < _faces[id].first + _faces[id].count; ++t)
     area += 0.5 * norm(area_vector2(corners_of(_complex, t)));
   return area;
 }
 
-FacePlace FacetedPart::face_place(FaceId id) const {
+FacePlace FacetedGeometry::face_place(FaceId id) const {
   FacePlace place{0, {}, {}};
   for (std::int32_t t = _faces[id].first; t < _faces[id].first + _faces[id].count; ++t) {
     const auto corners = corners_of(_complex, t);
@@ -228,17 +226,15 @@ FacePlace FacetedPart::face_place(FaceId id) const {
   return place;
 }
 
-FacetedPart make_faceted_part(FacetComplex complex) {
+FacetedGeometry make_faceted_geometry(FacetComplex complex) {
   divide_at_sharp_seams(complex);
   FacetSheets sheets = cut_into_sheets(complex, link_facets(complex));
-  Box box;
   double farthest = 0;
-  for (const Vec3 p : complex.points) {
-    box.add(p);
+  for (const Vec3 p : complex.points)
     farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
-  const double tolerance = std::max(tolerances::coincident * box.diagonal(), 2 * single_precision * farthest);
-  return FacetedPart(std::move(complex), std::move(sheets), tolerance);
+  const double tolerance = std::max(tolerances::coincident * box_of_points(complex.points).diagonal(),
+                                    2 * single_precision * farthest);
+  return FacetedGeometry(std::move(complex), std::move(sheets), tolerance);
 }
 
 }  // namespace aeroloom::cad

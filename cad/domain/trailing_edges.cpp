@@ -1,11 +1,11 @@
-#include "cad/domain/sharpen.hpp"
+#include "cad/domain/trailing_edges.hpp"
 
-#include "cad/domain/close_strips.hpp"
 #include "cad/model/patches.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/topology/blunt_edges.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ bool is_remarkable(const BluntEdgeFinding& found, const TrailingEdgeOptions& opt
 bool is_asked_for(const Model& model, FaceId id, const std::vector<std::string>& patterns) {
   if (patterns.empty()) return true;
   const Face& face = model.face(id);
-  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+  return std::ranges::any_of(patterns, [&](const std::string& pattern) {
     return matches_pattern(face.name, pattern) || matches_pattern(model.patches()[face.patch], pattern);
   });
 }
@@ -62,9 +62,44 @@ Change describe_left(const Model& model, const BluntEdge& strip, const std::stri
 
 }  // namespace
 
+ClosedStrips close_strips(const Model& model, std::vector<BluntEdge> strips) {
+  const auto attempt = [&](const std::vector<BluntEdge>& some, std::string& reason) -> std::optional<Model> {
+    try {
+      return close_blunt_edges(model, some);
+    } catch (const CadError& error) {
+      reason = error.what();
+      return std::nullopt;
+    }
+  };
+  std::string reason;
+  if (auto closed = attempt(strips, reason)) return {*std::move(closed), std::move(strips), {}};
+  ClosedStrips result{model, {}, {}};
+  std::ranges::stable_sort(strips,
+                           [](const BluntEdge& a, const BluntEdge& b) { return a.length > b.length; });
+  for (const BluntEdge& strip : strips) {
+    result.closed.push_back(strip);
+    if (auto closed = attempt(result.closed, reason)) {
+      result.model = *std::move(closed);
+      continue;
+    }
+    result.closed.pop_back();
+    result.left.push_back({strip, reason});
+  }
+  return result;
+}
+
+Change describe_closed(const Model& model, const BluntEdge& strip) {
+  const auto neighbour = [&](int side) { return model.face(strip.borders[side].front().neighbour).name; };
+  return {
+      fmt::format("trailing edge '{}', {:.4g} long and at most {:.3g} wide, was closed to a curve half-way "
+                  "between '{}' and '{}'",
+                  model.face(strip.face).name, strip.length, strip.widest, neighbour(0), neighbour(1)),
+      strip.place, 0.5 * strip.widest};
+}
+
 Model sharpen_trailing_edges(Model model, const TrailingEdgeOptions& options, Changes& changes) {
   if (options.treatment != TrailingEdges::sharpen) return model;
-  tell_step("sharpening trailing edges");
+  report_step("sharpening trailing edges");
   require_matches(model, options.faces);
   std::vector<BluntEdge> strips;
   Changes left;

@@ -1,4 +1,5 @@
-/// The parts of the built-in aircraft, each a closed solid with named faces. Seen by this folder only.
+/// The components of the built-in aircraft. Each is a closed solid with named faces. Internal to
+/// cad/builtin/.
 #pragma once
 
 #include "cad/builtin/transport.hpp"
@@ -21,25 +22,26 @@ struct NamedFace {
   std::string name;
 };
 
-/// A closed solid and its faces as they occur in it.
-struct Part {
+/// A closed solid, and its faces as they are stored in the solid.
+struct Component {
   TopoDS_Shape solid;
   std::vector<NamedFace> faces;
 };
 
-/// Sews faces that meet along whole edges into one solid, its faces oriented outward.
-Part sew_part(const std::vector<NamedFace>& faces);
+/// Sews faces that meet along whole edges into one solid. The faces of the solid are oriented outward.
+Component sew_component(const std::vector<NamedFace>& faces);
 
 /// The face that covers the whole surface.
 TopoDS_Face whole_face(const Handle(Geom_Surface) & surface);
 
-/// Circles around an axis in the plane y = 0 along a control polygon: a body of revolution bent upward.
+/// A body of revolution whose axis is bent upward in the plane y = 0. Control points give position and
+/// radius.
 class Fuselage {
 public:
   explicit Fuselage(const TransportDimensions& dimensions);
 
-  Part make_part() const;
-  /// How deep the point lies inside; negative outside.
+  Component make_component() const;
+  /// Distance from the point to the surface, about. Positive inside, negative outside.
   double depth(Vec3 point) const;
 
 private:
@@ -53,17 +55,17 @@ private:
   std::vector<double> _breaks;  // parameters of nose tip, cabin front, cabin end, tail end
 };
 
-/// Where a lifting surface spreads to.
+/// The direction of the span.
 enum class SpreadTo { right, up };
 
-/// One half of a lifting surface (the fin: all of it) as a solid between two stations of its span, in metres
-/// from where `half_span` is counted. Upper and lower faces are `name` + "_upper", "_lower"; a fin has
-/// "_right" and "_left".
+/// Half of a lifting surface, or the whole fin. Stations are measured in metres along the span, from the same
+/// origin as `half_span`. Faces are called `name` + "_upper" and "_lower", those of the fin "_right" and
+/// "_left".
 class Lifting {
 public:
   Lifting(const LiftingSurface& surface, SpreadTo to) : _surface(surface), _to(to) {}
 
-  Part make_part(const std::string& name, double inner_station) const;
+  Component make_component(const std::string& name, double inner_station) const;
   /// Points around the section at a station.
   std::vector<Vec3> section(double station) const;
 
