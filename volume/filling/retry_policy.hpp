@@ -43,7 +43,7 @@ public:
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
         fmt::format("{} zones were filled {} times again in {} rounds, and their tetrahedra still do not fit "
-                    "together: what they know of each other is too little. Remedy: a wider "
+                    "together: their halos are too narrow. Remedy: a wider "
                     "VolumeOptions::halo ({:g}), or larger pieces (VolumeOptions::piece_tets)",
                     _zones, _again, rounds, halo));
   }
