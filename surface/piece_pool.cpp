@@ -110,8 +110,7 @@ PieceProblems PiecePool::make_face_problems(const std::vector<FaceId>& faces, co
   PieceProblems problems;
   _costs.clear();
   const double of_triangle = seconds_per_triangle();
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<double> loads;
     for (const FaceId face : faces) {
       const auto counts = edge_vertices(curves, face);
@@ -250,10 +249,8 @@ mesh::DistributedMesh PiecePool::assemble() const {
 std::vector<CutAngle> PiecePool::cut_angles() const {
   std::vector<CutAngle> mine;
   for (const auto& [key, angles] : _angles) mine.insert(mine.end(), angles.begin(), angles.end());
-  std::vector<CutAngle> all = _communicator.all_gather_items<CutAngle>(mine);
-  std::sort(all.begin(), all.end(), [](const CutAngle& a, const CutAngle& b) {
-    return std::tie(a.face, a.degrees, a.point.x, a.point.y, a.point.z) <
-           std::tie(b.face, b.degrees, b.point.x, b.point.y, b.point.z);
+  std::vector<CutAngle> all = _communicator.gather_sorted(mine, [](const CutAngle& each) {
+    return std::tie(each.face, each.degrees, each.point.x, each.point.y, each.point.z);
   });
   return all;
 }
@@ -262,8 +259,7 @@ double PiecePool::load_error_90() const {
   std::vector<double> errors;
   for (const auto& [key, meshed] : _meshed)
     errors.push_back(std::abs(meshed.load / static_cast<double>(meshed.piece.cell_count()) - 1));
-  errors = _communicator.all_gather_items<double>(errors);
-  std::sort(errors.begin(), errors.end());
+  errors = _communicator.gather_sorted(errors);
   return errors.empty() ? 0 : errors[errors.size() * 9 / 10];
 }
 

@@ -37,8 +37,7 @@ public:
   /// Pieces of all faces, unless there are conflicts.
   PlaneConflicts mesh() {
     _loops = gather_loops(_surface, _faces);
-    parallel::agree(_surface.communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(_surface.communicator, ScopedCpu::As::task, [&] {
       for (auto& [face, loops] : _loops) spread_on_free_curves(_model, _field, face, _faces, loops);
     });
     for (std::vector<FaceId> faces = _faces; !faces.empty();) {
@@ -76,8 +75,7 @@ private:
     constexpr double seconds_per_triangle = 3e-6;  // about; no result depends on it
     PieceProblems problems;
     _costs.clear();
-    parallel::agree(_surface.communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(_surface.communicator, ScopedCpu::As::task, [&] {
       for (const auto& [face, loops] : _loops) {
         if (!std::binary_search(faces.begin(), faces.end(), face)) continue;
         const double begin = parallel::cpu_seconds();
@@ -161,8 +159,7 @@ private:
     for (const mesh::Piece& piece : _surface.pieces) {
       if (is_old(piece)) old.push_back(piece.id);
     }
-    old = _surface.communicator.all_gather_items<mesh::PieceId>(old);
-    std::sort(old.begin(), old.end());
+    old = _surface.communicator.gather_sorted(old);
     std::erase_if(_surface.pieces, is_old);
     for (mesh::Piece& piece : _surface.pieces) {
       piece.id -=

@@ -245,7 +245,7 @@ private:
     }
     SurfaceReport report = describe(curves, surface);
     report.needles = std::move(groups);
-    _accepted = SurfaceMesh{std::move(surface), std::move(report), _field};
+    _accepted = SurfaceMesh{{mesh::number_mesh(std::move(surface)), _field}, std::move(report)};
     return remedies;
   }
 
@@ -285,7 +285,7 @@ SurfaceMesh mesh_surface(const cad::Model& model, const SizeField& field, const 
 SurfaceMesh mesh_surface_with_cuts(const cad::Model& model, const SizeField& field, const CutOptions& options,
                                    parallel::TaskStore* tasks) {
   SurfaceMesh result = SurfaceRounds(model, field, options, tasks).run();
-  parallel::add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
+  parallel::add_pieces(static_cast<std::int64_t>(result.pieces.size()));
   return result;
 }
 

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "mesh/data/distributed_mesh.hpp"
-#include "sizing/field/size_field.hpp"
+#include "sizing/field/sized_surface.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
@@ -14,13 +13,10 @@ class TaskStore;
 
 namespace aeroloom::surface {
 
-struct SurfaceMesh {
-  mesh::DistributedMesh
-      mesh;  ///< triangle pieces, each part of one CAD face, numbered by face; spread over ranks by load
+/// Triangle pieces, each part of one CAD face, numbered by face and spread over ranks by load. The field has
+/// the sources that rounds of local refinement added.
+struct SurfaceMesh : sizing::SizedSurface {
   SurfaceReport report;
-  /// The size field with the sources that were added where surfaces came too close. The volume is filled
-  /// under it.
-  sizing::SizeField field;
 };
 
 /// Meshes the surface of the model on the ranks of the field. Pieces found in `tasks` are not meshed again,

@@ -17,7 +17,7 @@ ALLOWED = {
     "geometry": set(),
     "mesh": {"geometry", "parallel"},
     "cad": {"geometry"},
-    "sizing": {"cad", "geometry", "parallel"},
+    "sizing": {"cad", "geometry", "mesh", "parallel"},
     "surface": BASE,
     "layers": {"geometry", "parallel", "mesh"},
     "volume": BASE,

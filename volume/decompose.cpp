@@ -1,5 +1,6 @@
+#include "mesh/data/bounds.hpp"
 #include "mesh/transfer/piece_size.hpp"
-#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/filling/decomposition_data.hpp"
 #include "volume/filling/failure_diagnostics.hpp"
 #include "volume/filling/filling_limits.hpp"
@@ -20,20 +21,6 @@ using parallel::ScopedCpu;
 
 namespace {
 
-/// The box of the surface, the same on every rank.
-geometry::Box box_of(const mesh::DistributedMesh& surface) {
-  const Communicator& communicator = surface.communicator;
-  geometry::Box box;
-  for (const mesh::Piece& piece : surface.pieces) {
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = communicator.minimum(box.low[axis]);
-    box.high[axis] = communicator.maximum(box.high[axis]);
-  }
-  return box;
-}
-
 /// Once regions are known, the triangles that do not meet this rank's blocks have served.
 void keep_own_triangles(const Lattice& lattice, std::vector<SurfaceTriangle>& triangles) {
   std::erase_if(triangles, [&](const SurfaceTriangle& triangle) {
@@ -51,7 +38,7 @@ struct NewLattice {
 
 NewLattice make_lattice(const VolumeInput& input) {
   const Communicator& communicator = input.surface.communicator;
-  auto lattice = std::make_unique<Lattice>(grow_lattice(input, box_of(input.surface)));
+  auto lattice = std::make_unique<Lattice>(grow_lattice(input, mesh::box_of(input.surface)));
   // One rank has the whole surface at hand. Which triangles are looked at decides no region: any of them that
   // is seen first tells the same.
   if (communicator.size() > 1) {

@@ -101,7 +101,7 @@ private:
     }
     if (filling.filled) {
       parallel::add_pieces(1);
-      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling);
+      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling, _input.surface_numbers);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
       parallel::note_task({parallel::TaskKind::zone, zone.zone, _work.at(zone.zone),
@@ -145,8 +145,7 @@ private:
       mine.push_back(std::abs(
           _shell.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
     }
-    std::vector<double> errors = _communicator.all_gather_items<double>(mine);
-    std::sort(errors.begin(), errors.end());
+    std::vector<double> errors = _communicator.gather_sorted(mine);
     return errors.empty() ? 0 : errors[(errors.size() - 1) * 9 / 10];
   }
 

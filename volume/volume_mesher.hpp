@@ -6,7 +6,7 @@
 
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "sizing/field/size_field.hpp"
+#include "sizing/field/sized_surface.hpp"
 #include "volume/volume_failure.hpp"
 #include "volume/volume_options.hpp"
 #include "volume/volume_report.hpp"
@@ -21,11 +21,10 @@ namespace aeroloom::volume {
 
 /// The input of the volume stage. Refers to what lives elsewhere.
 struct VolumeInput {
-  const mesh::DistributedMesh& surface;  ///< closed around every region, its vertices classified
-  const mesh::Numbering& numbering;      ///< of the surface
-  const sizing::SizeField& field;
+  const sizing::SizedSurface& surface;  ///< closed around every region, its vertices classified
   VolumeOptions options;
   parallel::TaskStore* tasks = nullptr;  ///< where filled zones are kept and found, if anywhere
+  bool surface_numbers = false;          ///< whether pieces get mesh::Piece::surface_numbers
 };
 
 /// The points and zones of a volume. Each rank has the points of its blocks.

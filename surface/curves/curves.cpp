@@ -235,10 +235,8 @@ CurveMesh discretise_curves(const Model& model, const sizing::SizeField& field,
   });
   CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
   mesh.sharp_corners = std::move(corners);
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-    align_cusps(model, sizing::closing_gap(field.options()), mesh);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated,
+                         [&] { align_cusps(model, sizing::closing_gap(field.options()), mesh); });
   return mesh;
 }
 

@@ -1,6 +1,5 @@
 #include "surface/curves/sharp_corners.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 
@@ -91,8 +90,7 @@ bool is_apex_of_two_faces(const Model& model, const FaceCorner& corner, double d
 std::vector<SharpCorner> find_sharp_corners(const Model& model, const sizing::SizeField& field) {
   const parallel::Communicator& communicator = field.communicator();
   std::vector<SharpCorner> corners;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
     for (cad::FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       for (const FaceCorner& corner : cad::corners_of(model, f)) {
         if (const auto found = examine(model, field, corner)) corners.push_back(*found);

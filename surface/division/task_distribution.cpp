@@ -1,6 +1,5 @@
 #include "surface/division/task_distribution.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/timers.hpp"
 
@@ -54,8 +53,7 @@ std::vector<TaskDistributor::Row> TaskDistributor::tabulate(const PieceProblems&
     rows.push_back({key, problem.load, static_cast<double>(problem.surface.triangles.size()),
                     cost == costs.end() ? 0 : cost->second, _communicator.rank()});
   }
-  rows = _communicator.all_gather_items<Row>(rows);
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.key < b.key; });
+  rows = _communicator.gather_sorted(rows, &Row::key);
   return rows;
 }
 
@@ -131,8 +129,7 @@ PieceProblems TaskDistributor::divide_heavy(PieceProblems problems, const std::v
   }
   problems = send_to_owners(std::move(problems), rows, owners);
   PieceProblems divided;
-  parallel::agree(_communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(_communicator, parallel::ScopedCpu::As::task, [&] {
     for (auto& entry : problems) {
       if (is_to_divide({entry.first, entry.second.load, 0, 0, 0}, level)) {
         divide(entry, level, sizes, divided);

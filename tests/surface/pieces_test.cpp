@@ -28,22 +28,19 @@ using testing::uniform_field;
 
 struct Meshed {
   SurfaceMesh surface;
-  mesh::Numbering numbering;
 };
 
 Meshed mesh_model(const cad::Model& model, const sizing::SizeField& field, const SurfaceOptions& options,
                   const FaceDivider& divider = {}) {
-  SurfaceMesh surface = mesh_surface_with_cuts(model, field, {options, divider});
-  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  return {std::move(surface), std::move(numbering)};
+  return {mesh_surface_with_cuts(model, field, {options, divider})};
 }
 
 std::string hash_of(const Meshed& meshed) {
-  return mesh::hash_mesh(meshed.surface.mesh, meshed.numbering);
+  return mesh::hash_mesh(meshed.surface);
 }
 
 void expect_valid(const Meshed& meshed) {
-  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
+  const auto report = mesh::check_surface_mesh(meshed.surface);
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 
@@ -102,7 +99,7 @@ protected:
 TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
   const Meshed meshed = mesh_model(model, field_on(Communicator::world()), options);
   expect_valid(meshed);
-  EXPECT_GE(meshed.surface.mesh.piece_count, 16);
+  EXPECT_GE(meshed.surface.piece_count, 16);
   EXPECT_EQ(meshed.surface.report.mending_rounds, 0);
   EXPECT_LT(meshed.surface.report.load_error_90, 0.15);
   ASSERT_FALSE(meshed.surface.report.cut_angles.empty());
@@ -110,11 +107,11 @@ TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
     EXPECT_GE(angle.degrees, 30) << "near " << angle.point.x << ", " << angle.point.y << ", "
                                  << angle.point.z;
   }
-  const Seam seam = measure_seam(meshed.surface.mesh);
+  const Seam seam = measure_seam(meshed.surface);
   EXPECT_GT(seam.count[1], 100);
   EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
   EXPECT_GE(seam.worst[1], 0.6);
-  const auto quality = mesh::summarise_quality(meshed.surface.mesh, meshed.numbering);
+  const auto quality = mesh::summarise_quality(meshed.surface);
   EXPECT_GT(quality.min_dihedral.minimum, 20);
   EXPECT_GT(quality.mean_ratio.mean, 0.95);
 }
@@ -139,9 +136,9 @@ TEST(DividedTwice, HasNoSeamEither) {
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
     const Meshed meshed = mesh_model(model, uniform_field(model, 0.008, communicator), options);
     expect_valid(meshed);
-    EXPECT_GT(meshed.surface.mesh.piece_count, 40);
+    EXPECT_GT(meshed.surface.piece_count, 40);
     for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
-    const Seam seam = measure_seam(meshed.surface.mesh);
+    const Seam seam = measure_seam(meshed.surface);
     EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
     return fmt::format("{} {}", hash_of(meshed), meshed.surface.report.cut_angles.size());
   });
@@ -155,7 +152,7 @@ TEST(DividedTwice, LeavesNoHeavyPiece) {
   const Meshed meshed = mesh_model(model, uniform_field(model, 0.005), options);
   expect_valid(meshed);
   std::int64_t most = 0;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces)
+  for (const mesh::Piece& piece : meshed.surface.pieces)
     most = std::max<std::int64_t>(most, piece.cell_count());
   EXPECT_LT(world.maximum(most), 2 * options.piece_triangles);
 }
@@ -195,9 +192,9 @@ TEST(ImposedCuts, FollowABox) {
     };
     const Meshed meshed = mesh_on(Communicator::world());
     expect_valid(meshed);
-    EXPECT_GT(meshed.surface.mesh.piece_count, model.face_count());
+    EXPECT_GT(meshed.surface.piece_count, model.face_count());
     EXPECT_GT(meshed.surface.report.divided_faces, 0);
-    EXPECT_GT(measure_seam(meshed.surface.mesh).count[1], 50);
+    EXPECT_GT(measure_seam(meshed.surface).count[1], 50);
     EXPECT_EQ(hash_of(meshed), hash_of(mesh_on(Communicator::self())));
   }
 }
@@ -206,7 +203,7 @@ TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const SurfaceOptions options{.decomposition = SurfaceDecomposition::faces, .piece_triangles = 100};
   const Meshed meshed = mesh_model(model, uniform_field(model, 0.03), options);
-  EXPECT_EQ(meshed.surface.mesh.piece_count, model.face_count());
+  EXPECT_EQ(meshed.surface.piece_count, model.face_count());
   EXPECT_EQ(meshed.surface.report.divided_faces, 0);
   EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
 }

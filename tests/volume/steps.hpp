@@ -37,17 +37,13 @@ struct Problem {
   Problem(const parallel::Communicator& ranks, const surfaces::Surface& of, sizing::SizeField sizes,
           VolumeOptions claims = {})
       : communicator(ranks),
-        surface(surfaces::spread(ranks, of)),
-        numbering(mesh::number_mesh(surface)),
-        field(std::move(sizes)),
+        surface{mesh::number_mesh(surfaces::spread(ranks, of)), std::move(sizes)},
         options(claims) {}
 
-  VolumeInput input() const { return {surface, numbering, field, options}; }
+  VolumeInput input() const { return {surface, options}; }
 
   parallel::Communicator communicator;
-  mesh::DistributedMesh surface;
-  mesh::Numbering numbering;
-  sizing::SizeField field;
+  sizing::SizedSurface surface;
   VolumeOptions options;
 };
 

@@ -1,6 +1,6 @@
 #include "volume/core/core_border.hpp"
 
-#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -81,8 +81,7 @@ LocalShell make_local_shell(const Lattice& lattice, std::unique_ptr<const NearSu
   const parallel::Communicator& communicator = lattice.tree.communicator();
   using parallel::ScopedCpu;
   BlockPoints points;
-  parallel::agree(communicator, [&] {
-    const ScopedCpu task(ScopedCpu::As::task);
+  parallel::collectively(communicator, ScopedCpu::As::task, [&] {
     points =
         make_points(lattice, changes, lattice.tree.first(), lattice.tree.last(), *surface, lattice.radii);
     surface.reset();

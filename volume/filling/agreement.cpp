@@ -53,13 +53,8 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     for (const std::int32_t face : find_unmatched_here(communicator, faces)) mine.push_back(faces[face]);
   }
-  std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);
-  std::sort(all.begin(), all.end(), [](const ZoneFace& a, const ZoneFace& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices
-           : a.zone != b.zone       ? a.zone < b.zone
-                                    : a.odd < b.odd;
-  });
-  return all;
+  return communicator.gather_sorted(
+      mine, [](const ZoneFace& face) { return std::tie(face.vertices, face.zone, face.odd); });
 }
 
 std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {

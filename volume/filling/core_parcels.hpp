@@ -68,6 +68,7 @@ public:
     piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
     piece.vertex_dimension.push_back(mesh::CadDimension::region);
     piece.vertex_entity.push_back(region);
+    if (!piece.surface_numbers.empty()) piece.surface_numbers.push_back(-1);
   }
   mesh::SharedVertexKey vertex_key(std::int64_t number) const { return _lattice.vertex_key(number); }
 

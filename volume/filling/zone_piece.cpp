@@ -16,8 +16,11 @@ namespace {
 
 class PieceMaker {
 public:
-  PieceMaker(const ZoneInput& input, const ZoneFilling& filling)
-      : _input(input), _filling(filling), _shared(input.problem.points.size(), 0) {
+  PieceMaker(const ZoneInput& input, const ZoneFilling& filling, bool surface_numbers)
+      : _input(input),
+        _filling(filling),
+        _surface_numbers(surface_numbers),
+        _shared(input.problem.points.size(), 0) {
     mark_shared();
   }
 
@@ -135,6 +138,9 @@ private:
       const bool on_surface = v < surface_points;
       piece.vertex_dimension.push_back(on_surface ? _input.dimension[v] : mesh::CadDimension::region);
       piece.vertex_entity.push_back(on_surface ? _input.entity[v] : region);
+      if (_surface_numbers)
+        piece.surface_numbers.push_back(on_surface ? static_cast<mesh::GlobalIndex>(_input.vertex_keys[v])
+                                                   : -1);
       if (v >= given() || !_shared[v]) continue;
       piece.shared_vertices.push_back(number[v]);
       piece.shared_keys.push_back(_input.vertex_keys[v]);
@@ -143,17 +149,18 @@ private:
 
   const ZoneInput& _input;
   const ZoneFilling& _filling;
+  bool _surface_numbers;
   std::vector<std::uint8_t> _shared;  // per given point
 };
 
 }  // namespace
 
-ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling) {
+ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling, bool surface_numbers) {
   ZoneResult result;
   result.zone = input.zone;
   std::vector<RegionId> regions = filling.owned.regions;
   geometry::sort_unique(regions);
-  const PieceMaker maker(input, filling);
+  const PieceMaker maker(input, filling, surface_numbers);
   for (const RegionId region : regions)
     result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));
   result.faces = maker.faces();
@@ -177,8 +184,7 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
     for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
   }
   for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
-  rows = communicator.all_gather_items<PieceRegion>(rows);
-  std::sort(rows.begin(), rows.end());
+  rows = communicator.gather_sorted(rows);
   mesh::DistributedMesh mesh(communicator);
   mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
   const auto add = [&](std::int32_t place, Piece& piece) {

@@ -58,6 +58,7 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<mesh::Piece> core,
                                     ZoneIndex zones);
 
-ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling);
+/// With `surface_numbers`, vertices get their numbers in the surface mesh.
+ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling, bool surface_numbers = false);
 
 }  // namespace aeroloom::volume

@@ -1,6 +1,5 @@
 #include "volume/filling/zone_plan.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/task_kind.hpp"
 #include "volume/zones/halo.hpp"
@@ -145,10 +144,8 @@ ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const 
                     std::span<const double> widths) {
   const parallel::Communicator& communicator = lattice.tree.communicator();
   SendPlan mine;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    mine = std::move(Finding(lattice, shell, zones, widths).found);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task,
+                         [&] { mine = std::move(Finding(lattice, shell, zones, widths).found); });
   ZonePlan plan;
   plan.loads = add_up(communicator, mine, zones, widths.size());
   const std::vector<Assignment> assignments = schedule_zones(plan.loads, communicator.size(), widths.size());

@@ -185,10 +185,7 @@ Forest grow(const Communicator& communicator, const Judge& judge, Limits limits)
   const std::int64_t limit = most_octants(communicator, limits);
   Crown crown;
   if (auto grown = grow_in(communicator, one_tree, crown, judge, limit)) return std::move(*grown);
-  parallel::agree(communicator, [&] {
-    const ScopedCpu repeated(ScopedCpu::As::repeated);
-    crown = judge_crown(judge);
-  });
+  parallel::collectively(communicator, ScopedCpu::As::repeated, [&] { crown = judge_crown(judge); });
   return *grow_in(communicator, many_trees, crown, judge, limit);
 }
 

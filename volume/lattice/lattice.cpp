@@ -1,6 +1,6 @@
 #include "volume/lattice/lattice.hpp"
 
-#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/neighbourhood.hpp"
 #include "volume/volume_mesher.hpp"
 
@@ -41,18 +41,18 @@ void add_ghosts(std::vector<GhostBlock> ghosts, LatticeTree& tree, SurfaceTable&
 
 Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
   const parallel::Communicator& communicator = input.surface.communicator;
-  const LatticeFrame frame(input.field, box);
-  LatticeTree tree(communicator, frame, input.field, box, keys_of(frame, input.surface));
-  std::vector<SurfaceTriangle> triangles = deliver_surface(frame, tree, input.surface, input.numbering);
+  const LatticeFrame frame(input.surface.field, box);
+  LatticeTree tree(communicator, frame, input.surface.field, box, keys_of(frame, input.surface));
+  std::vector<SurfaceTriangle> triangles = deliver_surface(frame, tree, input.surface);
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   SurfaceTable table = tabulate_surface(frame, tree, triangles);
-  Lattice lattice{input.field,
+  Lattice lattice{input.surface.field,
                   {input.options.lattice_clearance, input.options.perturbation},
                   frame,
                   std::move(tree),
                   std::move(table),
                   std::move(triangles),
-                  input.numbering.vertex_count,
+                  input.surface.numbering.vertex_count,
                   {},
                   {}};
   std::vector<GhostBlock> ghosts = fetch_ghosts(lattice);
@@ -67,10 +67,8 @@ std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice) {
   const std::vector<SurfaceTriangle> near =
       add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   std::unique_ptr<const NearSurface> surface;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    surface = std::make_unique<NearSurface>(near);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task,
+                         [&] { surface = std::make_unique<NearSurface>(near); });
   return surface;
 }
 

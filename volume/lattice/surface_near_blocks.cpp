@@ -100,8 +100,7 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
 }
 
 std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const LatticeTree& tree,
-                                             const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering) {
+                                             const mesh::NumberedMesh& surface) {
   const parallel::Communicator& communicator = surface.communicator;
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
@@ -116,7 +115,8 @@ std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const La
         geometry::sort_unique(ranks);
         for (const parallel::Rank rank : ranks)
           outgoing.push_back(
-              {describe(piece, t, numbering.vertices[p], numbering.first_cell[p], surface), rank});
+              {describe(piece, t, surface.numbering.vertices[p], surface.numbering.first_cell[p], surface),
+               rank});
       }
     }
   }

@@ -56,8 +56,7 @@ struct SurfaceTable {
 
 /// The triangles that meet this rank's blocks, by number. Collective.
 std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const LatticeTree& tree,
-                                             const mesh::DistributedMesh& surface,
-                                             const mesh::Numbering& numbering);
+                                             const mesh::NumberedMesh& surface);
 
 /// Of this rank's blocks, from the triangles that meet them.
 SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree,

@@ -55,7 +55,7 @@ TEST(SharpCorners, HoldOneTriangle) {
   const SurfaceMesh surface = mesh_surface(model, field_of(model), {});
   ASSERT_EQ(surface.report.sharp_corners.size(), 2u);
   std::int64_t below_corner = 0, below_twenty = 0;
-  for (const mesh::Piece& piece : surface.mesh.pieces) {
+  for (const mesh::Piece& piece : surface.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
       const double degrees = mesh::smallest_angle(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]));

@@ -70,7 +70,7 @@ TEST_P(Apexes, AreMeshedUpToTheirPoint) {
   const SurfaceMesh surface = mesh(communicator);
   double volume = 0;
   std::int64_t at_apex = 0;
-  for (const mesh::Piece& piece : surface.mesh.pieces) {
+  for (const mesh::Piece& piece : surface.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
       const Vec3 a = piece.point(v[0]), b = piece.point(v[1]), c = piece.point(v[2]);

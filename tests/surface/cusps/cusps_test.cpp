@@ -97,17 +97,17 @@ TEST(Cusps, AreClosedAsFarAsTheirCurvesAreOne) {
   EXPECT_GT(cusp.length, 0.4 * std::sqrt(2 * radius * widest));
   EXPECT_GT(cusp.moved, 0);
   EXPECT_LE(cusp.moved, 0.5 * sizes.minimum);
-  EXPECT_GT(least_angle(surface.mesh), 5);
+  EXPECT_GT(least_angle(surface), 5);
 }
 
 TEST(Cusps, LeaveAValidSurfaceOfTheSameArea) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
-  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  EXPECT_TRUE(mesh::check_surface_mesh(surface.mesh, numbering).valid());
+  const mesh::NumberedMesh numbered = mesh::number_mesh(surface);
+  EXPECT_TRUE(mesh::check_surface_mesh(numbered).valid());
   double area = 0;
-  for (const mesh::Piece& piece : surface.mesh.pieces) {
+  for (const mesh::Piece& piece : surface.pieces) {
     mesh::require_consistent_arrays(piece);
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
@@ -121,8 +121,8 @@ TEST(Cusps, LeaveAValidSurfaceOfTheSameArea) {
 TEST(Cusps, AreClosedAlikeOnAnyNumberOfRanks) {
   const Model model = cube_with_cusp();
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
-    const mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
-    return mesh::hash_mesh(surface, mesh::number_mesh(surface));
+    const mesh::DistributedMesh surface = mesh_cube(communicator, model);
+    return mesh::hash_mesh(mesh::number_mesh(surface));
   });
 }
 
@@ -130,7 +130,7 @@ TEST(Cusps, KeepExactPlanes) {
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(Communicator::world(), model);
   ASSERT_FALSE(surface.report.closed_cusps.empty());
-  for (const mesh::Piece& piece : surface.mesh.pieces) {
+  for (const mesh::Piece& piece : surface.pieces) {
     const Vec3 first = piece.point(0);
     int planes = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -182,7 +182,7 @@ TEST(Cusps, StayWhereTheCurvesAreApart) {
   const Model model = cube_with_cusp();
   const auto field = sizing::build_size_field(communicator, model, sizes);
   const CurveMesh curves = discretise_curves(model, field);
-  mesh::DistributedMesh surface = mesh_cube(communicator, model).mesh;
+  mesh::DistributedMesh surface = mesh_cube(communicator, model);
   EXPECT_TRUE(close_cusps(model, curves, 1e-9, surface).empty());
 }
 

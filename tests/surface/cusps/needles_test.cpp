@@ -37,8 +37,8 @@ SurfaceMesh mesh_of(const Model& model, double size, int needle_rounds,
                     const Communicator& communicator = Communicator::world()) {
   SurfaceMesh surface = mesh_surface(model, testing::uniform_field(model, size, communicator),
                                      {.needle_rounds = needle_rounds});
-  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  EXPECT_TRUE(mesh::check_surface_mesh(surface.mesh, numbering).valid());
+  const mesh::NumberedMesh numbered = mesh::number_mesh(surface);
+  EXPECT_TRUE(mesh::check_surface_mesh(numbered).valid());
   return surface;
 }
 
@@ -65,7 +65,7 @@ TEST(Needles, AreMendedAlikeOnAnyNumberOfRanks) {
   const Model model = prism_of({{0, 0}, {3, 0}, {3, 3}, {0.0035, 3}, {0, 2.9965}});
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
     const SurfaceMesh surface = mesh_of(model, 0.5, 2, communicator);
-    return mesh::hash_mesh(surface.mesh, mesh::number_mesh(surface.mesh));
+    return mesh::hash_mesh(mesh::number_mesh(surface));
   });
 }
 

@@ -198,8 +198,8 @@ TEST(GatherZoneInputs, brings_the_points_of_a_zone_and_those_near_it) {
       const Vec3 place = divided.lattice.frame.to_grid(row.point);
       if (!nearness.holds({place, place}, leaf.block)) continue;
       ASSERT_LT(at, input.vertex_keys.size());
-      EXPECT_EQ(input.vertex_keys[at],
-                static_cast<mesh::SharedVertexKey>(divided.problem.numbering.vertex_count + row.number));
+      EXPECT_EQ(input.vertex_keys[at], static_cast<mesh::SharedVertexKey>(
+                                           divided.problem.surface.numbering.vertex_count + row.number));
       EXPECT_EQ(input.problem.points[at], row.point);
       EXPECT_EQ(input.problem.regions[at - first], row.region);
       ++at;
@@ -260,7 +260,8 @@ TEST(GatherZoneInputs, tells_whose_each_vertex_is) {
     std::array<int, 3> count{};
     for (std::size_t v = 0; v < input.vertex_keys.size(); ++v) {
       const bool is_surface = v < input.problem.surface_points();
-      EXPECT_EQ(input.vertex_keys[v] < mesh::running_key(divided.problem.numbering.vertex_count), is_surface);
+      EXPECT_EQ(input.vertex_keys[v] < mesh::running_key(divided.problem.surface.numbering.vertex_count),
+                is_surface);
       Leaf leaf{};
       if (is_surface) {  // by brute force
         const Vec3 g = divided.lattice.frame.to_grid(input.problem.points[v]);
@@ -271,7 +272,7 @@ TEST(GatherZoneInputs, tells_whose_each_vertex_is) {
         }
       } else {
         leaf = leaf_of_lattice(alone.lattice.tree, static_cast<std::int64_t>(input.vertex_keys[v]) -
-                                                       divided.problem.numbering.vertex_count);
+                                                       divided.problem.surface.numbering.vertex_count);
       }
       const ZoneIndex zone = alone.shell.zones.of(leaf.block, leaf.child);
       const Owner expected = zone == input.zone  ? Owner::mine

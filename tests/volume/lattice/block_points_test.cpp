@@ -125,7 +125,7 @@ TEST(LatticePointsLocal, leave_out_nothing_that_is_off_the_surface) {
     const Vec3 p = place_in_space(made.lattice, place);
     if (region_of(p) == mesh::no_region) continue;
     const auto nearest = made.around.surface.distance().nearest(p);
-    if (nearest.distance < 1.02 * 0.75 * 1.5 * made.problem.field(p)) continue;
+    if (nearest.distance < 1.02 * 0.75 * 1.5 * made.problem.surface.field(p)) continue;
     ++free;
     EXPECT_TRUE(used.count(place)) << p.x << ' ' << p.y << ' ' << p.z;
   }
@@ -151,7 +151,7 @@ double least_clearance(const Made& made, const BlockPoints& points) {
   const BoundaryDistance& distance = made.around.surface.distance();
   double least = 1e300;
   for (const Vec3& p : points.points) {
-    const double size = made.problem.field(p);
+    const double size = made.problem.surface.field(p);
     for (std::size_t t = 0; t < made.around.triangles.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
       least = std::min(least, distance.distance_to(p, triangle) /

@@ -170,10 +170,10 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
     const mesh::Piece& piece = shared.problem.surface.pieces[p];
     for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
       SurfaceTriangle t{};
-      t.number = shared.problem.numbering.first_cell[p] + c;
+      t.number = shared.problem.surface.numbering.first_cell[p] + c;
       for (int k = 0; k < 3; ++k) {
         const auto v = piece.cell(c)[k];
-        t.vertices[k] = shared.problem.numbering.vertices[p][v];
+        t.vertices[k] = shared.problem.surface.numbering.vertices[p][v];
         t.points[k] = piece.point(v);
         t.entity[k] = piece.vertex_entity[v];
         t.dimension[k] = piece.vertex_dimension[v];

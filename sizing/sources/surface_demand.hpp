@@ -26,10 +26,10 @@ struct NearestOfTriangle {
 NearestOfTriangle nearest_of(const Triangle& t, geometry::Vec3 p);
 
 /// Asks for the sizes of triangles on them and up to a distance.
-class SizedSurface {
+class SurfaceDemand {
 public:
   /// `key`: what of the case asks for it, in messages.
-  SizedSurface(std::string key, std::vector<SizedTriangle> triangles, double reach);
+  SurfaceDemand(std::string key, std::vector<SizedTriangle> triangles, double reach);
 
   const std::string& key() const { return _key; }
   bool empty() const { return _triangles.empty(); }

@@ -1,4 +1,4 @@
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include "cad/model/patches.hpp"
 #include "sizing/features/lifting_seeds.hpp"
@@ -152,7 +152,7 @@ NearestOfTriangle nearest_of(const Triangle& t, Vec3 p) {
   return nearest;
 }
 
-SizedSurface::SizedSurface(std::string key, std::vector<SizedTriangle> triangles, double reach)
+SurfaceDemand::SurfaceDemand(std::string key, std::vector<SizedTriangle> triangles, double reach)
     : _key(std::move(key)), _reach(reach) {
   std::vector<Box> boxes(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -165,7 +165,7 @@ SizedSurface::SizedSurface(std::string key, std::vector<SizedTriangle> triangles
   for (const std::int32_t i : _tree.order()) _triangles.push_back(triangles[i]);
 }
 
-CubeDemand SizedSurface::ask(Vec3 middle, double half_edge, double coarser) const {
+CubeDemand SurfaceDemand::ask(Vec3 middle, double half_edge, double coarser) const {
   const double around = std::numbers::sqrt3 * half_edge, reach = _reach + around;
   double size = no_size;
   // With the smallest size found nothing else can matter.
@@ -182,7 +182,7 @@ CubeDemand SizedSurface::ask(Vec3 middle, double half_edge, double coarser) cons
   return {coarser * std::max(_smallest, size - _slope * around), coarser * size};
 }
 
-double SizedSurface::cells(const RootCube& root, double coarser) const {
+double SurfaceDemand::cells(const RootCube& root, double coarser) const {
   double cells = 0;
   for (const SizedTriangle& t : _triangles) {
     const double size = coarser * (t.sizes[0] + t.sizes[1] + t.sizes[2]) / 3;
