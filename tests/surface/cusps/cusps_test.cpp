@@ -104,7 +104,6 @@ TEST(Cusps, LeaveAValidSurfaceOfTheSameArea) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
-  const mesh::NumberedMesh numbered = mesh::number_mesh(surface);
   EXPECT_TRUE(mesh::check_surface_mesh(numbered).valid());
   double area = 0;
   for (const mesh::Piece& piece : surface.pieces) {

@@ -1,4 +1,4 @@
-/// The blocks of other ranks that touch this rank's, and what their owners know of them.
+/// The ghost layer: the blocks of other ranks that touch blocks of this rank, and their values.
 #pragma once
 
 #include "mesh/exchange/delivery.hpp"
@@ -6,31 +6,30 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
 
-/// Values per block, own ones and ghosts, by *place*: own blocks first, along the curve, then the ghosts.
-class GhostBlocks {
+/// Gives each own block and each ghost a *place* in arrays: own blocks first, then ghosts, both ascending.
+class GhostLayer {
 public:
   /// Collective.
-  explicit GhostBlocks(const LatticeTree& tree);
+  explicit GhostLayer(const LatticeTree& tree);
 
   std::size_t own_count() const { return static_cast<std::size_t>(_last - _first); }
   std::size_t count() const { return own_count() + _ghosts.size(); }
   bool is_own(BlockIndex b) const { return b >= _first && b < _last; }
   BlockIndex first() const { return _first; }
   BlockIndex ghost(std::size_t i) const { return _ghosts[i]; }
-  /// Of an own block, or one that touches one.
+  /// The place of an own block or of a ghost.
   std::size_t place(BlockIndex b) const {
     if (is_own(b)) return static_cast<std::size_t>(b - _first);
     const auto at = std::lower_bound(_ghosts.begin(), _ghosts.end(), b);
     return own_count() + static_cast<std::size_t>(at - _ghosts.begin());
   }
 
-  /// Brings the values of the ghosts from their owners. Collective.
+  /// Updates the values of ghosts from their owners. `values` has one per place. Collective.
   template <parallel::Flat T>
   void update(std::vector<T>& values) const {
     if (_communicator.size() == 1) return;
@@ -48,9 +47,9 @@ public:
   }
 
 private:
-  /// A block of this rank that another one has as a ghost, and where it keeps it.
+  /// A block of this rank that is a ghost on another rank, and its place there.
   struct Wanted {
-    BlockNumber block;  ///< its place with its owner, once it has arrived there
+    BlockNumber block;  ///< its number; at its owner, its place there
     std::int32_t place;
     parallel::Rank rank;
     static constexpr auto fields() { return std::tuple(&Wanted::block, &Wanted::place, &Wanted::rank); }

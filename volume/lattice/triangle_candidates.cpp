@@ -1,4 +1,4 @@
-#include "volume/lattice/near_triangles.hpp"
+#include "volume/lattice/triangle_candidates.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// Radii are larger by this factor than they seem, more than rounding can matter.
+/// Radii are enlarged by this factor, to allow for rounding.
 constexpr double more = 1 + 1e-9;
 
 double square(double x) {
@@ -17,7 +17,7 @@ double square(double x) {
 
 }  // namespace
 
-void NearTriangles::collect(const BoundaryDistance& boundary, const geometry::Box& box, double radius) {
+void TriangleCandidates::collect(const BoundaryDistance& boundary, const geometry::Box& box, double radius) {
   _radius = radius;
   _balls.clear();
   _triangles.clear();
@@ -34,7 +34,7 @@ void NearTriangles::collect(const BoundaryDistance& boundary, const geometry::Bo
   });
 }
 
-bool NearTriangles::any_nearer(Vec3 p, const Clearance& clearance) const {
+bool TriangleCandidates::any_nearer(Vec3 p, const Clearance& clearance) const {
   for (std::size_t i = 0; i < _balls.size(); ++i) {
     const double limit = clearance.from(_triangles[i].mean_edge);
     if (dot(p - _balls[i].center, p - _balls[i].center) > square(limit + _balls[i].radius)) continue;
@@ -43,7 +43,7 @@ bool NearTriangles::any_nearer(Vec3 p, const Clearance& clearance) const {
   return false;
 }
 
-bool NearTriangles::any_corner_nearer(Vec3 p, double distance) const {
+bool TriangleCandidates::any_corner_nearer(Vec3 p, double distance) const {
   for (std::size_t i = 0; i < _balls.size(); ++i) {
     if (dot(p - _balls[i].center, p - _balls[i].center) > square(distance + _balls[i].radius)) continue;
     const auto& [a, b, c] = _triangles[i].corners;
@@ -52,7 +52,7 @@ bool NearTriangles::any_corner_nearer(Vec3 p, double distance) const {
   return false;
 }
 
-std::optional<BoundaryDistance::Nearest> NearTriangles::nearest(Vec3 p) const {
+std::optional<BoundaryDistance::Nearest> TriangleCandidates::nearest(Vec3 p) const {
   BoundaryDistance::Nearest nearest;
   double best = _radius, best_squared = square(_radius);
   for (std::size_t i = 0; i < _balls.size(); ++i) {

@@ -240,8 +240,8 @@ TEST(GatherZoneInputs, brings_each_triangle_of_a_zone_or_near_it_once) {
         EXPECT_EQ(input.dimension[v], t.dimension[k]);
         EXPECT_EQ(input.entity[v], t.entity[k]);
       }
-      EXPECT_EQ(input.problem.front[at], t.front);
-      EXPECT_EQ(input.problem.back[at], t.back);
+      EXPECT_EQ(input.problem.inside[at], t.inside);
+      EXPECT_EQ(input.problem.outside[at], t.outside);
       EXPECT_EQ(input.face[at], t.face);
       EXPECT_EQ(input.patch[at], t.patch);
       ++at;
@@ -298,7 +298,7 @@ TEST(GatherZoneInputs, brings_the_same_on_any_number_of_ranks) {
     EXPECT_EQ(input.problem.owners, same.problem.owners);
     EXPECT_EQ(input.problem.triangles, same.problem.triangles);
     EXPECT_EQ(input.problem.regions, same.problem.regions);
-    EXPECT_EQ(input.problem.front, same.problem.front);
+    EXPECT_EQ(input.problem.inside, same.problem.inside);
     EXPECT_EQ(input.dimension, same.dimension);
     EXPECT_EQ(input.entity, same.entity);
     EXPECT_EQ(input.face, same.face);

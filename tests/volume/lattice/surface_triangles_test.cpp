@@ -33,7 +33,7 @@ struct Shared {
   std::vector<SurfaceTriangle> deliver(double radius) {
     const SearchRadii radii{
         std::vector<BlockSearchRadii>(lattice.tree.last() - lattice.tree.first(), {radius, radius}), 0};
-    return add_those_near(lattice.frame, lattice.tree, radii, lattice.triangles);
+    return add_ghost_triangles(lattice.frame, lattice.tree, radii, lattice.triangles);
   }
 
   surfaces::Surface surface;
@@ -147,7 +147,7 @@ TEST(DeliverSurface, leaves_a_body_to_the_ranks_around_it) {
   const Problem problem(world, surface,
                         fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}}));
   GrownLattice lattice(problem, box_of(surface));
-  const auto delivered = static_cast<std::int64_t>(Surroundings::deliver(problem, lattice).size());
+  const auto delivered = static_cast<std::int64_t>(Surroundings::deliver(lattice).size());
   const auto all = static_cast<std::int64_t>(surface.triangles.size());
   EXPECT_GE(world.sum(delivered), all);
   if (world.size() > 1) {
@@ -180,8 +180,8 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
       }
       t.face = piece.triangle_face[c];
       t.patch = piece.triangle_patch[c];
-      t.front = shared.surface.sides[t.face].front;
-      t.back = shared.surface.sides[t.face].back;
+      t.inside = shared.surface.sides[t.face].front;
+      t.outside = shared.surface.sides[t.face].back;
       mine.push_back({t});
     }
   }
@@ -200,8 +200,8 @@ TEST(DeliverSurface, brings_all_that_is_known_of_a_triangle) {
     EXPECT_EQ(t.dimension, expected.dimension);
     EXPECT_EQ(t.face, expected.face);
     EXPECT_EQ(t.patch, expected.patch);
-    EXPECT_EQ(t.front, expected.front);
-    EXPECT_EQ(t.back, expected.back);
+    EXPECT_EQ(t.inside, expected.inside);
+    EXPECT_EQ(t.outside, expected.outside);
   }
 }
 

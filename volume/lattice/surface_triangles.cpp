@@ -1,15 +1,15 @@
-#include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/lattice/surface_triangles.hpp"
 
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/boundary_distance.hpp"
-#include "volume/lattice/near_boxes.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
+#include "volume/lattice/grid_box_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -32,10 +32,9 @@ double longest_edge(const std::array<Vec3, 3>& p) {
   return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
 }
 
-/// How far a triangle is from the middle of a block, in space, rounded up.
+/// The distance in space from the middle of a block to a triangle, rounded up.
 float distance_from_middle(const LatticeFrame& frame, const GridCube& block, const std::array<Vec3, 3>& p) {
-  const GridBox box = GridBox::of(block);
-  const Vec3 middle = frame.to_space(0.5 * (box.low + box.high));
+  const Vec3 middle = frame.middle_of(block);
   const double distance = std::sqrt(BoundaryDistance::squared_distance(middle, {p[0], p[1], p[2]}).squared);
   return std::nextafter(static_cast<float>(distance), std::numeric_limits<float>::infinity());
 }
@@ -54,12 +53,12 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
   triangle.face = piece.triangle_face[t];
   triangle.patch = piece.triangle_patch[t];
   const mesh::FaceSides sides = surface.sides_of(triangle.face);
-  triangle.front = sides.front;
-  triangle.back = sides.back;
+  triangle.inside = sides.front;
+  triangle.outside = sides.back;
   return triangle;
 }
 
-/// A triangle on its way.
+/// A triangle and the rank that it is sent to.
 struct Parcel {
   SurfaceTriangle triangle;
   parallel::Rank rank;
@@ -67,11 +66,11 @@ struct Parcel {
   static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
 };
 
-/// The triangles that arrive here, each once, with those that are here, by number. Collective.
-std::vector<SurfaceTriangle> send(const parallel::Communicator& communicator, std::vector<Parcel> outgoing,
+/// Sends triangles. Returns those that arrive and those of `here`, by number, each once. Collective.
+std::vector<SurfaceTriangle> send(const LatticeTree& tree, std::vector<Parcel> outgoing,
                                   const std::vector<SurfaceTriangle>& here) {
   const std::vector<Parcel> arrived =
-      mesh::deliver(communicator, std::move(outgoing), [](const Parcel& q) { return q.rank; });
+      mesh::deliver(tree.communicator(), std::move(outgoing), [](const Parcel& q) { return q.rank; });
   // Triangles are large: pointers to them are sorted, and each is copied once.
   std::vector<const SurfaceTriangle*> order;
   order.reserve(here.size() + arrived.size());
@@ -101,7 +100,6 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<Vec3, 3>& points) {
 
 std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const LatticeTree& tree,
                                              const mesh::NumberedMesh& surface) {
-  const parallel::Communicator& communicator = surface.communicator;
   std::vector<Parcel> outgoing;
   std::vector<parallel::Rank> ranks;
   {
@@ -120,7 +118,7 @@ std::vector<SurfaceTriangle> deliver_surface(const LatticeFrame& frame, const La
       }
     }
   }
-  return send(communicator, std::move(outgoing), {});
+  return send(tree, std::move(outgoing), {});
 }
 
 void SurfaceTable::note_levels_met(const LatticeTree& tree) {
@@ -158,28 +156,24 @@ SurfaceTable tabulate_surface(const LatticeFrame& frame, const LatticeTree& tree
   return table;
 }
 
-std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const LatticeTree& tree,
-                                            const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
-  const parallel::Communicator& communicator = tree.communicator();
-  if (communicator.size() == 1) return own;
+std::vector<SurfaceTriangle> add_ghost_triangles(const LatticeFrame& frame, const LatticeTree& tree,
+                                                 const SearchRadii& radii, std::vector<SurfaceTriangle> own) {
+  if (tree.communicator().size() == 1) return own;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-  std::vector<Question> questions;
+  BlockQueries queries(tree);
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
     const BlockSearchRadii& of_block = radii.of_blocks[b - tree.first()];
     const double least = std::max(of_block.least, of_block.nearest), most = std::max(of_block.most, least);
-    const GridBox box = GridBox::of(tree.cube(b)), around = box.dilated(most);
-    if (!tree.is_within_own(around))
-      ask(tree, around, {box, least, most, 0, 0, communicator.rank()}, questions);
+    const GridBox box = GridBox::of(tree.cube(b));
+    queries.add(box.dilated(most), {box, least, most});
   }
-  questions = take_questions(communicator, std::move(questions));
   std::vector<Parcel> outgoing;
-  constexpr std::size_t batch =
-      32;  // triangles that follow each other are near each other; chosen, not measured
-  for_each_asker(questions, [&](std::span<const Question> asked) {
-    NearBoxes of_all, of_large;  // triangles
-    for (const Question& question : asked) {
-      of_all.add(question.box.dilated(question.least));
-      of_large.add(question.box.dilated(question.most));
+  constexpr std::size_t batch = 32;  // triangles, near each other; chosen, not measured
+  queries.exchange([&](std::span<const BlockQuery> of_rank) {
+    GridBoxTree of_all, of_large;  // triangles
+    for (const BlockQuery& query : of_rank) {
+      of_all.add(query.box.dilated(query.least));
+      of_large.add(query.box.dilated(query.most));
     }
     of_all.build();
     of_large.build();
@@ -197,11 +191,11 @@ std::vector<SurfaceTriangle> add_those_near(const LatticeFrame& frame, const Lat
         const GridBox box = grid_box(frame, triangle.points);
         if (of_large.any_within(box, 0) &&
             of_all.any_within(box, radii.per_edge * longest_edge(triangle.points)))
-          outgoing.push_back({triangle, asked.front().from});
+          outgoing.push_back({triangle, of_rank.front().from});
       }
     }
   });
-  return send(communicator, std::move(outgoing), own);
+  return send(tree, std::move(outgoing), own);
 }
 
 }  // namespace aeroloom::volume

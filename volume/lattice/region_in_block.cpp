@@ -1,4 +1,4 @@
-#include "volume/lattice/within_blocks.hpp"
+#include "volume/lattice/region_in_block.hpp"
 
 #include <algorithm>
 
@@ -6,24 +6,12 @@ namespace aeroloom::volume {
 
 using geometry::Vec3;
 
-namespace {
-
-geometry::Box box_in_space(const LatticeFrame& frame, const GridBox& box) {
-  geometry::Box around;
-  for (int corner = 0; corner < 8; ++corner)
-    around.add(frame.to_space({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                               corner & 4 ? box.high.z : box.low.z}));
-  return around;
-}
-
-}  // namespace
-
-void WithinBlocks::find_targets(BlockIndex b) {
+void RegionInBlock::find_targets(BlockIndex b) {
   _block = b;
   _targets.clear();
   const GridBox cube = GridBox::of(_lattice.tree.cube(b));
   // The box of a triangle in the grid may meet the block where its box in space does not.
-  const geometry::Box around = box_in_space(_lattice.frame, cube).dilated(_lattice.table.longest_edge[b]);
+  const geometry::Box around = _lattice.frame.space_box(cube).dilated(_lattice.table.longest_edge[b]);
   _surface.distance().for_each_in(around, [&](const BoundaryDistance::Measured& found) {
     const auto& [a, second, c] = found.corners;
     if (grid_box(_lattice.frame, {a, second, c}).overlaps(cube))
@@ -31,7 +19,7 @@ void WithinBlocks::find_targets(BlockIndex b) {
   });
 }
 
-std::optional<WithinBlocks::Seen> WithinBlocks::look(BlockIndex b, Vec3 p) {
+std::optional<RegionInBlock::Found> RegionInBlock::find(BlockIndex b, Vec3 p) {
   if (_surface.empty()) return std::nullopt;
   if (b != _block) find_targets(b);
   std::sort(_targets.begin(), _targets.end(), [&](const Target& left, const Target& right) {
@@ -39,7 +27,7 @@ std::optional<WithinBlocks::Seen> WithinBlocks::look(BlockIndex b, Vec3 p) {
   });
   for (const Target& target : _targets) {
     if (const auto region = _surface.region_towards(p, target.center, target.triangle))
-      return Seen{*region, target.triangle};
+      return Found{*region, target.triangle};
   }
   return std::nullopt;
 }

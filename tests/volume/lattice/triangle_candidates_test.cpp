@@ -1,4 +1,4 @@
-#include "volume/lattice/near_triangles.hpp"
+#include "volume/lattice/triangle_candidates.hpp"
 
 #include "tests/meshes/surfaces.hpp"
 
@@ -31,7 +31,7 @@ protected:
 
   surfaces::Surface surface = surfaces::cube_with_ball(3, 5);
   BoundaryDistance boundary{surface.points, surface.triangles};
-  NearTriangles near;
+  TriangleCandidates near;
 };
 
 TEST_F(NearTrianglesOfBoxes, know_the_nearest_within_the_radius) {

@@ -1,10 +1,10 @@
-#include "volume/lattice/ghost_blocks.hpp"
+#include "volume/lattice/ghost_layer.hpp"
 
 #include "geometry/sort_unique.hpp"
 
 namespace aeroloom::volume {
 
-GhostBlocks::GhostBlocks(const LatticeTree& tree)
+GhostLayer::GhostLayer(const LatticeTree& tree)
     : _communicator(tree.communicator()), _first(tree.first()), _last(tree.last()) {
   if (tree.communicator().size() == 1) return;
   for (BlockIndex b = _first; b < _last; ++b) {

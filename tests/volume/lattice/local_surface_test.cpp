@@ -1,5 +1,5 @@
 /// Which region a point near a part of the surface lies in.
-#include "volume/lattice/near_surface.hpp"
+#include "volume/lattice/local_surface.hpp"
 
 #include "tests/meshes/surfaces.hpp"
 
@@ -26,7 +26,7 @@ Vec3 direction() {
 }
 
 /// What a surface says of a point, which must have an answer.
-RegionId region_at(const NearSurface& surface, Vec3 p) {
+RegionId region_at(const LocalSurface& surface, Vec3 p) {
   const auto region = surface.region_at(p, surface.distance().nearest(p));
   EXPECT_TRUE(region.has_value()) << p.x << ' ' << p.y << ' ' << p.z;
   return region.value_or(-9);
@@ -72,7 +72,7 @@ Cells make_cells(std::array<int, 3> n, const std::function<RegionId(int, int, in
 /// Asks at many places: anywhere, close to corners and edges, and level with the planes of the grid.
 void expect_right_everywhere(const Cells& cells, int count) {
   const auto triangles = surfaces::numbered_triangles(cells.surface());
-  const NearSurface surface(triangles);
+  const LocalSurface surface(triangles);
   int wrong = 0, asked = 0;
   std::array<int, 3> answers{};
   for (int i = 0; i < count; ++i) {
@@ -173,7 +173,7 @@ TEST(RegionAt, is_right_at_tips_and_dents) {
     for (const auto& [surface, within] :
          {std::pair{cone, 0}, std::pair{dented, static_cast<int>(no_region)}}) {
       const auto triangles = surfaces::numbered_triangles(surface);
-      const NearSurface near(triangles);
+      const LocalSurface near(triangles);
       const RegionId around = within == 0 ? no_region : 0;
       for (int i = 0; i < 2000; ++i) {
         const double close = std::exp2(-between(0, 20));
@@ -208,13 +208,13 @@ TEST(RegionAt, is_right_between_the_pages_of_a_book) {
       high.points = {Vec3{0, 0, 1}, to + Vec3{0, 0, 1}, to};
       for (SurfaceTriangle t : {low, high}) {
         t.number = static_cast<mesh::GlobalIndex>(triangles.size());
-        t.front = (k + pages - 1) % pages;
-        t.back = k;
+        t.inside = (k + pages - 1) % pages;
+        t.outside = k;
         triangles.push_back(t);
       }
     }
     std::shuffle(triangles.begin(), triangles.end(), engine);
-    const NearSurface near(triangles);
+    const LocalSurface near(triangles);
     for (int i = 0; i < 100; ++i) {
       const double angle = between(0, 2 * std::numbers::pi), r = 0.2 * between(0.01, 1);
       const auto above = std::upper_bound(angles.begin(), angles.end(), angle) - angles.begin();
@@ -229,7 +229,7 @@ TEST(RegionAt, needs_the_triangles_nearby_alone) {
   std::vector<SurfaceTriangle> triangles = surfaces::numbered_triangles(surface);
   std::erase_if(triangles, [](const SurfaceTriangle& t) { return t.points[0].z < 0.6; });
   ASSERT_LT(triangles.size(), surface.triangles.size() / 3);
-  const NearSurface near(triangles);
+  const LocalSurface near(triangles);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 to = direction();
     if (to.z < 0.85) continue;
@@ -240,10 +240,10 @@ TEST(RegionAt, needs_the_triangles_nearby_alone) {
 
 TEST(RegionAt, has_no_answer_on_the_surface) {
   const auto triangles = surfaces::numbered_triangles(surfaces::cube({0, 0, 0}, 1, 2));
-  const NearSurface near(triangles);
+  const LocalSurface near(triangles);
   for (const Vec3 p : {Vec3{1, 0.3, 0.2}, Vec3{1, 1, 0.5}, Vec3{1, 1, 1}})
     EXPECT_FALSE(near.region_at(p, near.distance().nearest(p)).has_value());
-  EXPECT_TRUE(NearSurface({}).empty());
+  EXPECT_TRUE(LocalSurface({}).empty());
   EXPECT_FALSE(near.empty());
 }
 

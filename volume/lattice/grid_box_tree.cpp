@@ -1,17 +1,17 @@
-#include "volume/lattice/near_boxes.hpp"
+#include "volume/lattice/grid_box_tree.hpp"
 
 #include <algorithm>
 
 namespace aeroloom::volume {
 
-void NearBoxes::build() {
+void GridBoxTree::build() {
   std::size_t nodes = 1;
   while (nodes < 2 * _boxes.size()) nodes *= 2;
   _nodes.assign(nodes, {});
   if (!_boxes.empty()) build(0, 0, _boxes.size());
 }
 
-GridBox NearBoxes::build(std::size_t node, std::size_t first, std::size_t last) {
+GridBox GridBoxTree::build(std::size_t node, std::size_t first, std::size_t last) {
   if (last - first == 1) return _nodes[node] = _boxes[first];
   const std::size_t middle = first + (last - first) / 2;
   const GridBox a = build(2 * node + 1, first, middle), b = build(2 * node + 2, middle, last);
@@ -20,9 +20,9 @@ GridBox NearBoxes::build(std::size_t node, std::size_t first, std::size_t last) 
              {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y), std::max(a.high.z, b.high.z)}};
 }
 
-bool NearBoxes::any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
-                          double radius) const {
-  // Without a radius boxes overlap or not: told in a few comparisons.
+bool GridBoxTree::any_below(std::size_t node, std::size_t first, std::size_t last, const GridBox& box,
+                            double radius) const {
+  // Without a radius, a few comparisons decide.
   if (radius == 0 ? !_nodes[node].overlaps(box) : _nodes[node].gap_to(box) > radius) return false;
   if (last - first == 1) return true;
   const std::size_t middle = first + (last - first) / 2;

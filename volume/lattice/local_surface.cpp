@@ -1,4 +1,4 @@
-#include "volume/lattice/near_surface.hpp"
+#include "volume/lattice/local_surface.hpp"
 
 #include "geometry/predicates.hpp"
 #include "geometry/sort_unique.hpp"
@@ -11,7 +11,7 @@ namespace aeroloom::volume {
 using geometry::orient3d;
 using geometry::Vec3;
 
-NearSurface::NearSurface(std::span<const SurfaceTriangle> triangles) {
+LocalSurface::LocalSurface(std::span<const SurfaceTriangle> triangles) {
   std::vector<mesh::GlobalIndex> numbers;
   numbers.reserve(3 * triangles.size());
   for (const SurfaceTriangle& t : triangles)
@@ -27,8 +27,8 @@ NearSurface::NearSurface(std::span<const SurfaceTriangle> triangles) {
       _points[local[k]] = t.points[k];
       ++_first_around[local[k] + 1];
     }
-    _front.push_back(t.front);
-    _back.push_back(t.back);
+    _inside.push_back(t.inside);
+    _outside.push_back(t.outside);
   }
   std::partial_sum(_first_around.begin(), _first_around.end(), _first_around.begin());
   _around.resize(3 * _triangles.size());
@@ -39,16 +39,16 @@ NearSurface::NearSurface(std::span<const SurfaceTriangle> triangles) {
   if (!_triangles.empty()) _distance.emplace(_points, _triangles);
 }
 
-int NearSurface::side_of(Vec3 p, std::int32_t triangle) const {
+int LocalSurface::side_of(Vec3 p, std::int32_t triangle) const {
   const auto& t = _triangles[triangle];
   return orient3d(_points[t[0]], _points[t[1]], _points[t[2]], p);
 }
 
-mesh::RegionId NearSurface::region_of(const Sight& sight) const {
-  return sight.side < 0 ? _front[sight.triangle] : _back[sight.triangle];
+mesh::RegionId LocalSurface::region_of(const Sight& sight) const {
+  return sight.side < 0 ? _inside[sight.triangle] : _outside[sight.triangle];
 }
 
-std::vector<std::int32_t> NearSurface::around(std::int32_t triangle) const {
+std::vector<std::int32_t> LocalSurface::around(std::int32_t triangle) const {
   std::vector<std::int32_t> result;
   for (const auto v : _triangles[triangle])
     result.insert(result.end(), _around.begin() + _first_around[v], _around.begin() + _first_around[v + 1]);
@@ -56,8 +56,8 @@ std::vector<std::int32_t> NearSurface::around(std::int32_t triangle) const {
   return result;
 }
 
-std::optional<NearSurface::Sight> NearSurface::first_on_way(Vec3 p, Vec3 q, std::int32_t target,
-                                                            std::span<const std::int32_t> candidates) const {
+std::optional<LocalSurface::Sight> LocalSurface::first_on_way(
+    Vec3 p, Vec3 q, std::int32_t target, std::span<const std::int32_t> candidates) const {
   Sight first{target, side_of(p, target)};
   if (first.side == 0) return std::nullopt;
   double nearest = 1;
@@ -77,7 +77,7 @@ std::optional<NearSurface::Sight> NearSurface::first_on_way(Vec3 p, Vec3 q, std:
   return first;
 }
 
-std::optional<mesh::RegionId> NearSurface::region_towards(Vec3 p, Vec3 q, std::int32_t triangle) const {
+std::optional<mesh::RegionId> LocalSurface::region_towards(Vec3 p, Vec3 q, std::int32_t triangle) const {
   geometry::Box way;
   way.add(p);
   way.add(q);
@@ -88,7 +88,8 @@ std::optional<mesh::RegionId> NearSurface::region_towards(Vec3 p, Vec3 q, std::i
   return sight ? std::optional(region_of(*sight)) : std::nullopt;
 }
 
-std::optional<mesh::RegionId> NearSurface::region_at(Vec3 p, const BoundaryDistance::Nearest& nearest) const {
+std::optional<mesh::RegionId> LocalSurface::region_at(Vec3 p,
+                                                      const BoundaryDistance::Nearest& nearest) const {
   if (nearest.in_face) {
     const int side = side_of(p, nearest.triangle);
     if (side != 0) return region_of({nearest.triangle, side});
@@ -100,8 +101,8 @@ std::optional<mesh::RegionId> NearSurface::region_at(Vec3 p, const BoundaryDista
   for (const std::int32_t t : candidates) {
     if (t != nearest.triangle && _distance->distance_to(p, t) <= slack) targets.push_back(t);
   }
-  // A foot on a border or corner is seen along the surface; a little inside of the triangle it is seen from a
-  // side, the less far inside the less stands in between. Chosen, not measured.
+  // The line to a point on an edge or vertex may run along the surface. A point a little inside the triangle
+  // has a clear side; the nearer it is to the edge, the fewer triangles are in between. Chosen, not measured.
   for (const double inward : {1e-3, 4e-3, 1.6e-2, 6.4e-2}) {
     for (const std::int32_t target : targets) {
       const auto& v = _triangles[target];

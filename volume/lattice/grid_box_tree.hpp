@@ -1,4 +1,4 @@
-/// Whether a box of the grid is near one of many.
+/// A search tree over boxes of the lattice's grid.
 #pragma once
 
 #include "volume/lattice/lattice_frame.hpp"
@@ -7,14 +7,14 @@
 
 namespace aeroloom::volume {
 
-/// A tree over boxes of the grid that tells whether one is near.
-class NearBoxes {
+/// Finds out whether any of many boxes is near a given box.
+class GridBoxTree {
 public:
-  void clear() { _boxes.clear(), _nodes.clear(); }
-  /// Boxes that are near each other should follow each other.
+  /// Boxes that are close in space should be added one after the other.
   void add(const GridBox& box) { _boxes.push_back(box); }
+  /// Builds the tree, after all boxes were added.
   void build();
-  /// Whether a box is at most `radius` away.
+  /// Whether one of the boxes is at most `radius` away from `box`.
   bool any_within(const GridBox& box, double radius) const {
     return !_boxes.empty() && any_below(0, 0, _boxes.size(), box, radius);
   }
