@@ -1,9 +1,7 @@
-/// Lifting bodies of a model (lifting_bodies.hpp): how they are found.
-///
-/// A trailing edge is a blunt strip, or a sharp edge of the CAD, behind which the body ends against the flow.
-/// From each of its places a plane along the flow cuts the skin in front of it: the point of the section that
-/// is farthest away is the leading edge, its distance the local chord. What is found depends on the geometry
-/// and the direction of the flow alone.
+/// Finds the lifting bodies of a model. `flow`: a unit vector. `named`: patterns of names of faces or
+/// patches; only trailing edges of these faces count, or all if there are none. The model must have no joined
+/// faces yet. The same on every rank. Collective. Throws parallel::CollectiveError where the CAD library
+/// fails.
 #pragma once
 
 #include "sizing/choice/sampled_model.hpp"

@@ -40,12 +40,12 @@ TEST(SizedSurface, AWakeHasItsSizesAlongItsLength) {
   const Vec3 from{0, 0, 0}, to{0, 4, 0};
   const WakeSize wake{"wake", {{}, from, to, {2, 0, 0}, 10, 1.5}, 0.5};
   const SizedSurface sheet("wake", wake_sheet({{from, to}}, wake), 0);
-  EXPECT_NEAR(sheet.ask({2, 1, 0}, 1e-3, 1).size, 0.7, 1e-3);
-  EXPECT_NEAR(sheet.ask({8, 3, 0}, 1e-3, 2).size, 2.6, 1e-3);
-  EXPECT_EQ(sheet.ask({8, 3, 0.1}, 1e-3, 1).size, no_size);
-  EXPECT_EQ(sheet.ask({11, 3, 0}, 0.5, 1).size, no_size);
+  EXPECT_NEAR(sheet.request_in({2, 1, 0}, 1e-3, 1).size, 0.7, 1e-3);
+  EXPECT_NEAR(sheet.request_in({8, 3, 0}, 1e-3, 2).size, 2.6, 1e-3);
+  EXPECT_EQ(sheet.request_in({8, 3, 0.1}, 1e-3, 1).size, no_size);
+  EXPECT_EQ(sheet.request_in({11, 3, 0}, 0.5, 1).size, no_size);
   // A large cube may hold any of its sizes.
-  EXPECT_NEAR(sheet.ask({8, 3, 0}, 8, 1).least, 0.5, 1e-12);
+  EXPECT_NEAR(sheet.request_in({8, 3, 0}, 8, 1).least, 0.5, 1e-12);
 }
 
 TEST(SizedSurface, AWakeWithoutAnEndSizeHasOneSize) {
@@ -56,8 +56,8 @@ TEST(SizedSurface, AWakeWithoutAnEndSizeHasOneSize) {
 
 TEST(SizedSurface, ABandEndsAtItsDistance) {
   const SizedSurface wall("wall", {{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, {0.2, 0.2, 0.2}}}, 0.5);
-  EXPECT_DOUBLE_EQ(wall.ask({0.2, 0.2, 0.49}, 0, 1).size, 0.2);
-  EXPECT_EQ(wall.ask({0.2, 0.2, 0.51}, 0, 1).size, no_size);
+  EXPECT_DOUBLE_EQ(wall.request_in({0.2, 0.2, 0.49}, 0, 1).size, 0.2);
+  EXPECT_EQ(wall.request_in({0.2, 0.2, 0.51}, 0, 1).size, no_size);
 }
 
 }  // namespace
