@@ -50,7 +50,7 @@ std::vector<BoundedFace> FieldFactory::faces_bounded_by_minimum(const SizingOpti
       if (seen.bounded_area > 0) mine.push_back({face, seen.bounded_area / seen.area, seen.degrees});
     }
   });
-  return _sampled.gather_by_face(mine);
+  return _sampled.communicator().gather_sorted(mine, &BoundedFace::face);
 }
 
 bool FieldFactory::has_more_parts(const SizingOptions& options, double most) {

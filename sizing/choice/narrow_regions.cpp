@@ -26,8 +26,7 @@ std::vector<NarrowRegion> narrow_regions_below(const SampledModel& sampled, doub
   options.maximum = width;
   options.narrow_minimum = finest_width * width;
   std::vector<NarrowRegion> mine;
-  parallel::agree(sampled.communicator(), [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
     for (const SampledFace& face : sampled.own_faces()) {
       NarrowRegion narrowest{face.id, width, {}};
       for (const NarrowSegment& part :
@@ -38,11 +37,8 @@ std::vector<NarrowRegion> narrow_regions_below(const SampledModel& sampled, doub
       if (narrowest.width < width) mine.push_back(narrowest);
     }
   });
-  std::vector<NarrowRegion> all = sampled.communicator().all_gather_items<NarrowRegion>(mine);
-  std::sort(all.begin(), all.end(), [](const NarrowRegion& a, const NarrowRegion& b) {
-    return std::pair(a.width, a.face) < std::pair(b.width, b.face);
-  });
-  return all;
+  return sampled.communicator().gather_sorted(
+      mine, [](const NarrowRegion& each) { return std::pair(each.width, each.face); });
 }
 
 std::vector<double> elements_along_narrow_regions(const SampledModel& sampled,
@@ -60,8 +56,7 @@ std::vector<double> elements_along_narrow_regions(const SampledModel& sampled,
   SizingOptions rough = options;
   rough.feature_aspect = aspect_of_segments;
   std::vector<FaceElements> mine;
-  parallel::agree(sampled.communicator(), [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
     SizingOptions sizes = options;
     for (const SampledFace& face : sampled.own_faces()) {
       const auto parts =
@@ -81,7 +76,8 @@ std::vector<double> elements_along_narrow_regions(const SampledModel& sampled,
   });
   std::vector<double> elements(aspects.size());
   // Summed in the order of faces, whatever the number of ranks.
-  for (const FaceElements& face : sampled.gather_by_face(mine)) elements[face.aspect] += face.elements;
+  for (const FaceElements& face : sampled.communicator().gather_sorted(mine, &FaceElements::face))
+    elements[face.aspect] += face.elements;
   return elements;
 }
 

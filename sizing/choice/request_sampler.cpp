@@ -4,7 +4,7 @@
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/curvature_size.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_request.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,8 +40,7 @@ std::vector<SizeSource> find_requested(const SampledModel& sampled, const Reques
   const double own_room = room / communicator.size();
   std::vector<SizeSource> mine;
   try {
-    parallel::agree(communicator, [&] {
-      const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+    parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
       const double count = request.count();
       if (count <= room)
         mine =
@@ -108,8 +107,7 @@ std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampl
         largest->name, largest->size, most));
   }
   std::vector<SizeSource> mine;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
     for (const SizeRegion& region : _requests.regions) {
       const auto more =
           sources_in(sampled.root(), region, coarser * region.size, communicator.rank(), communicator.size());
@@ -125,12 +123,11 @@ std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampl
 }
 
 void RequestSampler::lay_surfaces(const SampledModel& sampled) {
-  std::vector<SizedSurface> surfaces;
+  std::vector<SurfaceRequest> surfaces;
   const auto lay = [&](const std::string& key, std::vector<SizedTriangle> triangles, double reach) {
     surfaces.emplace_back(key, std::move(triangles), reach);
   };
-  parallel::agree(sampled.communicator(), [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
+  parallel::collectively(sampled.communicator(), parallel::ScopedCpu::As::repeated, [&] {
     for (const WallSize& wall : _requests.walls) {
       const std::vector<bool> named = faces_like(sampled.model(), wall.faces);
       std::vector<SizedTriangle> triangles;
@@ -152,7 +149,7 @@ void RequestSampler::lay_surfaces(const SampledModel& sampled) {
     for (const EdgeSize& edge : _requests.edges)
       lay("sizing.edges." + edge.name, edges_asked_for(sampled.model(), edge), 0);
   });
-  for (const SizedSurface& each : surfaces) {
+  for (const SurfaceRequest& each : surfaces) {
     if (each.empty())
       throw std::invalid_argument(
           each.key() +
@@ -182,7 +179,7 @@ std::vector<SizeSource> RequestSampler::sample_surfaces(const SampledModel& samp
                                                         const SizingOptions& options, double coarser,
                                                         double most) const {
   std::vector<SizeSource> mine;
-  for (const SizedSurface& surface : _surfaces) {
+  for (const SurfaceRequest& surface : _surfaces) {
     const auto ask = [&](geometry::Vec3 middle, double half) {
       return surface.request_in(middle, half, coarser);
     };

@@ -3,7 +3,7 @@
 
 #include "sizing/choice/sampled_model.hpp"
 #include "sizing/sources/size_requests.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_request.hpp"
 
 #include <utility>
 #include <vector>
@@ -45,7 +45,7 @@ private:
 
   SizeRequests _requests;
   std::vector<double> _asked_on_faces;  // sizes of their patches; 0: none
-  std::vector<SizedSurface> _surfaces;
+  std::vector<SurfaceRequest> _surfaces;
 };
 
 }  // namespace aeroloom::sizing

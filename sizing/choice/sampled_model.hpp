@@ -6,7 +6,6 @@
 #include "sizing/features/proximity.hpp"
 #include "sizing/features/triangle_tree.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -38,14 +37,6 @@ public:
   double area(cad::FaceId face) const { return _areas[face]; }
   /// Whether a face bounds the far field, by find_far_field().
   bool bounds_far_field(cad::FaceId face) const { return _far_field[face]; }
-
-  /// The items of all ranks in the order of their members `face`. Collective.
-  template <class Item>
-  std::vector<Item> gather_by_face(const std::vector<Item>& mine) const {
-    std::vector<Item> all = _communicator.all_gather_items<Item>(mine);
-    std::stable_sort(all.begin(), all.end(), [](const Item& a, const Item& b) { return a.face < b.face; });
-    return all;
-  }
 
   /// The faces of this rank, ascending.
   const std::vector<SampledFace>& own_faces() const { return _faces; }

@@ -12,7 +12,7 @@ namespace aeroloom::sizing {
 /// closing would make these faces meet twice, so it is kept to corners that nothing can fill.
 inline constexpr double closed_between_two_faces = 12, closed_where_faces_meet = 3;
 
-/// The angle in degrees below which a corner is closed (surface/tips/cusp_tips.hpp). A single triangle that
+/// The angle in degrees below which a corner is closed (surface/cusps/cusps.hpp). A single triangle that
 /// filled it would be a needle.
 inline double closing_angle(const cad::Model& model, const cad::FaceCorner& corner) {
   switch (cad::neighbours_at_corner(model, corner)) {

@@ -6,7 +6,7 @@
 #include "sizing/features/skin_faces.hpp"
 #include "sizing/features/trailing_candidates.hpp"
 #include "sizing/lifting/lifting_section.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_request.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -303,10 +303,8 @@ LiftingBodies find_lifting_bodies(const SampledModel& sampled, Vec3 flow,
     for (cad::EdgeId e = communicator.rank(); e < model.edge_count(); e += communicator.size())
       if (is_wanted(sharp_candidate(model, e, flow), wanted)) edges.push_back(e);
   });
-  std::vector<std::int32_t> all_faces = communicator.all_gather_items<std::int32_t>(faces),
-                            all_edges = communicator.all_gather_items<std::int32_t>(edges);
-  std::sort(all_faces.begin(), all_faces.end());
-  std::sort(all_edges.begin(), all_edges.end());
+  const std::vector<std::int32_t> all_faces = communicator.gather_sorted(faces),
+                                  all_edges = communicator.gather_sorted(edges);
   LiftingBodies bodies;
   parallel::agree(communicator, [&] {
     std::vector<TrailingCandidate> candidates;

@@ -76,7 +76,7 @@ struct ConeShape {
 };
 
 /// The sheet that flows off a line, or off the trailing edges of faces. It answers scaled() alone, since only
-/// the model knows where trailing edges are; sized_surface.hpp makes the sheet.
+/// the model knows where trailing edges are; surface_request.hpp makes the sheet.
 struct WakeShape {
   std::vector<std::string> behind;         ///< patterns of faces' or patches' names; none: `from` and `to`
   std::optional<geometry::Vec3> from, to;  ///< ends of the line
