@@ -160,35 +160,31 @@ void RequestSampler::lay_surfaces(const SampledModel& sampled) {
   _surfaces = std::move(surfaces);
 }
 
-std::vector<SizeSource> RequestSampler::sample_formula(const SampledModel& sampled,
-                                                       const SizingOptions& options, double coarser,
-                                                       double most) const {
-  if (!_requests.formula) return {};
-  const FormulaSize& formula = *_requests.formula;
-  const FormulaSpace space{sampled.model().bounds(), sampled.body_box(), coarser, coarser * options.maximum,
-                           coarser * std::log(options.growth)};
-  const Request request{"sizing.expression", [&] { return cells_of_formula(formula, space); },
-                        [&](RankOf part, std::int64_t limit) {
-                          return sources_of_formula(sampled.root(), formula, space, part.rank, part.ranks,
-                                                    limit);
-                        }};
-  return find_requested(sampled, request, most);
-}
-
-std::vector<SizeSource> RequestSampler::sample_surfaces(const SampledModel& sampled,
-                                                        const SizingOptions& options, double coarser,
-                                                        double most) const {
+std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled,
+                                                     const SizingOptions& options, double coarser,
+                                                     double most) const {
   std::vector<SizeSource> mine;
+  const auto add = [&](const Request& request) {
+    const auto more = find_requested(sampled, request, most);
+    mine.insert(mine.end(), more.begin(), more.end());
+  };
+  if (_requests.formula) {
+    const FormulaSize& formula = *_requests.formula;
+    const FormulaSpace space{sampled.model().bounds(), sampled.body_box(), coarser, coarser * options.maximum,
+                             coarser * std::log(options.growth)};
+    add({"sizing.expression", [&] { return cells_of_formula(formula, space); },
+         [&](RankOf part, std::int64_t limit) {
+           return sources_of_formula(sampled.root(), formula, space, part.rank, part.ranks, limit);
+         }});
+  }
   for (const SurfaceRequest& surface : _surfaces) {
     const auto ask = [&](geometry::Vec3 middle, double half) {
       return surface.request_in(middle, half, coarser);
     };
-    const Request request{surface.key(), [&] { return surface.cells(sampled.root(), coarser); },
-                          [&](RankOf part, std::int64_t limit) {
-                            return sources_where(sampled.root(), ask, part, coarser * options.maximum, limit);
-                          }};
-    const auto more = find_requested(sampled, request, most);
-    mine.insert(mine.end(), more.begin(), more.end());
+    add({surface.key(), [&] { return surface.cells(sampled.root(), coarser); },
+         [&](RankOf part, std::int64_t limit) {
+           return sources_where(sampled.root(), ask, part, coarser * options.maximum, limit);
+         }});
   }
   return mine;
 }
@@ -196,11 +192,8 @@ std::vector<SizeSource> RequestSampler::sample_surfaces(const SampledModel& samp
 std::vector<SizeSource> RequestSampler::sample(const SampledModel& sampled, const SizingOptions& options,
                                                double coarser) const {
   std::vector<SizeSource> mine = sample_regions(sampled, coarser);
-  const auto add = [&](const std::vector<SizeSource>& more) {
-    mine.insert(mine.end(), more.begin(), more.end());
-  };
-  add(sample_formula(sampled, options, coarser, any_number));
-  add(sample_surfaces(sampled, options, coarser, any_number));
+  const std::vector<SizeSource> in_cells = sample_cells(sampled, options, coarser, any_number);
+  mine.insert(mine.end(), in_cells.begin(), in_cells.end());
   return mine;
 }
 
@@ -210,8 +203,7 @@ bool RequestSampler::ask_for_more_cells(const SampledModel& sampled, const Sizin
   for (const SizeRegion& region : _requests.regions)
     cells += cells_in(sampled.root(), region, coarser * region.size);
   if (cells > most) return true;
-  const std::size_t mine = sample_formula(sampled, options, coarser, most).size() +
-                           sample_surfaces(sampled, options, coarser, most).size();
+  const std::size_t mine = sample_cells(sampled, options, coarser, most).size();
   return static_cast<double>(sampled.communicator().sum(static_cast<std::int64_t>(mine))) > most;
 }
 

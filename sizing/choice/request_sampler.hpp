@@ -36,12 +36,10 @@ private:
   /// Makes triangles of the requested walls, wakes and edges.
   void lay_surfaces(const SampledModel& sampled);
   std::vector<SizeSource> sample_regions(const SampledModel& sampled, double coarser) const;
-  /// The sources of the formula, and those of walls, wakes and edges. Each ends early with one more than
-  /// `most` sources.
-  std::vector<SizeSource> sample_formula(const SampledModel& sampled, const SizingOptions& options,
-                                         double coarser, double most) const;
-  std::vector<SizeSource> sample_surfaces(const SampledModel& sampled, const SizingOptions& options,
-                                          double coarser, double most) const;
+  /// The sources of the formula, and those of walls, wakes and edges. Each of these ends early with one more
+  /// than `most` sources.
+  std::vector<SizeSource> sample_cells(const SampledModel& sampled, const SizingOptions& options,
+                                       double coarser, double most) const;
 
   SizeRequests _requests;
   std::vector<double> _asked_on_faces;  // sizes of their patches; 0: none
