@@ -18,7 +18,7 @@ struct ChosenSizes {
   SizeField field;
   PredictedCounts counts;
   FeatureResolution features;
-  double body_size;  ///< from which the bounds that are not given follow
+  double body_size;  ///< the size on the body, from which all bounds that are not given follow
 };
 
 /// Sizes that give the target within some twenty percent, by estimates alone
@@ -29,10 +29,10 @@ SizingOptions estimate_sizes(FieldFactory& factory, double target_tetrahedra, co
 /// Sizes estimated by coarse fields, before a field is built that is as fine as asked for.
 struct PreliminarySizes {
   SizingOptions options;       ///< where no feature is finer than the minimum
-  double body_size;            ///< from which the bounds that are not given follow
+  double body_size;            ///< as in ChosenSizes
   bool is_out_of_reach;        ///< nothing came near the target
-  bool is_infeasible;          ///< what is given takes many times as many
-  FeatureResolution features;  ///< as given options have them where features' sizes are given
+  bool is_infeasible;          ///< the given bounds take many times the target
+  FeatureResolution features;  ///< none are chosen if sizes of features are given
   /// `options` with the sizes of features.
   SizingOptions with_features() const;
 };
@@ -69,9 +69,8 @@ inline constexpr const char* of_features = "features";
 
 /// The effect of one given bound on the number of tetrahedra.
 struct BoundCost {
-  std::string bound;  ///< its name in SizingOptions; of_features for what features finer than the minimum do
-  double ratio;  ///< predicted tetrahedra over those with what would be chosen in its place, about; infinite
-                 ///< where there are far too many
+  std::string bound;  ///< its name in SizingOptions, or of_features
+  double ratio;       ///< about the tetrahedra over those without the bound; infinite: far too many
 };
 
 /// The cost of each given bound, by coarse fields. Collective.

@@ -13,8 +13,8 @@ namespace aeroloom::sizing {
 /// A face on which the search for gaps ended early, to bound its cost.
 struct UnseenGaps {
   cad::FaceId face;
-  geometry::Vec3 place;  ///< middle of the largest part that was not looked at
-  double size;           ///< of that part: gaps much narrower than this may have been missed there
+  geometry::Vec3 place;  ///< middle of the largest part that was not searched
+  double size;           ///< of that part; much narrower gaps may have been missed
 
   static constexpr auto fields() {
     return std::tuple(&UnseenGaps::face, &UnseenGaps::place, &UnseenGaps::size);

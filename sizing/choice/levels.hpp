@@ -25,7 +25,7 @@ enum class SolverPoints : std::uint8_t { vertex, cell };
 
 /// Sizes of a level, as fractions and not as percent.
 struct LevelSizes {
-  double factor = 1;           ///< of all sizes and of ln(growth), over those of B or of coarse
+  double factor = 1;           ///< of all sizes and of ln(growth), relative to B or coarse
   double edge = 0;             ///< chordwise at leading and trailing edges, over the local chord
   double span = 0;             ///< spanwise at roots and tips, over the semispan
   double body = 0;             ///< largest on walls, over the reference chord
@@ -40,7 +40,7 @@ struct LevelSizes {
 struct LevelLayers {
   double y_plus = 0;        ///< of the first one's height
   double growth = 0;        ///< ratio of heights
-  int constant_layers = 0;  ///< at the wall, as high as the first one; 0: nothing is said of them
+  int constant_layers = 0;  ///< layers at the wall of equal height; 0: not specified
 };
 
 const char* name_of(Level level);

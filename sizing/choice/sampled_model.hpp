@@ -69,7 +69,7 @@ private:
   std::vector<int> _owners;  // ranks, by face
   std::vector<SampledFace> _faces;
   std::vector<cad::FaceCorner> _corners;
-  std::optional<TriangleTree> _part_on_boundary;  // facets that bound the domain, where not all do
+  std::optional<TriangleTree> _part_on_boundary;  // set if some facets do not bound the domain
   std::optional<ModelFacets> _facets;
   geometry::Box _body_box;
 };

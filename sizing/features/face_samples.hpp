@@ -29,11 +29,10 @@ public:
   /// An overview of the sizes asked for, from the corners of the facets alone.
   struct Overview {
     double triangles = 0;  ///< about
-    double parts =
-        0;  ///< that sources() cuts it into, about, by the corner of each facet that asks for least
+    double parts = 0;      ///< about the number of parts into which sources() cuts the facets
     double area = 0;
     double bounded_area = 0;  ///< where curvature asks for less than the smallest size
-    double degrees = 0;       ///< that an element turns there, at most
+    double degrees = 0;       ///< the most that an element turns there
   };
   /// Arguments as for sources().
   Overview overview(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, bool far_field,
@@ -46,7 +45,7 @@ private:
     geometry::Vec2 uv;
     geometry::Vec3 point;
     double curvature;                  // the largest, absolute; 0 where there is none
-    std::array<std::int32_t, 2> like;  // those two, or -1
+    std::array<std::int32_t, 2> like;  // the two points, or -1
   };
   /// A facet or a part of one. -1 stands for unknown.
   struct Part {
@@ -62,7 +61,7 @@ private:
     CurvatureLimits limits;
     double largest;
     double coarser = 1;
-    std::vector<double> sizes = {};  // per point; -1 where none is asked for yet
+    std::vector<double> sizes = {};  // of each point; -1: not known yet
     std::vector<SizeSource> sources = {};
     std::unordered_map<std::uint64_t, double> along = {};  // smallest size sampled along lines, by cell
   };

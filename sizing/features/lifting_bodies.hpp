@@ -14,7 +14,7 @@ namespace aeroloom::sizing {
 struct LiftingStation {
   geometry::Vec3 trailing, leading;
   double chord = 0;      ///< the local chord
-  double thickness = 0;  ///< of the section, about
+  double thickness = 0;  ///< about that of the section
 };
 
 /// A line along an edge, with the local chord at each of its points.
@@ -39,8 +39,8 @@ struct LiftingElement {
 
 struct LiftingBodies {
   std::vector<LiftingElement> elements;  ///< blunt trailing edges by face, then sharp ones
-  double reference_chord = 0;  ///< mean aerodynamic chord of the largest: the integral of c^2 over that of c
-  double semispan = 0;  ///< half of what the body extends along the span of the largest; of half models all
+  double reference_chord = 0;  ///< mean aerodynamic chord of the largest body, integral of c^2 over that of c
+  double semispan = 0;  ///< half the extent of the body along the span; the whole extent of half models
 };
 
 }  // namespace aeroloom::sizing

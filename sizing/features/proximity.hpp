@@ -38,14 +38,14 @@ struct Gaps {
     Triangle triangle;
     double gap;
     std::int32_t facet;  ///< of the face
-    int depth;           ///< how often it was bisected for that
+    int depth;           ///< number of bisections for the open gap
   };
   std::vector<Part> narrow;
   /// A part of a facet that was not searched, because the work was used up.
   struct Unseen {
     Triangle triangle;
     std::int32_t facet;  ///< of the face
-    int depth;           ///< how often that was bisected
+    int depth;           ///< number of bisections
   };
   std::vector<Unseen> unseen;
 };
@@ -80,8 +80,8 @@ struct ModelFacets {
 /// Limits of a search for gaps.
 struct GapLimits {
   double widest;  ///< gaps wider than this are left out
-  double finest;  ///< no parts of facets are bisected whose edges are no longer than this
-  double layers;  ///< elements wanted across a gap, at most
+  double finest;  ///< parts of facets with edges up to this length are not bisected
+  double layers;  ///< the most elements wanted across a gap
 };
 
 /// The number of rays, and of visited tree nodes.

@@ -33,7 +33,7 @@ class SegmentTree {
 public:
   struct Segment {
     geometry::Vec3 a, b;
-    std::int32_t tag;  ///< what it belongs to
+    std::int32_t tag;  ///< number of what the segment belongs to
   };
 
   SegmentTree() = default;

@@ -11,7 +11,7 @@ namespace aeroloom::sizing {
 
 /// A trailing edge, before it is known whether a lifting body lies ahead of it.
 struct TrailingCandidate {
-  LiftingElement element;               ///< without stations, chords, leading edge, ends
+  LiftingElement element;               ///< stations, chords, leading edge and ends are not set
   std::vector<cad::FaceId> neighbours;  ///< faces on both sides
 };
 

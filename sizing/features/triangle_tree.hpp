@@ -16,7 +16,7 @@ namespace aeroloom::sizing {
 using Triangle = std::array<geometry::Vec3, 3>;
 
 struct LongestEdge {
-  int from = 0;  ///< corner; it leads to the next one
+  int from = 0;  ///< its first corner; the next corner ends it
   double length = 0;
 };
 LongestEdge longest_edge(const Triangle& t);
@@ -49,7 +49,7 @@ private:
   }
 
   geometry::Vec3 _point;
-  int _axis, _first, _second;  // the one that the line runs along most, and the others
+  int _axis, _first, _second;  // the axis that is nearest to the line, and the others
   geometry::Vec2 _shear;
   double _scale;
 };
@@ -88,9 +88,9 @@ private:
 
   std::vector<Triangle> _triangles;  // in the order of the tree
   static constexpr std::int32_t in_one_box = -1;
-  std::vector<std::int32_t> _numbers;    // of those with several boxes, the same for each of them
-  std::vector<geometry::Box> _boxes;     // of those, or of a part
-  std::vector<geometry::Vec3> _normals;  // twice as long as their areas
+  std::vector<std::int32_t> _numbers;    // of triangles; equal for the boxes of one triangle
+  std::vector<geometry::Box> _boxes;     // of triangles or their parts
+  std::vector<geometry::Vec3> _normals;  // their length is twice the area
   geometry::BoxTree _tree;
 };
 

@@ -19,8 +19,8 @@ double radians_per_element(bool far_field, const SizingOptions& options);
 /// How far elements may deviate from a curved surface. The far field has larger limits, since its shape does
 /// not matter.
 struct CurvatureLimits {
-  double angle;      ///< an element turns by, at most; radians
-  double deviation;  ///< of triangles from the surface, at most; 0: any
+  double angle;      ///< largest turn of an element, radians
+  double deviation;  ///< largest distance of triangles from the surface; 0: any
 };
 CurvatureLimits curvature_limits(bool far_field, const SizingOptions& options);
 

@@ -52,7 +52,7 @@ struct SeedGroup {
   static constexpr int most = 8;
   std::array<std::array<float, most>, 3> low, high;  ///< by axis
   std::array<float, most> size;                      ///< infinite where there is no neighbour
-  std::uint32_t first = 0;                           ///< number of the first of them
+  std::uint32_t first = 0;                           ///< number of the first neighbour
 
   static constexpr auto fields() {
     return std::tuple(&SeedGroup::low, &SeedGroup::high, &SeedGroup::size, &SeedGroup::first);

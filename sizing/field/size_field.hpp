@@ -20,20 +20,18 @@ struct SizingOptions {
   double minimum = 0;           ///< smallest size, > 0
   double maximum = 0;           ///< largest size, >= minimum; the size of the far field
   double curvature_angle = 12;  ///< degrees an element may turn on a curved face or edge
-  double growth =
-      1.3;  ///< ratio of neighbouring element sizes, > 1; h changes by at most ln(growth) per length
-  double surface_maximum =
-      0;                 ///< largest size on faces of the body (far field excepted); 0: `maximum` alone rules
-  double proximity = 1;  ///< elements wanted across a thin part of a body and across a gap, at least; 0: any
-  double gap_proximity = -1;  ///< the same, across gaps alone; negative: `proximity`
-  double feature_minimum =
-      0;                      ///< as `minimum`, for short edges, narrow faces, sharp corners; 0: minimum / 20
-  double narrow_minimum = 0;  ///< as `feature_minimum`, for narrow faces alone; 0: as that
-  double gap_minimum = 0;     ///< as `minimum`, for gaps between walls, where they do not meet; 0: minimum
-  double feature_aspect = 1;  ///< length of an element along a narrow face, over the width there; likewise at
-                              ///< short edges and sharp corners; >= 1, but nowhere beyond the minimum
-  double chordal_deviation =
-      0;  ///< distance of triangles on curved faces from the surface, at most; binds the minimum too; 0: any
+  double growth = 1.3;          ///< ratio of neighbouring element sizes, > 1
+  double surface_maximum = 0;   ///< largest size on faces of the body, far field excepted; 0: `maximum`
+  double proximity = 1;         ///< least number of elements across a thin part or a gap; 0: any
+  double gap_proximity = -1;    ///< the same across gaps alone; negative: `proximity`
+  double feature_minimum = 0;   ///< `minimum` of short edges, narrow faces, sharp corners; 0: minimum / 20
+  double narrow_minimum = 0;    ///< `minimum` of narrow faces alone; 0: as feature_minimum
+  double gap_minimum = 0;       ///< `minimum` of gaps between walls that do not meet; 0: minimum
+  /// Length of an element over the width of a narrow face, >= 1; also at short edges and sharp corners. No
+  /// element is longer than `minimum` for it.
+  double feature_aspect = 1;
+  /// Largest distance of triangles from curved faces; sizes for it may lie below `minimum`. 0: any
+  double chordal_deviation = 0;
 
   static constexpr auto fields() {
     return std::tuple(&SizingOptions::minimum, &SizingOptions::maximum, &SizingOptions::curvature_angle,

@@ -82,7 +82,7 @@ struct WakeShape {
   std::optional<geometry::Vec3> from, to;  ///< ends of the line
   geometry::Vec3 direction;                ///< of any length but 0
   double length = 0;
-  std::optional<double> end_size;  ///< where it ends, linear up to there; none: one size everywhere
+  std::optional<double> end_size;  ///< at the end, linear in between; none: one size everywhere
 
   WakeShape scaled(double factor) const;
 };
