@@ -1,4 +1,4 @@
-#include "sizing/field/pages.hpp"
+#include "sizing/field/subtrees.hpp"
 
 #include "parallel/communication/imposed_nodes.hpp"
 #include "sizing/field/octree.hpp"
@@ -38,8 +38,8 @@ std::vector<Cell> random_cells(unsigned seed, int count) {
   return cells;
 }
 
-/// Pages of cells, of which every rank gives each so-and-so-many-th.
-Pages pages_of(const Communicator& ranks, const std::vector<Cell>& cells, std::int64_t most) {
+/// Subtrees of cells, of which every rank gives each so-and-so-many-th.
+Subtrees subtrees_of(const Communicator& ranks, const std::vector<Cell>& cells, std::int64_t most) {
   std::vector<std::uint64_t> keys;
   std::vector<std::uint8_t> levels;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -53,7 +53,7 @@ Pages pages_of(const Communicator& ranks, const std::vector<Cell>& cells, std::i
 SeedTree tree_of(const Communicator& ranks, const std::vector<SizeSeed>& own) {
   std::vector<SizeSeed> odd, even;
   for (std::size_t i = 0; i < own.size(); ++i) (i % 2 == 1 ? odd : even).push_back(own[i]);
-  const Pages root(ranks, {}, 1);
+  const Subtrees root(ranks, {}, 1);
   const SharedSeeds first(root, odd), second(root, even);
   return SeedTree({&first, &second}, 0.3);
 }
@@ -64,26 +64,28 @@ std::vector<Communicator> nodes_of_world() {
   return {world, aeroloom::parallel::impose_nodes(world, 1), aeroloom::parallel::impose_nodes(world, 2)};
 }
 
-std::uint64_t size_of(const Pages& pages, std::size_t page) {
-  return 1ULL << 3 * (finest_level - pages.level(page));
+std::uint64_t size_of(const Subtrees& subtrees, std::size_t subtree) {
+  return 1ULL << 3 * (finest_level - subtrees.level(subtree));
 }
 
 }  // namespace
 
-TEST(Pages, TileTheRootAndHoldFewCells) {
+TEST(Subtrees, TileTheRootAndHoldFewCells) {
   const Communicator world = Communicator::world();
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const std::vector<Cell> cells = random_cells(seed, 400);
-    const Pages pages = pages_of(world, cells, 20);
-    EXPECT_GT(pages.count(), 50U);
+    const Subtrees subtrees = subtrees_of(world, cells, 20);
+    EXPECT_GT(subtrees.count(), 50U);
     std::uint64_t end = 0;
-    for (std::size_t page = 0; page < pages.count(); ++page) {
-      ASSERT_EQ(pages.key(page), end);
-      ASSERT_EQ(pages.find(end), page);
-      end += size_of(pages, page);
-      ASSERT_EQ(pages.find(end - 1), page);
-      const auto lies_within = [&](const Cell& c) { return c.key >= pages.key(page) && c.key < end; };
-      const auto is_smaller = [&](const Cell& c) { return lies_within(c) && c.level > pages.level(page); };
+    for (std::size_t subtree = 0; subtree < subtrees.count(); ++subtree) {
+      ASSERT_EQ(subtrees.key(subtree), end);
+      ASSERT_EQ(subtrees.find(end), subtree);
+      end += size_of(subtrees, subtree);
+      ASSERT_EQ(subtrees.find(end - 1), subtree);
+      const auto lies_within = [&](const Cell& c) { return c.key >= subtrees.key(subtree) && c.key < end; };
+      const auto is_smaller = [&](const Cell& c) {
+        return lies_within(c) && c.level > subtrees.level(subtree);
+      };
       EXPECT_TRUE(std::count_if(cells.begin(), cells.end(), lies_within) <= 20 ||
                   std::none_of(cells.begin(), cells.end(), is_smaller));
     }
@@ -91,63 +93,64 @@ TEST(Pages, TileTheRootAndHoldFewCells) {
   }
 }
 
-TEST(Pages, AreSharedAlikeInTheirOrder) {
+TEST(Subtrees, AreSharedAlikeInTheirOrder) {
   const Communicator world = Communicator::world();
   const std::vector<Cell> cells = random_cells(3, 2000);
-  const Pages pages = pages_of(world, cells, 20);
-  std::vector<double> of_pages(pages.count(), 1), work(static_cast<std::size_t>(world.size()));
-  for (const Cell& cell : cells) of_pages[pages.find(cell.key)] += 1;
+  const Subtrees subtrees = subtrees_of(world, cells, 20);
+  std::vector<double> of_subtrees(subtrees.count(), 1), work(static_cast<std::size_t>(world.size()));
+  for (const Cell& cell : cells) of_subtrees[subtrees.find(cell.key)] += 1;
   std::size_t next = 0;
   for (Rank rank = 0; rank < world.size(); ++rank) {
-    const IndexRange own = pages.of_rank(rank);
+    const IndexRange own = subtrees.of_rank(rank);
     ASSERT_EQ(own.first, next);
     next = own.last;
-    for (std::size_t page = own.first; page < own.last; ++page) {
-      ASSERT_EQ(pages.owner(page), rank);
-      work[rank] += of_pages[page];
+    for (std::size_t subtree = own.first; subtree < own.last; ++subtree) {
+      ASSERT_EQ(subtrees.owner(subtree), rank);
+      work[rank] += of_subtrees[subtree];
     }
   }
-  EXPECT_EQ(next, pages.count());
-  const double mean = static_cast<double>(cells.size() + pages.count()) / world.size();
-  for (const double each : work) EXPECT_NEAR(each, mean, *std::max_element(of_pages.begin(), of_pages.end()));
+  EXPECT_EQ(next, subtrees.count());
+  const double mean = static_cast<double>(cells.size() + subtrees.count()) / world.size();
+  for (const double each : work)
+    EXPECT_NEAR(each, mean, *std::max_element(of_subtrees.begin(), of_subtrees.end()));
 }
 
-TEST(Pages, OfOneSpotMayLeaveRanksWithout) {
+TEST(Subtrees, OfOneSpotMayLeaveRanksWithout) {
   const Communicator world = Communicator::world();
-  const Pages pages = pages_of(world, std::vector<Cell>(30, {0, 5}), 1000);
-  ASSERT_EQ(pages.count(), 1U);
+  const Subtrees subtrees = subtrees_of(world, std::vector<Cell>(30, {0, 5}), 1000);
+  ASSERT_EQ(subtrees.count(), 1U);
   std::size_t all = 0;
-  for (Rank rank = 0; rank < world.size(); ++rank) all += pages.of_rank(rank).size();
+  for (Rank rank = 0; rank < world.size(); ++rank) all += subtrees.of_rank(rank).size();
   EXPECT_EQ(all, 1U);
-  EXPECT_EQ(pages.of_rank(pages.owner(0)).size(), 1U);
+  EXPECT_EQ(subtrees.of_rank(subtrees.owner(0)).size(), 1U);
 }
 
-TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
+TEST(SplitCubes, AreBalancedOverSubtreesAsInOne) {
   const std::vector<Communicator> nodes = nodes_of_world();
   const Communicator& world = nodes.front();
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const std::vector<Cell> cells = random_cells(seed, 40 * static_cast<int>(seed));
-    SplitCubes alone, paged(pages_of(world, cells, 4));
-    const IndexRange own = paged.own_pages();
+    SplitCubes alone, divided(subtrees_of(world, cells, 4));
+    const IndexRange own = divided.own_subtrees();
     for (const Cell& cell : cells) {
       alone.split(cell.key, cell.level - 1);
-      const std::size_t page = paged.pages().find(cell.key);
-      if (page >= own.first && page < own.last) paged.split(cell.key, cell.level - 1);
+      const std::size_t subtree = divided.subtrees().find(cell.key);
+      if (subtree >= own.first && subtree < own.last) divided.split(cell.key, cell.level - 1);
     }
-    alone.balance(), paged.balance();
-    const SplitCubes::Leaves expected = alone.leaves(), mine = paged.leaves();
-    EXPECT_EQ(paged.leaf_count(), static_cast<std::int64_t>(expected.keys.size()));
+    alone.balance(), divided.balance();
+    const SplitCubes::Leaves expected = alone.leaves(), mine = divided.leaves();
+    EXPECT_EQ(divided.leaf_count(), static_cast<std::int64_t>(expected.keys.size()));
     ASSERT_EQ(world.all_gather_items<std::uint64_t>(mine.keys), expected.keys);
     ASSERT_EQ(world.all_gather_items<std::uint8_t>(mine.levels), expected.levels);
 
     const LeafTable of_all(expected);
     for (const Communicator& ranks : nodes) {
-      const LeafTable of_pages(pages_of(ranks, cells, 4), mine, expected);
+      const LeafTable of_subtrees(subtrees_of(ranks, cells, 4), mine, expected);
       std::mt19937_64 random(seed);
       for (int i = 0; i < 5000; ++i) {
         const std::uint64_t start = expected.keys[random() % expected.keys.size()];
         const std::uint64_t key = i % 2 ? random() >> 4 : start + random() % 2;
-        ASSERT_EQ(of_pages.find(key), of_all.find(key));
+        ASSERT_EQ(of_subtrees.find(key), of_all.find(key));
       }
     }
   }

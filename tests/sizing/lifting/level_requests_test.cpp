@@ -1,4 +1,4 @@
-#include "sizing/lifting/level_demands.hpp"
+#include "sizing/lifting/level_requests.hpp"
 
 #include "cad/domain/domain.hpp"
 
@@ -46,7 +46,7 @@ TEST(LevelDemands, FieldHasTheSpacingAlongEdges) {
   EXPECT_DOUBLE_EQ(*given.surface_maximum, level.body * bodies.reference_chord);
   // Sizes that grow quickly, so that the field is small.
   given.growth = 2.5, given.curvature_angle = 60, given.surface_maximum = 1;
-  factory.demand(level_lines(model, bodies, level, flow));
+  factory.request_lines(level_lines(model, bodies, level, flow));
   const SizeField field = factory.build_field(with_given({}, given));
   for (const LiftingElement& element : bodies.elements) {
     for (const LiftingStation& station : element.stations) {

@@ -1,4 +1,4 @@
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include <algorithm>
 #include <cmath>

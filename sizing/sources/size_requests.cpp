@@ -1,4 +1,4 @@
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include "sizing/sources/cells_where.hpp"
 
@@ -41,11 +41,11 @@ std::vector<SizeSource> sources_along(const RootCube& root, const SizeLine& line
   return thin_sources(root, sources);
 }
 
-std::vector<double> sizes_on_faces(const cad::Model& model, const SizeDemands& demands) {
+std::vector<double> sizes_on_faces(const cad::Model& model, const SizeRequests& requests) {
   std::vector<double> sizes(model.face_count(), 0);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const std::string& patch = model.patches()[model.face(f).patch];
-    for (const PatchSize& asked : demands.patches) {
+    for (const PatchSize& asked : requests.patches) {
       if (asked.patch == patch) sizes[f] = asked.size;
     }
   }
@@ -68,8 +68,8 @@ double cells_in(const RootCube& root, const SizeRegion& region, double size) {
 std::vector<SizeSource> sources_in(const RootCube& root, const SizeRegion& region, double size, int rank,
                                    int ranks) {
   const auto ask = [&](Vec3 middle, double half) {
-    if (distance_to(region.shape, middle) > std::numbers::sqrt3 * half) return CubeDemand{};
-    return CubeDemand{size, size};
+    if (distance_to(region.shape, middle) > std::numbers::sqrt3 * half) return CubeRequest{};
+    return CubeRequest{size, size};
   };
   return sources_where(root, ask, {rank, ranks});
 }

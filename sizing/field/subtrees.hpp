@@ -1,8 +1,8 @@
-/// How the root cube of an octree is shared among ranks.
+/// How the root cube of an octree is divided among the ranks.
 #pragma once
 
+#include "geometry/morton.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "sizing/field/morton.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,14 +11,20 @@
 
 namespace aeroloom::sizing {
 
-/// A range of numbers.
+using geometry::finest_level;
+using geometry::grid_point;
+using geometry::grid_size;
+using geometry::GridPoint;
+using geometry::morton_key;
+
+/// Numbers from `first` up to, but without, `last`.
 struct IndexRange {
   std::size_t first, last;
 
   std::size_t size() const { return last - first; }
 };
 
-/// Cells of an octree by the Morton keys of their low corners, and their levels.
+/// Cells of an octree: the Morton keys of their low corners, and their levels.
 struct CellSpans {
   std::span<const std::uint64_t> keys;
   std::span<const std::uint8_t> levels;
@@ -29,35 +35,35 @@ struct CellSpans {
   }
 };
 
-/// The part of a rank where ranks have about as many of `count` things each.
+/// The numbers that one rank gets where `count` things are divided evenly.
 inline IndexRange even_part(std::size_t count, parallel::Rank rank, int ranks) {
   const auto r = static_cast<std::size_t>(rank), of = static_cast<std::size_t>(ranks);
   return {count * r / of, count * (r + 1) / of};
 }
 
-/// Cubes that tile the root, in their order along the Morton curve, each with the rank that makes what lies
-/// in it: neighbours along the curve, about as much for each. Which there are is known on every rank, and
-/// does not count for what is made. They hold the communicator of those ranks.
-class Pages {
+/// Octree subtrees that tile the root, in the order of the Morton curve. Each is owned by one rank, which
+/// makes the leaves in it. A rank owns neighbours along the curve, with about as many cells as any other
+/// rank. Every rank knows all subtrees. The field does not depend on them.
+class Subtrees {
 public:
-  /// The root alone, on one rank; without a communicator.
-  Pages() = default;
-  /// Cells of all ranks, each rank's own in the order of their keys, in cubes that hold at most `most` or
-  /// cells no smaller than they are. Collective.
-  Pages(const parallel::Communicator& communicator, CellSpans own, std::int64_t most);
+  /// The root alone, owned by one rank. There is no communicator.
+  Subtrees() = default;
+  /// Each rank gives its own cells, in the order of their keys. A subtree holds at most `most` cells of all
+  /// ranks, or only cells that are no smaller than it. Collective.
+  Subtrees(const parallel::Communicator& communicator, CellSpans own, std::int64_t most);
 
   const parallel::Communicator& communicator() const { return _communicator; }
   parallel::Rank rank() const { return _rank; }
   int ranks() const { return static_cast<int>(_firsts.size()); }
   std::size_t count() const { return _keys.size(); }
-  std::uint64_t key(std::size_t page) const { return _keys[page]; }
-  int level(std::size_t page) const { return _levels[page]; }
-  /// The one that holds the finest cell with this key.
+  std::uint64_t key(std::size_t subtree) const { return _keys[subtree]; }
+  int level(std::size_t subtree) const { return _levels[subtree]; }
+  /// The subtree that holds the finest cell with this key.
   std::size_t find(std::uint64_t key) const {
     return static_cast<std::size_t>(std::upper_bound(_keys.begin(), _keys.end(), key) - _keys.begin()) - 1;
   }
-  parallel::Rank owner(std::size_t page) const {
-    return static_cast<parallel::Rank>(std::upper_bound(_firsts.begin(), _firsts.end(), page) -
+  parallel::Rank owner(std::size_t subtree) const {
+    return static_cast<parallel::Rank>(std::upper_bound(_firsts.begin(), _firsts.end(), subtree) -
                                        _firsts.begin()) -
            1;
   }
@@ -66,10 +72,10 @@ public:
     return {_firsts[r], r + 1 < _firsts.size() ? _firsts[r + 1] : count()};
   }
 
-  /// Where the pages of a rank begin, or would if it had any.
+  /// Where the subtrees of a rank begin, or would begin if it had any.
   std::uint64_t first_key(parallel::Rank rank) const {
-    const std::size_t page = _firsts[static_cast<std::size_t>(rank)];
-    return page < count() ? _keys[page] : 1ULL << 3 * finest_level;
+    const std::size_t subtree = _firsts[static_cast<std::size_t>(rank)];
+    return subtree < count() ? _keys[subtree] : 1ULL << 3 * finest_level;
   }
 
 private:

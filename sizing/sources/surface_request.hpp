@@ -5,7 +5,7 @@
 #include "geometry/box_tree.hpp"
 #include "sizing/features/triangle_tree.hpp"
 #include "sizing/sources/cells_where.hpp"
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include <array>
 #include <string>
@@ -18,25 +18,25 @@ struct SizedTriangle {
   std::array<double, 3> sizes;  ///< at its corners
 };
 
-/// Where a triangle comes nearest to a point.
+/// The point of a triangle that is nearest to some point.
 struct NearestOfTriangle {
   double away;
   std::array<double, 3> weights;  ///< of its corners
 };
 NearestOfTriangle nearest_of(const Triangle& t, geometry::Vec3 p);
 
-/// Asks for the sizes of triangles on them and up to a distance.
-class SurfaceDemand {
+/// Triangles with sizes at their corners. They ask for these on themselves and up to a distance.
+class SurfaceRequest {
 public:
-  /// `key`: what of the case asks for it, in messages.
-  SurfaceDemand(std::string key, std::vector<SizedTriangle> triangles, double reach);
+  /// `key`: the key of the case, for messages.
+  SurfaceRequest(std::string key, std::vector<SizedTriangle> triangles, double reach);
 
   const std::string& key() const { return _key; }
   bool empty() const { return _triangles.empty(); }
-  /// With all sizes so many times as large.
-  CubeDemand ask(geometry::Vec3 middle, double half_edge, double coarser) const;
+  /// The size asked for in a cube, with all sizes `coarser` times as large.
+  CubeRequest request_in(geometry::Vec3 middle, double half_edge, double coarser) const;
 
-  /// How many cells ask, about.
+  /// About the number of cells in which a size is asked for.
   double cells(const RootCube& root, double coarser) const;
 
 private:
@@ -48,24 +48,24 @@ private:
   geometry::BoxTree _tree;
 };
 
-/// Whether each face, or its patch, is like one of the patterns.
+/// Whether the name of each face, or of its patch, matches one of the patterns.
 std::vector<bool> faces_like(const cad::Model& model, const std::vector<std::string>& patterns);
 
-/// Throws std::invalid_argument where no face and no patch is like a pattern. `key`: of the case.
+/// Throws std::invalid_argument if no face and no patch matches a pattern. `key`: of the case.
 void require_like(const cad::Model& model, const std::string& key, const std::vector<std::string>& patterns);
 
-/// Parts of the edges where the body ends in the given direction, of these faces: convex, of a body that lies
-/// ahead of them, swept by 60 degrees at most. Both borders of a blunt trailing edge, whether its strip is
-/// among the faces or the faces beside it are.
+/// The edges of these faces in which the body ends in the given direction. There the body is convex and lies
+/// ahead of the edge, which is swept by at most 60 degrees. A blunt trailing edge gives both sides of its
+/// narrow face, if that face or the faces beside it are among `faces`.
 std::vector<std::array<geometry::Vec3, 2>> trailing_segments(const cad::Model& model,
                                                              const std::vector<bool>& faces,
                                                              geometry::Vec3 direction);
 
-/// A sheet behind such segments.
+/// The sheet of a wake behind such segments.
 std::vector<SizedTriangle> wake_sheet(const std::vector<std::array<geometry::Vec3, 2>>& segments,
                                       const WakeSize& wake);
 
-/// The edges that a demand selects, as far as they lie in its box.
+/// The edges that a request selects, as far as they lie in its box.
 std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSize& asked);
 
 }  // namespace aeroloom::sizing

@@ -1,7 +1,8 @@
-#include "sizing/sources/surface_demand.hpp"
+#include "sizing/sources/surface_request.hpp"
 
 #include "cad/model/patches.hpp"
-#include "sizing/features/lifting_seeds.hpp"
+#include "sizing/features/segment_tree.hpp"
+#include "sizing/features/trailing_candidates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,6 @@ constexpr int edge_intervals = 32;
 /// A trailing edge is swept by 60 degrees at most, the faces ahead of it lie within 60 degrees of the way it
 /// points, those behind a blunt one turn off by as much at least, and the body turns by 30 degrees at least.
 constexpr double least_across = 0.5, least_ahead = 0.5, least_turn = 0.866;
-
-double away_from(const Box& box, Vec3 p) {
-  Vec3 off;
-  for (int axis = 0; axis < 3; ++axis)
-    off[axis] = std::max({0.0, box.low[axis] - p[axis], p[axis] - box.high[axis]});
-  return norm(off);
-}
 
 double slope_of(const SizedTriangle& t) {
   double steepest = 0;
@@ -96,11 +90,11 @@ bool is_trailing(const cad::Model& model, cad::EdgeId edge, const std::vector<bo
 /// Both borders of a face, where that is a blunt trailing edge whose neighbours are not named themselves.
 void add_borders_of_strip(const cad::Model& model, cad::FaceId face, const std::vector<bool>& faces,
                           Vec3 direction, std::vector<std::array<Vec3, 2>>& segments) {
-  const std::optional<TrailingSeed> seed = blunt_seed(model, face, normalized(direction));
-  if (!seed ||
-      std::any_of(seed->neighbours.begin(), seed->neighbours.end(), [&](cad::FaceId f) { return faces[f]; }))
+  const std::optional<TrailingCandidate> candidate = blunt_candidate(model, face, normalized(direction));
+  if (!candidate || std::any_of(candidate->neighbours.begin(), candidate->neighbours.end(),
+                                [&](cad::FaceId f) { return faces[f]; }))
     return;
-  for (const std::vector<Vec3>& border : {seed->element.trailing.points, seed->element.opposite}) {
+  for (const std::vector<Vec3>& border : {candidate->element.trailing.points, candidate->element.opposite}) {
     for (std::size_t i = 0; i + 1 < border.size(); ++i) segments.push_back({border[i], border[i + 1]});
   }
 }
@@ -152,7 +146,7 @@ NearestOfTriangle nearest_of(const Triangle& t, Vec3 p) {
   return nearest;
 }
 
-SurfaceDemand::SurfaceDemand(std::string key, std::vector<SizedTriangle> triangles, double reach)
+SurfaceRequest::SurfaceRequest(std::string key, std::vector<SizedTriangle> triangles, double reach)
     : _key(std::move(key)), _reach(reach) {
   std::vector<Box> boxes(triangles.size());
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -165,11 +159,13 @@ SurfaceDemand::SurfaceDemand(std::string key, std::vector<SizedTriangle> triangl
   for (const std::int32_t i : _tree.order()) _triangles.push_back(triangles[i]);
 }
 
-CubeDemand SurfaceDemand::ask(Vec3 middle, double half_edge, double coarser) const {
+CubeRequest SurfaceRequest::request_in(Vec3 middle, double half_edge, double coarser) const {
   const double around = std::numbers::sqrt3 * half_edge, reach = _reach + around;
   double size = no_size;
   // With the smallest size found nothing else can matter.
-  const auto enters = [&](const Box& box) { return size > _smallest && away_from(box, middle) <= reach; };
+  const auto enters = [&](const Box& box) {
+    return size > _smallest && distance_to_box(middle, box) <= reach;
+  };
   _tree.search(enters, [&](std::int32_t i) {
     const SizedTriangle& t = _triangles[i];
     const NearestOfTriangle nearest = nearest_of(t.corners, middle);
@@ -182,12 +178,12 @@ CubeDemand SurfaceDemand::ask(Vec3 middle, double half_edge, double coarser) con
   return {coarser * std::max(_smallest, size - _slope * around), coarser * size};
 }
 
-double SurfaceDemand::cells(const RootCube& root, double coarser) const {
+double SurfaceRequest::cells(const RootCube& root, double coarser) const {
   double cells = 0;
   for (const SizedTriangle& t : _triangles) {
     const double size = coarser * (t.sizes[0] + t.sizes[1] + t.sizes[2]) / 3;
     const double edge = std::ldexp(root.edge, -root.level(size));
-    const double area = 0.5 * norm(cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
+    const double area = area_of(t.corners);
     cells +=
         (area > 0 ? area / (edge * edge) : longest_edge(t.corners).length / edge) * (2 * _reach / edge + 1);
   }
@@ -268,11 +264,11 @@ std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSi
   return found;
 }
 
-void require_faces(const cad::Model& model, const SizeDemands& demands) {
-  for (const WallSize& wall : demands.walls) require_like(model, "sizing.walls." + wall.name, wall.faces);
-  for (const WakeSize& wake : demands.wakes)
+void require_faces(const cad::Model& model, const SizeRequests& requests) {
+  for (const WallSize& wall : requests.walls) require_like(model, "sizing.walls." + wall.name, wall.faces);
+  for (const WakeSize& wake : requests.wakes)
     require_like(model, "sizing.sources." + wake.name, wake.shape.behind);
-  for (const EdgeSize& edge : demands.edges) require_like(model, "sizing.edges." + edge.name, edge.between);
+  for (const EdgeSize& edge : requests.edges) require_like(model, "sizing.edges." + edge.name, edge.between);
 }
 
 }  // namespace aeroloom::sizing

@@ -1,4 +1,4 @@
-#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/feature_resolution.hpp"
 
 #include "parallel/observation/log.hpp"
 #include "sizing/choice/field_factory.hpp"
@@ -24,18 +24,19 @@ constexpr double finest_over_minimum = 1e-3;
 constexpr double finest_point = 0.05;
 /// Of the widest gap that was sewn: narrower features may be what sewing left. Chosen, not measured.
 constexpr double finest_over_gap = 0.5;
-// Of the budget: forecasts are 10 to 14 % too low where strips take most of a mesh (docs/cad_repair.md).
+// Of the budget: forecasts are 10 to 14 % too low where narrow regions take most of a mesh
+// (docs/cad_repair.md).
 constexpr double aim = 0.9;
 // Values are tried on a logarithmic scale: steps of 4 %, up to a factor of a thousand.
 constexpr int steps_per_octave = 16, last_step = 160;
-// Tetrahedra around an element along one side of a strip: the first guess (twelve models: 40 to 90).
+// Tetrahedra around an element along one side of a narrow region: the first guess (twelve models: 40 to 90).
 constexpr double tetrahedra_per_element = 60;
 
 double at_step(int step) {
   return std::exp2(static_cast<double>(step) / steps_per_octave);
 }
 
-/// The finest step of a scale whose share is within the budget. Shares fall from step to step, down to one
+/// The finest step of a scale whose ratio is within the budget. Ratios fall from step to step, down to one
 /// at the last, which stands for nothing.
 class StepSearch {
 public:
@@ -59,21 +60,21 @@ public:
       const int rest = _found - low;
       const int step = lame < most_lame_rounds ? guess(low) : low + rest / 2;
       const std::optional<double> tetrahedra = _count(step);
-      const double share = tetrahedra ? *tetrahedra / base : 0;
-      if (tetrahedra) learn(step, share);
-      if (tetrahedra && share <= _most) {
-        _found = step, _share = share;
+      const double ratio = tetrahedra ? *tetrahedra / base : 0;
+      if (tetrahedra) learn(step, ratio);
+      if (tetrahedra && ratio <= _most) {
+        _found = step, _ratio = ratio;
       } else {
-        low = step, _share_below = share;
+        low = step, _ratio_below = ratio;
       }
       lame = 2 * (_found - low) > rest + 1 ? lame + 1 : 0;
     }
   }
 
   int found() const { return _found; }
-  double share() const { return _share; }
+  double ratio() const { return _ratio; }
   /// Of the finest step, about where it was not tried.
-  double finest_share() const { return _found == 0 ? _share : expected(0); }
+  double finest_ratio() const { return _found == 0 ? _ratio : expected(0); }
 
 private:
   static constexpr int most_lame_rounds = 2;  // guesses that lead nowhere, before halves are tried
@@ -91,27 +92,27 @@ private:
   /// Between two steps that were counted what comes on top goes by a power of the elements.
   double expected_between(int step, int low) const {
     const double last = _elements.back();
-    if (low < 0 || !(_share_below > _share && _share > 1)) return expected(step);
+    if (low < 0 || !(_ratio_below > _ratio && _ratio > 1)) return expected(step);
     const double below = _elements[low] - last, above = _elements[_found] - last,
                  here = _elements[step] - last;
     if (!(below > above && above > 0)) return expected(step);
-    const double power = std::log((_share_below - 1) / (_share - 1)) / std::log(below / above);
-    return 1 + (_share - 1) * std::pow(here / above, power);
+    const double power = std::log((_ratio_below - 1) / (_ratio - 1)) / std::log(below / above);
+    return 1 + (_ratio - 1) * std::pow(here / above, power);
   }
 
-  /// The finest step that was counted tells most of the strips.
-  void learn(int step, double share) {
+  /// The finest step that was counted tells most of the narrow regions.
+  void learn(int step, double ratio) {
     const double more = _elements[step] - _elements.back();
     if (step > _finest_known || !(more > 0)) return;
     _finest_known = step;
-    _per_element = std::max(0.0, share - 1) / more;
+    _per_element = std::max(0.0, ratio - 1) / more;
   }
 
   Count _count;
   std::vector<double> _elements;
   double _most, _per_element = 0;
   int _found, _finest_known;
-  double _share = 1, _share_below = 0;  // of the finest step within the budget, and of the next one tried
+  double _ratio = 1, _ratio_below = 0;  // of the finest step within the budget, and of the next one tried
 };
 
 /// Predicts tetrahedra, and tells of it.
@@ -135,9 +136,10 @@ private:
   std::int64_t _most_leaves;
 };
 
-/// Fills in what strips, short edges and sharp corners may ask for; returns what is predicted with that.
-std::optional<double> share_among_strips(FieldFactory& factory, const SizingOptions& options, double budget,
-                                         const Counter& count, FeatureShare& found) {
+/// Fills in what narrow regions, short edges and sharp corners may ask for; returns what is predicted with
+/// that.
+std::optional<double> resolve_narrow_regions(FieldFactory& factory, const SizingOptions& options,
+                                             double budget, const Counter& count, FeatureResolution& found) {
   const std::optional<double> base = count(options, "features down to", options.minimum);
   found.limited = !base;
   if (!base) return base;
@@ -151,20 +153,20 @@ std::optional<double> share_among_strips(FieldFactory& factory, const SizingOpti
       [&](int step) {
         SizingOptions tried = options;
         set_feature_aspect(tried, aspects[step], found.floor);
-        return count(tried, "strips at an aspect of", aspects[step]);
+        return count(tried, "narrow regions at an aspect of", aspects[step]);
       },
-      elements_along_strips(factory.sampled(), aspects, finest), budget);
+      elements_along_narrow_regions(factory.sampled(), aspects, finest), budget);
   search.run(*base, tetrahedra_per_element);
   found.aspect = aspects[search.found()];
-  found.share = search.share();
+  found.ratio = search.ratio();
   found.limited = search.found() > 0;
-  found.resolved_share = search.finest_share();
-  return *base * found.share;
+  found.resolved_ratio = search.finest_ratio();
+  return *base * found.ratio;
 }
 
 /// Fills in what gaps may ask for beside that, which was predicted to be `base`.
-void share_among_gaps(SizingOptions options, double lowest, double budget, double base, const Counter& count,
-                      FeatureShare& found) {
+void resolve_gaps(SizingOptions options, double lowest, double budget, double base, const Counter& count,
+                  FeatureResolution& found) {
   std::vector<double> floors{lowest}, elements{1 / lowest};
   for (int step = 0; step <= last_step; ++step) {
     const double floor = options.minimum / at_step(last_step - step);
@@ -180,21 +182,22 @@ void share_among_gaps(SizingOptions options, double lowest, double budget, doubl
       std::move(elements), budget);
   search.run(base, {});
   found.gap_floor = floors[search.found()];
-  found.gap_share = search.share();
-  found.share *= found.gap_share;
+  found.gap_ratio = search.ratio();
+  found.ratio *= found.gap_ratio;
 }
 
 }  // namespace
 
-double FeatureShare::aspect_at(double width) const {
+double FeatureResolution::aspect_at(double width) const {
   const double size = aspect == no_aspect ? minimum : std::min(aspect * width, minimum);
   return std::max(size, floor) / width;
 }
 
 void set_feature_aspect(SizingOptions& options, double aspect, double floor) {
-  options.strip_minimum = aspect == no_aspect ? options.minimum : std::min(floor, options.minimum);
-  options.feature_minimum =
-      aspect == no_aspect ? options.minimum : std::max(options.strip_minimum, finest_point * options.minimum);
+  options.narrow_minimum = aspect == no_aspect ? options.minimum : std::min(floor, options.minimum);
+  options.feature_minimum = aspect == no_aspect
+                                ? options.minimum
+                                : std::max(options.narrow_minimum, finest_point * options.minimum);
   options.feature_aspect = aspect == no_aspect ? 1 : aspect;
 }
 
@@ -202,33 +205,33 @@ void set_gap_floor(SizingOptions& options, double floor) {
   options.gap_minimum = std::min(floor, options.minimum);
 }
 
-void set_features(SizingOptions& options, const FeatureShare& features) {
+void set_features(SizingOptions& options, const FeatureResolution& features) {
   if (features.floor > 0) set_feature_aspect(options, features.aspect, features.floor);
   if (features.gap_floor > 0) set_gap_floor(options, features.gap_floor);
 }
 
-FeatureShare share_of_features(FieldFactory& factory, const SizingOptions& options, double budget,
-                               double coarser, std::int64_t most_leaves) {
+FeatureResolution choose_feature_resolution(FieldFactory& factory, const SizingOptions& options,
+                                            double budget, double coarser, std::int64_t most_leaves) {
   if (!(budget >= 1)) {
     throw std::invalid_argument(
         fmt::format("sizing: feature_budget must be at least 1, but it is {}", budget));
   }
-  FeatureShare found;
+  FeatureResolution found;
   found.minimum = found.gap_floor = options.minimum;
   found.floor = std::min(options.minimum, std::max(finest_over_minimum * options.minimum,
                                                    finest_over_gap * factory.model().sewn_gap()));
   // A field that is so many times coarser has the cube of it fewer leaves where it is a volume's, and more
-  // where strips rule. Chosen, not measured.
+  // where narrow regions rule. Chosen, not measured.
   constexpr double slack = 4;
   const double leaves = std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves);
   const Counter count(factory, coarser, std::llround(leaves));
   if (found.floor == options.minimum) return found;
-  const std::optional<double> base = share_among_strips(factory, options, budget, count, found);
+  const std::optional<double> base = resolve_narrow_regions(factory, options, budget, count, found);
   if (!base || factory.gaps().narrowest_gap() >= options.minimum) return found;
-  SizingOptions with_strips = options;
-  set_feature_aspect(with_strips, found.aspect, found.floor);
-  share_among_gaps(with_strips, std::max(factory.gaps().narrowest_gap(), found.floor), budget / found.share,
-                   *base, count, found);
+  SizingOptions with_narrow_regions = options;
+  set_feature_aspect(with_narrow_regions, found.aspect, found.floor);
+  resolve_gaps(with_narrow_regions, std::max(factory.gaps().narrowest_gap(), found.floor),
+               budget / found.ratio, *base, count, found);
   return found;
 }
 

@@ -1,4 +1,4 @@
-#include "sizing/field/pages.hpp"
+#include "sizing/field/subtrees.hpp"
 
 #include "geometry/sort_by_key.hpp"
 
@@ -29,13 +29,13 @@ std::vector<std::int64_t> count_in(const std::vector<Cube>& cubes, CellSpans cel
 
 }  // namespace
 
-Pages::Pages(const parallel::Communicator& communicator, CellSpans own, std::int64_t most)
+Subtrees::Subtrees(const parallel::Communicator& communicator, CellSpans own, std::int64_t most)
     : _communicator(communicator), _rank(communicator.rank()) {
-  struct Page {
+  struct Subtree {
     Cube cube;
     std::int64_t cells;
   };
-  std::vector<Page> pages;
+  std::vector<Subtree> subtrees;
   for (std::vector<Cube> cubes{{0, 0}}; !cubes.empty();) {
     std::vector<std::int64_t> counts = count_in(cubes, own);
     communicator.sum_each(counts);
@@ -43,7 +43,7 @@ Pages::Pages(const parallel::Communicator& communicator, CellSpans own, std::int
     for (std::size_t i = 0; i < cubes.size(); ++i) {
       const auto [key, level] = cubes[i];
       if (counts[2 * i] <= most || counts[2 * i + 1] == 0) {
-        pages.push_back({cubes[i], counts[2 * i]});
+        subtrees.push_back({cubes[i], counts[2 * i]});
         continue;
       }
       for (std::uint64_t child = 0; child < 8; ++child)
@@ -51,26 +51,26 @@ Pages::Pages(const parallel::Communicator& communicator, CellSpans own, std::int
     }
     cubes = std::move(smaller);
   }
-  geometry::sort_by_key(pages, [](const Page& page) { return page.cube.key; });
+  geometry::sort_by_key(subtrees, [](const Subtree& subtree) { return subtree.cube.key; });
   _keys.clear(), _levels.clear();
   std::vector<std::int64_t> weights;
-  for (const Page& page : pages) {
-    _keys.push_back(page.cube.key), _levels.push_back(page.cube.level);
-    weights.push_back(page.cells + 1);  // what is empty is work, too
+  for (const Subtree& subtree : subtrees) {
+    _keys.push_back(subtree.cube.key), _levels.push_back(subtree.cube.level);
+    weights.push_back(subtree.cells + 1);  // what is empty is work, too
   }
   assign_to_ranks(weights, communicator.size());
 }
 
-void Pages::assign_to_ranks(std::span<const std::int64_t> weights, int ranks) {
+void Subtrees::assign_to_ranks(std::span<const std::int64_t> weights, int ranks) {
   const std::int64_t total = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
   _firsts.clear();
   std::int64_t before = 0;
-  for (std::size_t page = 0; page < weights.size(); ++page) {
-    // By its middle: a rank's part begins with the first page that lies in it.
-    const double middle = static_cast<double>(before) + 0.5 * static_cast<double>(weights[page]);
+  for (std::size_t subtree = 0; subtree < weights.size(); ++subtree) {
+    // By its middle: a rank's part begins with the first subtree that lies in it.
+    const double middle = static_cast<double>(before) + 0.5 * static_cast<double>(weights[subtree]);
     while (static_cast<double>(_firsts.size()) * static_cast<double>(total) <= middle * ranks)
-      _firsts.push_back(page);
-    before += weights[page];
+      _firsts.push_back(subtree);
+    before += weights[subtree];
   }
   _firsts.resize(static_cast<std::size_t>(ranks), weights.size());
 }

@@ -31,7 +31,7 @@ double bias_of(double coarser, double growth) {
 
 }  // namespace
 
-RoughField FieldFactory::build_rough_field(const SizingOptions& options) {
+CoarseField FieldFactory::build_coarse_field(const SizingOptions& options) {
   for (double coarser = first_coarser;; coarser *= 2) {
     const bool last = coarser >= coarsest;
     const double most_parts = rough_parts_per_leaf * coarser * coarser * static_cast<double>(most_leaves);

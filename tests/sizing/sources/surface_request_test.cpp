@@ -1,4 +1,4 @@
-#include "sizing/sources/surface_demand.hpp"
+#include "sizing/sources/surface_request.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using geometry::Vec3;
 
-TEST(SurfaceDemand, NearestOfTriangleIsThatOfManyOfItsPoints) {
+TEST(SurfaceRequest, NearestOfTriangleIsThatOfManyOfItsPoints) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto place = [&] { return Vec3{unit(random), unit(random), unit(random)}; };
@@ -36,28 +36,28 @@ TEST(SurfaceDemand, NearestOfTriangleIsThatOfManyOfItsPoints) {
   }
 }
 
-TEST(SurfaceDemand, AWakeHasItsSizesAlongItsLength) {
+TEST(SurfaceRequest, AWakeHasItsSizesAlongItsLength) {
   const Vec3 from{0, 0, 0}, to{0, 4, 0};
   const WakeSize wake{"wake", {{}, from, to, {2, 0, 0}, 10, 1.5}, 0.5};
-  const SurfaceDemand sheet("wake", wake_sheet({{from, to}}, wake), 0);
-  EXPECT_NEAR(sheet.ask({2, 1, 0}, 1e-3, 1).size, 0.7, 1e-3);
-  EXPECT_NEAR(sheet.ask({8, 3, 0}, 1e-3, 2).size, 2.6, 1e-3);
-  EXPECT_EQ(sheet.ask({8, 3, 0.1}, 1e-3, 1).size, no_size);
-  EXPECT_EQ(sheet.ask({11, 3, 0}, 0.5, 1).size, no_size);
+  const SurfaceRequest sheet("wake", wake_sheet({{from, to}}, wake), 0);
+  EXPECT_NEAR(sheet.request_in({2, 1, 0}, 1e-3, 1).size, 0.7, 1e-3);
+  EXPECT_NEAR(sheet.request_in({8, 3, 0}, 1e-3, 2).size, 2.6, 1e-3);
+  EXPECT_EQ(sheet.request_in({8, 3, 0.1}, 1e-3, 1).size, no_size);
+  EXPECT_EQ(sheet.request_in({11, 3, 0}, 0.5, 1).size, no_size);
   // A large cube may hold any of its sizes.
-  EXPECT_NEAR(sheet.ask({8, 3, 0}, 8, 1).least, 0.5, 1e-12);
+  EXPECT_NEAR(sheet.request_in({8, 3, 0}, 8, 1).least, 0.5, 1e-12);
 }
 
-TEST(SurfaceDemand, AWakeWithoutAnEndSizeHasOneSize) {
+TEST(SurfaceRequest, AWakeWithoutAnEndSizeHasOneSize) {
   const WakeSize wake{"wake", {{}, Vec3{0, 0, 0}, Vec3{0, 4, 0}, {1, 0, 0}, 10, {}}, 0.5};
   for (const SizedTriangle& triangle : wake_sheet({{Vec3{0, 0, 0}, Vec3{0, 4, 0}}}, wake))
     EXPECT_EQ(triangle.sizes, (std::array{0.5, 0.5, 0.5}));
 }
 
-TEST(SurfaceDemand, ABandEndsAtItsDistance) {
-  const SurfaceDemand wall("wall", {{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, {0.2, 0.2, 0.2}}}, 0.5);
-  EXPECT_DOUBLE_EQ(wall.ask({0.2, 0.2, 0.49}, 0, 1).size, 0.2);
-  EXPECT_EQ(wall.ask({0.2, 0.2, 0.51}, 0, 1).size, no_size);
+TEST(SurfaceRequest, ABandEndsAtItsDistance) {
+  const SurfaceRequest wall("wall", {{{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, {0.2, 0.2, 0.2}}}, 0.5);
+  EXPECT_DOUBLE_EQ(wall.request_in({0.2, 0.2, 0.49}, 0, 1).size, 0.2);
+  EXPECT_EQ(wall.request_in({0.2, 0.2, 0.51}, 0, 1).size, no_size);
 }
 
 }  // namespace

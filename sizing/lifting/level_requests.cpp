@@ -1,4 +1,4 @@
-#include "sizing/lifting/level_demands.hpp"
+#include "sizing/lifting/level_requests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +14,17 @@ constexpr int intervals_of_edges = 128;
 /// The diagonal of everything over the largest size, at B and at coarse: as where sizes are chosen.
 constexpr double domain_over_maximum = 20;
 
-/// Of the local chord, and of the widest place of a strip: where it is thinner, as where it runs out to a
-/// point, it counts as sharp. Chosen, not measured.
+/// Of the local chord, and of the widest place of a narrow face: where it is thinner, as where it runs out to
+/// a point, it counts as sharp. Chosen, not measured.
 constexpr double thinnest = 1e-4, thinnest_of_widest = 0.05;
 
-SizeLine along(const EdgeLine& edge, double share) {
+SizeLine along(const EdgeLine& edge, double fraction) {
   SizeLine line{edge.points, {}};
-  for (const double chord : edge.chords) line.sizes.push_back(share * chord);
+  for (const double chord : edge.chords) line.sizes.push_back(fraction * chord);
   return line;
 }
 
-/// How wide a strip is at each point of its border.
+/// The width of a narrow face at each point of its side.
 std::vector<double> widths_of(const LiftingElement& element) {
   std::vector<double> widths;
   for (std::size_t i = 0; i < element.opposite.size(); ++i)
@@ -103,18 +103,18 @@ std::vector<SizeLine> level_lines(const cad::Model& model, const LiftingBodies& 
                                   const LevelSizes& level, Vec3 flow) {
   std::vector<SizeLine> lines;
   std::set<cad::EdgeId> ends;
-  std::set<cad::FaceId> strips;
+  std::set<cad::FaceId> blunt_faces;
   for (const LiftingElement& element : bodies.elements) {
     for (const EdgeLine& line : element.leading) lines.push_back(along(line, level.edge));
     add_trailing(element, level, lines);
     add_wake(element, level, flow, lines);
     ends.insert(element.ends.begin(), element.ends.end());
-    strips.insert(element.strip);
+    blunt_faces.insert(element.blunt_face);
   }
   for (const cad::EdgeId id : ends) {
     const auto& faces = model.edge(id).faces;
     const bool is_trailing =
-        std::any_of(faces.begin(), faces.end(), [&](cad::FaceId face) { return strips.contains(face); });
+        std::any_of(faces.begin(), faces.end(), [&](cad::FaceId face) { return blunt_faces.contains(face); });
     if (!is_trailing) lines.push_back(along(model, id, level.span * bodies.semispan));
   }
   return lines;

@@ -27,15 +27,15 @@ constexpr double least_way = 4;
 constexpr double smooth_cosine = 0.5;
 
 /// The boundary lines of one face, which of them lie opposite each other, and how far apart: nearest
-/// distances between curves, for segments of facets may leave them by more than a strip is wide.
-class Strips {
+/// distances between curves, for segments of facets may leave them by more than that.
+class NarrowRegions {
 public:
   /// Widths from `reach` on do not matter.
-  Strips(const cad::Model& model, const Facets& facets, std::span<const EdgePair> closed_corners,
-         const SizingOptions& options, double reach)
+  NarrowRegions(const cad::Model& model, const Facets& facets, std::span<const EdgePair> closed_corners,
+                const SizingOptions& options, double reach)
       : _model(model), _facets(facets), _closed_corners(closed_corners), _options(options), _reach(reach) {}
 
-  std::vector<StripPart> run() {
+  std::vector<NarrowSegment> run() {
     list_lines();
     join_lines();
     look_inwards();
@@ -175,7 +175,7 @@ private:
   }
 
   /// Whether two lines lie opposite each other: those without a common vertex or, beside corners that are
-  /// closed, those that end in one. Where the short end of a strip has
+  /// closed, those that end in one. Where the short end of a narrow region has
   /// nodes of its own, no facet joins the long sides: they are facing if facets lie between the places where
   /// they are nearest. Asked for lines that are near, and remembered.
   bool are_facing(int a, int b) {
@@ -257,9 +257,9 @@ private:
     const Piece& piece = _pieces[hit.tag];
     if (piece.sag <= width_error * hit.away) return std::min(bound, hit.away);
     const auto& [use, nodes, parameters] = _facets.boundary[piece.line];
-    const double share =
+    const double fraction =
         part_along(p, _facets.points[nodes[piece.node]], _facets.points[nodes[piece.node + 1]]);
-    const double guess = (1 - share) * parameters[piece.node] + share * parameters[piece.node + 1];
+    const double guess = (1 - fraction) * parameters[piece.node] + fraction * parameters[piece.node + 1];
     return std::min(bound, cad::foot_on_edge(_model, use.edge, p, guess).away);
   }
 
@@ -270,7 +270,7 @@ private:
     if (least >= _reach || depth >= deepest_bisection) return;
     if (_beside_corners && 0.5 * (a.width + b.width + length) < closing_gap(_options)) return;
     const double narrower = std::min(a.width, b.width);
-    if (length <= strip_size(narrower, _options)) {
+    if (length <= narrow_size(narrower, _options)) {
       _parts.push_back({a.point, b.point, open_width(a.width), open_width(b.width)});
       return;
     }
@@ -301,25 +301,25 @@ private:
   std::map<std::pair<int, int>, bool> _facing;  // of those asked for, the lower line first
   bool _beside_corners = false;                 // edges that share a vertex are looked at, and no others
   geometry::BoxTree _plane;                     // of the facets' parameters, when it is asked for
-  std::vector<StripPart> _parts;
+  std::vector<NarrowSegment> _parts;
 };
 
 }  // namespace
 
-std::vector<StripPart> strip_parts(const cad::Model& model, const Facets& facets,
-                                   std::span<const EdgePair> closed_corners, const SizingOptions& options,
-                                   double reach) {
-  return Strips(model, facets, closed_corners, options, reach).run();
+std::vector<NarrowSegment> narrow_segments(const cad::Model& model, const Facets& facets,
+                                           std::span<const EdgePair> closed_corners,
+                                           const SizingOptions& options, double reach) {
+  return NarrowRegions(model, facets, closed_corners, options, reach).run();
 }
 
-std::vector<SizeSource> strip_sources(const cad::Model& model, const Facets& facets,
-                                      std::span<const EdgePair> closed_corners, const SizingOptions& options,
-                                      double reach) {
+std::vector<SizeSource> narrow_sources(const cad::Model& model, const Facets& facets,
+                                       std::span<const EdgePair> closed_corners, const SizingOptions& options,
+                                       double reach) {
   std::vector<SizeSource> sources;
-  for (const StripPart& part : strip_parts(model, facets, closed_corners, options, reach)) {
+  for (const NarrowSegment& part : narrow_segments(model, facets, closed_corners, options, reach)) {
     for (const auto& [point, width] :
          {std::pair(part.first, part.first_width), std::pair(part.last, part.last_width)}) {
-      if (width < reach) sources.push_back({point, strip_size(width, options)});
+      if (width < reach) sources.push_back({point, narrow_size(width, options)});
     }
   }
   return sources;

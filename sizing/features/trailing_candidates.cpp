@@ -1,4 +1,4 @@
-#include "sizing/features/lifting_seeds.hpp"
+#include "sizing/features/trailing_candidates.hpp"
 
 #include "geometry/angle.hpp"
 #include "sizing/features/segment_tree.hpp"
@@ -21,9 +21,9 @@ constexpr int intervals = 128;
 void add_points(const cad::Model& model, cad::EdgeId id, bool against, std::vector<Vec3>& points) {
   const cad::Edge& edge = model.edge(id);
   for (int i = points.empty() ? 0 : 1; i <= intervals; ++i) {
-    const double share = static_cast<double>(against ? intervals - i : i) / intervals;
+    const double fraction = static_cast<double>(against ? intervals - i : i) / intervals;
     points.push_back(
-        model.edge_point(id, edge.first_parameter + share * (edge.last_parameter - edge.first_parameter)));
+        model.edge_point(id, edge.first_parameter + fraction * (edge.last_parameter - edge.first_parameter)));
   }
 }
 
@@ -76,48 +76,49 @@ bool opens_ahead(const cad::Model& model, const std::vector<Pass>& passes, doubl
 
 }  // namespace
 
-std::optional<TrailingSeed> blunt_seed(const cad::Model& model, cad::FaceId face, Vec3 flow) {
+std::optional<TrailingCandidate> blunt_candidate(const cad::Model& model, cad::FaceId face, Vec3 flow) {
   using Kind = cad::BluntEdgeFinding::Kind;
   const cad::BluntEdgeFinding found = cad::examine_blunt_edge(model, face, 0);
   if (found.kind != Kind::closable && found.kind != Kind::wide) return std::nullopt;
   const cad::BluntEdge& strip = found.edge;
   const auto looks_back = [&](const cad::BluntStation& at) { return -dot(at.into, flow) > least_cosine; };
   if (!std::all_of(strip.stations.begin(), strip.stations.end(), looks_back)) return std::nullopt;
-  TrailingSeed seed;
-  seed.element.strip = face;
+  TrailingCandidate candidate;
+  candidate.element.blunt_face = face;
   const std::vector<Vec3> other = border_points(model, strip.borders[1]);
-  seed.element.trailing.points = border_points(model, strip.borders[0]);
-  for (const Vec3 p : seed.element.trailing.points) seed.element.opposite.push_back(nearest_point(other, p));
+  candidate.element.trailing.points = border_points(model, strip.borders[0]);
+  for (const Vec3 p : candidate.element.trailing.points)
+    candidate.element.opposite.push_back(nearest_point(other, p));
   for (const auto& border : strip.borders) {
-    for (const cad::BorderEdge& each : border) seed.neighbours.push_back(each.neighbour);
+    for (const cad::BorderEdge& each : border) candidate.neighbours.push_back(each.neighbour);
     const auto vertex = [&](const cad::BorderEdge& each, bool at_first) {
       const cad::Edge& edge = model.edge(each.strip_use.edge);
       return at_first != each.against ? edge.first : edge.last;
     };
-    seed.element.end_vertices[0].insert(vertex(border.front(), true));
-    seed.element.end_vertices[1].insert(vertex(border.back(), false));
+    candidate.element.end_vertices[0].insert(vertex(border.front(), true));
+    candidate.element.end_vertices[1].insert(vertex(border.back(), false));
   }
-  return seed;
+  return candidate;
 }
 
-std::optional<TrailingSeed> sharp_seed(const cad::Model& model, cad::EdgeId id, Vec3 flow) {
+std::optional<TrailingCandidate> sharp_candidate(const cad::Model& model, cad::EdgeId id, Vec3 flow) {
   const cad::Edge& edge = model.edge(id);
   if (edge.degenerate) return std::nullopt;
   const std::vector<Pass> passes = passes_of(model, id);
   if (passes.size() != 2) return std::nullopt;
   for (const Pass& pass : passes)
     if (model.is_far_field(pass.face) || model.face(pass.face).back != cad::no_entity) return std::nullopt;
-  for (const double share : {0.2, 0.5, 0.8}) {
-    const double at = edge.first_parameter + share * (edge.last_parameter - edge.first_parameter);
+  for (const double fraction : {0.2, 0.5, 0.8}) {
+    const double at = edge.first_parameter + fraction * (edge.last_parameter - edge.first_parameter);
     if (!opens_ahead(model, passes, at, flow)) return std::nullopt;
   }
-  TrailingSeed seed;
-  seed.element.edge = id;
-  add_points(model, id, false, seed.element.trailing.points);
-  for (const Pass& pass : passes) seed.neighbours.push_back(pass.face);
-  seed.element.end_vertices[0].insert(edge.first);
-  seed.element.end_vertices[1].insert(edge.last);
-  return seed;
+  TrailingCandidate candidate;
+  candidate.element.edge = id;
+  add_points(model, id, false, candidate.element.trailing.points);
+  for (const Pass& pass : passes) candidate.neighbours.push_back(pass.face);
+  candidate.element.end_vertices[0].insert(edge.first);
+  candidate.element.end_vertices[1].insert(edge.last);
+  return candidate;
 }
 
 }  // namespace aeroloom::sizing
