@@ -104,7 +104,7 @@ TEST(Cusps, LeaveAValidSurfaceOfTheSameArea) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
-  EXPECT_TRUE(mesh::check_surface_mesh(numbered).valid());
+  EXPECT_TRUE(mesh::check_surface_mesh(surface).valid());
   double area = 0;
   for (const mesh::Piece& piece : surface.pieces) {
     mesh::require_consistent_arrays(piece);

@@ -37,7 +37,7 @@ SurfaceMesh mesh_of(const Model& model, double size, int needle_rounds,
                     const Communicator& communicator = Communicator::world()) {
   SurfaceMesh surface = mesh_surface(model, testing::uniform_field(model, size, communicator),
                                      {.needle_rounds = needle_rounds});
-  EXPECT_TRUE(mesh::check_surface_mesh(numbered).valid());
+  EXPECT_TRUE(mesh::check_surface_mesh(surface).valid());
   return surface;
 }
 
