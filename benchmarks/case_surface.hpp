@@ -17,8 +17,7 @@ struct CaseSurface {
 
 /// Collective.
 inline CaseSurface mesh_surface(const parallel::Communicator& communicator, const cases::Case& input) {
-  cad::DomainReport domain;
-  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain).model;
   const domain::SizedDomain sized =
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
   CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface), {}};

@@ -311,7 +311,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   if (!meshable) clock.end();
   if (meshable) {
     cases::TypedPatches patches =
-        domain::find_patches(communicator, domain::share_model(communicator, std::move(bytes)), input);
+        domain::find_patches(communicator, domain::broadcast_model(communicator, std::move(bytes)), input);
     clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;

@@ -104,9 +104,9 @@ std::string difference(const std::string& then, const std::string& now) {
 
 }  // namespace
 
-Checkpoints::Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
+Checkpoints::Checkpoints(parallel::Communicator communicator, const cases::Case& input,
                          const RunIdentity& identity)
-    : _communicator(communicator),
+    : _communicator(std::move(communicator)),
       _input(input),
       _identity(identity),
       _folder(input.output.directory + "/checkpoint"),

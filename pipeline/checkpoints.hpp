@@ -27,8 +27,7 @@ class Checkpoints {
 public:
   /// Where a run is to go on, refuses checkpoints of another geometry or program: throws
   /// std::invalid_argument. Collective.
-  Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
-              const RunIdentity& identity);
+  Checkpoints(parallel::Communicator communicator, const cases::Case& input, const RunIdentity& identity);
 
   /// The result of the stage from an earlier run, if it can be had; says why where it is there and cannot.
   /// Collective.
@@ -50,7 +49,7 @@ private:
   void remove_volume_of(SavedStage kept);
   bool attempt(const std::function<void()>& work);
 
-  const parallel::Communicator& _communicator;
+  parallel::Communicator _communicator;
   const cases::Case& _input;
   RunIdentity _identity;
   std::string _folder;

@@ -10,13 +10,10 @@
 
 namespace aeroloom::pipeline {
 
-using parallel::Communicator;
-
 namespace {
 
 /// Areas and counts by face; sums run in the order of the pieces, whatever rank they live on.
 std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh::DistributedMesh& surface) {
-  const Communicator& communicator = surface.communicator;
   struct PieceRow {
     mesh::PieceId piece;
     cad::FaceId face;
@@ -37,7 +34,7 @@ std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh:
     }
     mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
   }
-  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
+  std::vector<PieceRow> rows = surface.communicator.all_gather_items<PieceRow>(mine);
   std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
   std::vector<report::FaceRow> faces;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
@@ -74,19 +71,20 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 }  // namespace
 
-void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record) {
+void inspect_surface(const std::string& what, FinishedSurface& surface) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(surface.mesh, surface.numbering));
-  record.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
-  record.face_table = table_of_faces(surface.model, surface.mesh);
-  record.patches = table_of_patches(surface.model, record.face_table, surface.patch_types);
+  report::SurfaceFigures& figures = surface.figures;
+  figures.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
+  figures.face_table = table_of_faces(surface.model, surface.mesh);
+  figures.patches = table_of_patches(surface.model, figures.face_table, surface.patch_types);
 }
 
 void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record) {
+                    FinishedSurface& surface) {
   surface.mesh = mesh::boundary_mesh(volume, numbering);
   surface.numbering = mesh::number_mesh(surface.mesh);
-  inspect_surface("the improved surface mesh", surface, record);
+  inspect_surface("the improved surface mesh", surface);
 }
 
 }  // namespace aeroloom::pipeline

@@ -3,8 +3,7 @@
 
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "pipeline/run.hpp"
+#include "pipeline/report/run_record.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <string>
@@ -18,15 +17,19 @@ struct FinishedSurface : mesh::NumberedMesh {
   surface::SurfaceReport report;
   cad::Model model;
   std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
+  sizing::SizingOptions sizes;               ///< that it was made for
+  double forecast_tetrahedra = 0;            ///< by these sizes
   bool bounds_volume = true;  ///< false where layers end on planes: the volume has other triangles there
+  report::SurfaceFigures figures = {};  ///< by inspect_surface()
 };
 
-/// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
-/// require_valid().
-void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record);
+/// Checks the surface and measures its quality, faces and patches. `what` names it in messages. Collective.
+/// Throws as require_valid().
+void inspect_surface(const std::string& what, FinishedSurface& surface);
 
-/// The surface follows a volume whose boundary was improved. Collective.
+/// Replaces the surface mesh by the boundary of a volume that was improved there. Collective. Throws as
+/// inspect_surface().
 void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record);
+                    FinishedSurface& surface);
 
 }  // namespace aeroloom::pipeline

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "parallel/storage/task_store.hpp"
 #include "pipeline/case/case.hpp"
-#include "pipeline/run.hpp"
+#include "pipeline/report/run_record.hpp"
 
 #include <string>
 #include <vector>
@@ -16,17 +15,20 @@ namespace aeroloom::pipeline {
 /// with the violations.
 void require_valid(const std::string& what, const mesh::ValidityReport& report);
 
-/// Improves the mesh as the case asks for, and puts on record what it returns; `tasks` as in
-/// improve::improve_mesh. Collective.
-improve::ImproveReport improve_volume(const cases::Case& input, const improve::MeshSource& source,
-                                      mesh::DistributedMesh& volume, report::RunRecord& record,
+/// Improvement as the case asks for it. The boundary stays as it is where layers stand on it.
+improve::ImproveOptions improve_options(const cases::Case& input);
+
+/// Improves the mesh if the options enable it, and logs the result; `tasks` as in improve::improve_mesh.
+/// Collective.
+improve::ImproveReport improve_volume(const improve::ImproveOptions& options,
+                                      const improve::MeshSource& source, mesh::DistributedMesh& volume,
                                       parallel::TaskStore* tasks = nullptr);
 
-/// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
-/// on record; `surface` may be null. Returns the counts. Collective. Throws as require_valid().
-mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
-                                const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                                report::RunRecord& record);
+/// Checks the finished mesh and measures it; `options` are those that it was improved with, `surface` may be
+/// null. Collective. Throws as require_valid().
+report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, const cases::QualityGate& gate,
+                                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
+                                     const mesh::DistributedMesh* surface);
 
 /// Adds the volumes of the regions of the model, for comparison.
 void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);
@@ -35,10 +37,19 @@ void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& re
 /// Collective.
 std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume);
 
-/// The warning about a region that misses the volume of the CAD's by more than the gate allows, but is
-/// so few of the smallest elements wide that these explain it. Empty where there is none.
-std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record);
+/// The results that the quality gate judges. Refers to its members' originals.
+struct JudgedMesh {
+  const report::VolumeFigures& volume;
+  const std::vector<report::PatchRow>& patches;
+  const report::LayerRecord* layers = nullptr;  ///< null: a mesh without layers
+  sizing::SizingOptions sizes = {};             ///< for messages
+  std::string unit = {};                        ///< of lengths, for messages
+};
+
+/// A warning about a region whose volume misses the CAD's by more than the gate allows, where the region is
+/// only a few of the smallest elements wide. Empty where there is none.
+std::string coarse_region(const cases::QualityGate& gate, const JudgedMesh& mesh);
 /// Throws StageFailure when the finished mesh, or its layers, miss the limits of the case.
-void require_quality(const cases::Case& input, const report::RunRecord& record);
+void require_quality(const cases::Case& input, const JudgedMesh& mesh);
 
 }  // namespace aeroloom::pipeline

@@ -137,8 +137,9 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks) {
   return base_bytes * ranks + bytes_per_tetrahedron * counts.tetrahedra;
 }
 
-void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
-                    const std::vector<mesh::PatchType>& types, const cases::Case& input) {
+void require_memory(const domain::SizedDomain& sized, const std::vector<mesh::PatchType>& types,
+                    const cases::Case& input) {
+  const parallel::Communicator& communicator = sized.field.communicator();
   const auto limit = static_cast<double>(communicator.minimum(input.memory_limit));
   if (limit <= 0) return;
   const int ranks = communicator.size();

@@ -1,7 +1,6 @@
 /// The expected cost of a run, from predicted counts and constants that runs have shown (docs/usage.md).
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/domain/size_domain.hpp"
 #include "pipeline/layer_forecast.hpp"
@@ -28,7 +27,7 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
 /// Ends a run that is predicted to take more than `input.memory_limit` bytes on its fullest node, and says
 /// what would fit: CollectiveError (resources). Nothing where the limit is 0. `types` are those of the
 /// model's patches, which layers depend on. Collective.
-void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
-                    const std::vector<mesh::PatchType>& types, const cases::Case& input);
+void require_memory(const domain::SizedDomain& sized, const std::vector<mesh::PatchType>& types,
+                    const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

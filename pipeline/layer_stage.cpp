@@ -87,8 +87,7 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 
 }  // namespace
 
-LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record) {
-  const parallel::Communicator communicator = surface.mesh.communicator;
+LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) {
   surface.mesh.patch_types = surface.patch_types;
   const layers::LayerOptions options =
       cases::layer_options(input.layers, input.sizing, surface.mesh.patches, surface.patch_types);
@@ -101,13 +100,15 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, 
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
-  record.layers.emplace(report::LayerRecord{options, std::move(made.report)});
-  log_layers(record);
+  log_layers(made.report);
   const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
-  sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
+  sizing::SizeField field = surface.mesh.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)
                                 : surface.field;
-  return {std::move(made.columns), layers::name_front(std::move(made.front)), std::move(field)};
+  return {std::move(made.columns),
+          layers::name_front(std::move(made.front)),
+          std::move(field),
+          {options, std::move(made.report)}};
 }
 
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "layers/layer_cells.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/finished_surface.hpp"
-#include "pipeline/run.hpp"
 
 namespace aeroloom::pipeline {
 
@@ -12,11 +12,12 @@ struct LayeredSurface {
   layers::Columns columns;
   layers::NamedFront front;
   sizing::SizeField field;
+  report::LayerRecord record;
 };
 
 /// Columns on the walls of the surface; planes that layers end on are meshed again. Collective. Throws
 /// std::invalid_argument for layers of patches that there are not.
-LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record);
+LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface);
 
 /// Puts the layers before the tetrahedra behind their front. Collective.
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,

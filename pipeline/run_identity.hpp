@@ -23,9 +23,8 @@ struct RunIdentity {
 /// Rank 0 reads the files. That a geometry file cannot be read is for the reader to tell. Collective.
 RunIdentity identify_run(const parallel::Communicator& communicator, const cases::Case& input);
 
-/// After the geometry was read: throws CollectiveError (files) where the file is no longer the one that was
-/// identified. Collective.
-void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
-                       const cases::Case& input);
+/// Throws std::filesystem::filesystem_error if the files have changed since identify_run(). One rank calls
+/// it, after the geometry was read.
+void require_same_file(const RunIdentity& identity, const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

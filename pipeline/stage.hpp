@@ -2,8 +2,8 @@
 #pragma once
 
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "pipeline/report/exit_code.hpp"
-#include "pipeline/run.hpp"
 
 #include <string>
 
@@ -35,8 +35,8 @@ private:
 /// fail_stage() does. What is thrown here has been agreed on by all ranks or follows from data that all ranks
 /// share.
 template <class Work>
-auto run_stage(report::RunRecord& record, const std::string& name, report::ExitCode code, Work work) {
-  const OpenStage open(record.clock, name);
+auto run_stage(parallel::StageClock& clock, const std::string& name, report::ExitCode code, Work work) {
+  const OpenStage open(clock, name);
   try {
     return work();
   } catch (...) {

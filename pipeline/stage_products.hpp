@@ -32,11 +32,10 @@ struct SurfaceProduct {
   const domain::SizedDomain& sized;
   bool sizes_are_other;  ///< than those of the stage before: they come along
 };
-io::CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product);
+io::CheckpointDraft pack_surface(const SurfaceProduct& product);
 /// `sized` becomes what the surface is of, where that came along. Nothing where it is the surface of other
 /// sizes or of other joined faces.
-std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
-                                                   io::CheckpointContent content, const cad::Model& domain,
+std::optional<surface::SurfaceMesh> unpack_surface(io::CheckpointContent content, const cad::Model& domain,
                                                    domain::SizedDomain& sized);
 
 /// A volume with what its stages tell.

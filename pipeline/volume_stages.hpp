@@ -4,7 +4,6 @@
 #include "cad/model/model.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
-#include "pipeline/run.hpp"
 #include "pipeline/stage_products.hpp"
 #include "volume/volume_mesher.hpp"
 
@@ -29,27 +28,24 @@ struct VolumeStart {
 /// earlier run where there is one, else made and kept. All of it is collective.
 class VolumeStages {
 public:
-  VolumeStages(const parallel::Communicator& communicator, const cases::Case& input,
-               report::RunRecord& record, Checkpoints& checkpoints)
-      : _communicator(communicator), _input(input), _record(record), _checkpoints(checkpoints) {}
+  VolumeStages(const cases::Case& input, Checkpoints& checkpoints)
+      : _input(input), _checkpoints(checkpoints) {}
 
   VolumeStart decompose(const VolumeBoundary& boundary);
-  /// Nothing where an earlier run has the improved volume.
-  VolumeProduct fill(const VolumeBoundary& boundary, VolumeStart& start);
+  /// Nothing where an earlier run has the improved volume. `tried` gets the report of a filling that fails.
+  VolumeProduct fill(const VolumeBoundary& boundary, VolumeStart& start, volume::VolumeReport& tried);
   /// Improved, where the case asks for that.
   VolumeProduct improve(const cad::Model& model, const VolumeBoundary& boundary, VolumeStart& start,
                         VolumeProduct filled);
 
 private:
-  VolumeProduct adopt(io::CheckpointContent content, const char* stage);
+  VolumeProduct adopt(const VolumeBoundary& boundary, io::CheckpointContent content);
   void keep(SavedStage saved, const VolumeProduct& product);
   volume::VolumeInput input_of(const VolumeBoundary& boundary);
   mesh::DistributedMesh fill_zones(const VolumeBoundary& boundary, volume::Decomposition zones,
                                    volume::VolumeReport& report);
 
-  const parallel::Communicator& _communicator;
   const cases::Case& _input;
-  report::RunRecord& _record;
   Checkpoints& _checkpoints;
 };
 

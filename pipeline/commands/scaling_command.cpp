@@ -245,14 +245,13 @@ void add_options(CLI::App& app, ScalingArguments& arguments) {
     other->excludes(jobs)->excludes(collect)->excludes(compare);
 }
 
-int run_scaling(const parallel::Communicator& communicator, const ScalingArguments& arguments,
-                const Loudness& loudness) {
+int run_scaling(const Invocation& invocation, const ScalingArguments& arguments) {
   const bool measures = !arguments.prediction.measured.empty();
-  if (communicator.size() > 1 && !measures)
-    return fail(communicator, report::ExitCode::usage,
+  if (invocation.communicator.size() > 1 && !measures)
+    return fail(invocation, report::ExitCode::usage,
                 "scaling starts the ranks of its runs itself. Remedy: call it without a launcher");
   const auto guard = [&](const std::function<report::ExitCode()>& work) {
-    return guarded(communicator, report::ExitCode::files, [&] {
+    return guarded(invocation, report::ExitCode::files, [&] {
       try {
         return work();
       } catch (const std::ios_base::failure&) {
@@ -262,18 +261,18 @@ int run_scaling(const parallel::Communicator& communicator, const ScalingArgumen
       }
     });
   };
-  parallel::configure_log(communicator, loudness.level());
-  if (measures) return guard([&] { return measure_network(communicator, arguments.prediction.measured); });
+  invocation.configure_log();
+  if (measures) return guard([&] { return measure_network(invocation, arguments.prediction.measured); });
   if (!arguments.prediction.run.empty())
     return guard([&] { return predict_run(arguments.prediction, arguments.ranks); });
   if (!arguments.compared.empty()) return guard([&] { return compare_studies(arguments); });
   if (!arguments.collected.empty()) return guard([&] { return collect_study(arguments); });
   if (arguments.file.empty())
-    return fail(communicator, report::ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
-  return with_case(communicator, arguments, loudness, [&](const cases::Case& input) {
+    return fail(invocation, report::ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
+  return with_case(invocation, arguments, [&](const cases::Case& input) {
     return guard([&] {
       fs::create_directories(input.output.directory);
-      const OutputLock lock(communicator, input.output.directory);
+      const OutputLock lock(invocation.communicator, input.output.directory);
       return arguments.jobs.empty() ? carry_out_study(arguments, input) : write_study_jobs(arguments, input);
     });
   });
@@ -300,9 +299,7 @@ Command add_scaling(CLI::App& program) {
         "latency and bandwidth, for --predict out --network network.json"}},
       {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::resources,
        report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return run_scaling(communicator, *arguments, loudness);
-          }};
+  return {app, [arguments](const Invocation& invocation) { return run_scaling(invocation, *arguments); }};
 }
 
 }  // namespace aeroloom::pipeline

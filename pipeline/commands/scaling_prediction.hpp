@@ -1,7 +1,6 @@
 /// `aeroloom scaling --predict` and `--measure-network`.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "pipeline/report/exit_code.hpp"
 #include "pipeline/study/replay.hpp"
 
@@ -16,6 +15,8 @@ class Option;
 }  // namespace CLI
 
 namespace aeroloom::pipeline {
+
+struct Invocation;
 
 /// Files and figures that a prediction goes by. Empty: not asked for.
 struct PredictionArguments {
@@ -37,6 +38,6 @@ study::Network network_of(const PredictionArguments& arguments);
 report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks);
 
 /// Measures between the ranks, prints, and writes the file. Collective.
-report::ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file);
+report::ExitCode measure_network(const Invocation& invocation, const std::string& file);
 
 }  // namespace aeroloom::pipeline

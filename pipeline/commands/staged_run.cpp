@@ -24,8 +24,6 @@
 
 namespace aeroloom::pipeline {
 
-using parallel::Communicator;
-
 namespace {
 
 /// By rank 0, unless facts are not wanted.
@@ -40,9 +38,9 @@ void tell_older(const std::vector<std::string>& files, const std::string& folder
 }
 
 /// Hours of meshing are not lost on a folder that was mistyped.
-void require_writable_folder(const Communicator& communicator, const std::string& folder) {
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+void require_writable_folder(const Invocation& invocation, const std::string& folder) {
+  parallel::agree(invocation.communicator, [&] {
+    if (!invocation.communicator.is_root()) return;
     std::filesystem::create_directories(folder);
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
       throw std::filesystem::filesystem_error("cannot write into", folder,
@@ -52,14 +50,15 @@ void require_writable_folder(const Communicator& communicator, const std::string
 
 }  // namespace
 
-int run_stages(const Communicator& communicator, const cases::Case& input,
-               const report::ReportSubject& subject, const std::function<void(report::RunRecord&)>& stages) {
+int run_stages(const Invocation& invocation, const cases::Case& input, const report::ReportSubject& subject,
+               const std::function<void(report::RunRecord&)>& stages) {
+  const parallel::Communicator& communicator = invocation.communicator;
   std::optional<OutputLock> lock;
   try {
-    require_writable_folder(communicator, input.output.directory);
+    require_writable_folder(invocation, input.output.directory);
     lock.emplace(communicator, input.output.directory);
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, report::ExitCode::files, fmt::format("output.directory: {}", error.what()));
+    return fail(invocation, report::ExitCode::files, fmt::format("output.directory: {}", error.what()));
   }
   std::optional<EarlierFiles> earlier;  // rank 0 looks at the folder
   if (communicator.is_root()) earlier.emplace(input.output);
@@ -102,8 +101,7 @@ int run_stages(const Communicator& communicator, const cases::Case& input,
       outcome = {report::ExitCode::resources, "output", parallel::out_of_memory_text()};
   }
   if (outcome.code != report::ExitCode::ok) {
-    return fail(communicator, outcome.code,
-                fmt::format("stage {} failed: {}", outcome.stage, outcome.message));
+    return fail(invocation, outcome.code, fmt::format("stage {} failed: {}", outcome.stage, outcome.message));
   }
   for (const io::FileFormat format : input.output.formats) {
     const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();

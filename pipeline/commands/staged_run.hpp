@@ -11,7 +11,7 @@ namespace aeroloom::pipeline {
 
 /// Does the stages (run_case, improve_file) and reports, a failure too as far as the output directory can be
 /// written. Returns the exit code. Collective.
-int run_stages(const parallel::Communicator& communicator, const cases::Case& input,
-               const report::ReportSubject& subject, const std::function<void(report::RunRecord&)>& stages);
+int run_stages(const Invocation& invocation, const cases::Case& input, const report::ReportSubject& subject,
+               const std::function<void(report::RunRecord&)>& stages);
 
 }  // namespace aeroloom::pipeline

@@ -188,8 +188,8 @@ cad::CadFacts look_sandboxed(const std::string& file) {
   return parallel::from_wire<cad::CadFacts>(run_task(look_task, options, Fault::none));
 }
 
-cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
-                       cad::DomainReport& report) {
+cad::Domain load_domain(const parallel::Communicator& communicator, const DomainOptions& options) {
+  cad::DomainReport report;
   Bytes bytes;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
@@ -198,10 +198,10 @@ cad::Model load_domain(const parallel::Communicator& communicator, const DomainO
     report = std::move(domain.report);
     bytes = domain.model.serialise();
   });
-  return share_model(communicator, std::move(bytes));
+  return {broadcast_model(communicator, std::move(bytes)), std::move(report)};
 }
 
-cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
+cad::Model broadcast_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
   communicator.broadcast(bytes);
   std::optional<cad::Model> model;
   parallel::agree(communicator, [&] {

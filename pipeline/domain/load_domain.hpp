@@ -7,12 +7,11 @@
 
 namespace aeroloom::domain {
 
-/// Rank 0 prepares the domain, every rank numbers its entities from the same bytes. `report` is filled on
-/// rank 0 alone. Collective; throws CollectiveError.
-cad::Model load_domain(const parallel::Communicator& communicator, const cad::DomainOptions& options,
-                       cad::DomainReport& report);
+/// Rank 0 prepares the domain; every rank numbers its entities from the same bytes. Only rank 0 has the
+/// report. Collective; throws CollectiveError.
+cad::Domain load_domain(const parallel::Communicator& communicator, const cad::DomainOptions& options);
 
 /// The model that rank 0 has as bytes, on every rank. Collective; throws CollectiveError.
-cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes);
+cad::Model broadcast_model(const parallel::Communicator& communicator, parallel::Bytes bytes);
 
 }  // namespace aeroloom::domain

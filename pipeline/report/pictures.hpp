@@ -14,7 +14,6 @@
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/report/exit_code.hpp"
 #include "pipeline/report/picture.hpp"
@@ -34,19 +33,18 @@ struct PictureSource {
 
 /// Pictures of the volume, or of the surface alone where `volume` is null, on rank 0, the same bytes for any
 /// number of ranks; nothing elsewhere. A failure is a warning, and there are no pictures. Collective.
-std::vector<Picture> pictures_or_warning(const parallel::Communicator& communicator,
-                                         const mesh::DistributedMesh* volume, const PictureSource& source);
+std::vector<Picture> pictures_or_warning(const PictureSource& source, const mesh::DistributedMesh* volume);
 
 /// Runs `work` and returns its result. Should the volume fail there, the surface alone is pictured before the
 /// failure goes on, if the output is to have pictures. Collective.
 template <class Work>
-auto with_pictures_of_failure(const parallel::Communicator& communicator, const PictureSource& source,
-                              const cases::OutputOptions& output, std::vector<Picture>& pictures, Work work) {
+auto with_pictures_of_failure(const PictureSource& source, const cases::OutputOptions& output,
+                              std::vector<Picture>& pictures, Work work) {
   try {
     return work();
   } catch (const StageFailure& failure) {
     if (output.pictures && failure.code() == ExitCode::volume)
-      pictures = pictures_or_warning(communicator, nullptr, source);
+      pictures = pictures_or_warning(source, nullptr);
     throw;
   }
 }

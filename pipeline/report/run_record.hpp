@@ -58,10 +58,27 @@ struct LayerRecord {
   layers::LayerReport report;
 };
 
-/// Everything a run has found out: each stage puts its findings there, and the report is written from it. No
-/// stage takes from it what another has put there. The same on every rank except `domain` and `pictures`,
-/// which rank 0 alone holds.
-struct RunRecord {
+/// The results of checking a finished surface mesh.
+struct SurfaceFigures {
+  std::optional<mesh::QualitySummary> surface_quality;
+  std::vector<FaceRow> face_table;  ///< by face id; empty of a mesh from a file
+  std::vector<PatchRow> patches;
+};
+
+/// The results of checking a finished volume mesh.
+struct VolumeFigures {
+  mesh::MeshCounts counts;
+  double mesh_volume = 0;
+  std::string hash;
+  std::optional<mesh::QualitySummary> quality;
+  std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for measures that only this has
+  attribution::PinnedReport pinned;
+  std::vector<RegionRow> regions_filled;
+};
+
+/// The facts of a run, from which its report is written. The driver copies the results of each stage into the
+/// record and never reads it. Equal on every rank, but only rank 0 has `domain` and `pictures`.
+struct RunRecord : SurfaceFigures, VolumeFigures {
   std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
   std::int64_t input_bytes = 0;      ///< of that file
   std::vector<std::string> resumed;  ///< stages whose results came from an earlier run
@@ -80,15 +97,6 @@ struct RunRecord {
   volume::VolumeReport volume;
   attribution::SizeConformity conformity;
   improve::ImproveReport improve;
-  attribution::PinnedReport pinned;
-  mesh::MeshCounts counts;
-  double mesh_volume = 0;
-  std::string hash;
-  std::optional<mesh::QualitySummary> surface_quality, quality;
-  std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for what only this has
-  std::vector<PatchRow> patches;
-  std::vector<FaceRow> face_table;  ///< by face id; empty of a mesh from a file
-  std::vector<RegionRow> regions_filled;
   std::vector<Picture> pictures;
   parallel::StageClock clock;
   double wall_seconds = 0;  ///< of the program, from its start to the end of the last stage

@@ -323,15 +323,15 @@ TEST(SizeDomain, OtherSizesComeWithTheSurface) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
   const SizedDomain joined = size(model, 0.1, cases::NarrowFaces::join),
                     kept = size(model, 0.1, cases::NarrowFaces::keep);
-  const mesh::DistributedMesh empty;
+  const mesh::DistributedMesh empty(world);
   SizedDomain sized = joined;
-  const auto with = pipeline::pack_surface(world, {empty, kept.field, {}, kept, true});
-  EXPECT_TRUE(pipeline::unpack_surface(world, as_read(with), model, sized));
+  const auto with = pipeline::pack_surface({empty, kept.field, {}, kept, true});
+  EXPECT_TRUE(pipeline::unpack_surface(as_read(with), model, sized));
   EXPECT_TRUE(sized.findings.joined.groups.empty());
   EXPECT_EQ(sized.field.digest(), kept.field.digest());
   sized = joined;
-  const auto without = pipeline::pack_surface(world, {empty, kept.field, {}, kept, false});
-  EXPECT_FALSE(pipeline::unpack_surface(world, as_read(without), model, sized));
+  const auto without = pipeline::pack_surface({empty, kept.field, {}, kept, false});
+  EXPECT_FALSE(pipeline::unpack_surface(as_read(without), model, sized));
   EXPECT_EQ(sized.field.digest(), joined.field.digest());
 }
 
