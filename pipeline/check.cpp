@@ -22,7 +22,6 @@
 #include <filesystem>
 #include <ios>
 #include <set>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>

@@ -162,7 +162,7 @@ void Checkpoints::refuse_imported() const {
     std::optional<io::CheckpointLabel> found;
     try {
       found = io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
-    } catch (const parallel::CollectiveError&) {  // find() tells, where it is needed
+    } catch (const parallel::CollectiveError&) {  // find() logs it where it matters
     }
     if (!found) continue;
     const io::CheckpointLabel own = label_of(stage);

@@ -5,45 +5,25 @@
 #include "mesh/quality/quality.hpp"
 #include "pipeline/finished_volume.hpp"
 
-#include <algorithm>
-#include <tuple>
-
 namespace aeroloom::pipeline {
 
 namespace {
 
 /// Areas and counts by face; sums run in the order of the pieces, whatever rank they live on.
 std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh::DistributedMesh& surface) {
-  struct PieceRow {
-    mesh::PieceId piece;
-    cad::FaceId face;
-    double area;
-    std::int64_t triangles;
-
-    static constexpr auto fields() {
-      return std::tuple(&PieceRow::piece, &PieceRow::face, &PieceRow::area, &PieceRow::triangles);
-    }
-  };
-  std::vector<PieceRow> mine;
+  std::vector<PieceArea> mine;
   for (const mesh::Piece& piece : surface.pieces) {
-    double area = 0;
-    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const mesh::LocalIndex* v = piece.cell(t);
-      const geometry::Vec3 a = piece.point(v[0]);
-      area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
-    }
-    mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
+    PieceArea& row = mine.emplace_back(PieceArea{piece.id, piece.common_face()});
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) row.add(piece, piece.cell(t));
   }
-  std::vector<PieceRow> rows = surface.communicator.all_gather_items<PieceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
   std::vector<report::FaceRow> faces;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Face& face = model.face(f);
     faces.push_back({.name = face.name, .number = face.number, .patch = model.patches()[face.patch]});
   }
-  for (const PieceRow& row : rows) {
-    report::FaceRow& face = faces[row.face];
-    if (face.triangles == 0) face.cad_area = model.face_area(row.face);
+  for (const PieceArea& row : gather_areas(surface, mine)) {
+    report::FaceRow& face = faces[row.of];
+    if (face.triangles == 0) face.cad_area = model.face_area(row.of);
     face.area += row.area;
     face.triangles += row.triangles;
   }

@@ -9,8 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <tuple>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -85,44 +84,39 @@ report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, con
   return figures;
 }
 
-std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume) {
-  struct PatchArea {
-    mesh::PieceId piece;
-    std::int32_t patch;
-    double area;
-    std::int64_t triangles;
+void PieceArea::add(const mesh::Piece& of_piece, const mesh::LocalIndex* v) {
+  const geometry::Vec3 a = of_piece.point(v[0]);
+  area += 0.5 * norm(cross(of_piece.point(v[1]) - a, of_piece.point(v[2]) - a));
+  ++triangles;
+}
 
-    static constexpr auto fields() {
-      return std::tuple(&PatchArea::piece, &PatchArea::patch, &PatchArea::area, &PatchArea::triangles);
-    }
-  };
-  std::vector<PatchArea> mine;
-  for (const mesh::Piece& piece : volume.pieces) {
-    std::vector<PatchArea> rows(volume.patches.size());
-    for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
-      const mesh::LocalIndex* v = piece.boundary_triangle(t);
-      const geometry::Vec3 a = piece.point(v[0]);
-      PatchArea& row = rows.at(piece.triangle_patch[t]);
-      row.area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
-      ++row.triangles;
-    }
-    for (std::size_t p = 0; p < rows.size(); ++p) {
-      if (rows[p].triangles > 0)
-        mine.push_back({piece.id, static_cast<std::int32_t>(p), rows[p].area, rows[p].triangles});
-    }
-  }
-  std::vector<PatchArea> rows = volume.communicator.all_gather_items<PatchArea>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PatchArea& a, const PatchArea& b) {
-    return std::tie(a.piece, a.patch) < std::tie(b.piece, b.patch);
+std::vector<PieceArea> gather_areas(const mesh::DistributedMesh& mesh, const std::vector<PieceArea>& mine) {
+  std::vector<PieceArea> rows = mesh.communicator.all_gather_items<PieceArea>(mine);
+  std::sort(rows.begin(), rows.end(), [](const PieceArea& a, const PieceArea& b) {
+    return std::tie(a.piece, a.of) < std::tie(b.piece, b.of);
   });
+  return rows;
+}
+
+std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume) {
+  std::vector<PieceArea> mine;
+  for (const mesh::Piece& piece : volume.pieces) {
+    std::vector<PieceArea> rows;
+    for (std::size_t p = 0; p < volume.patches.size(); ++p)
+      rows.push_back({piece.id, static_cast<std::int32_t>(p)});
+    for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t)
+      rows.at(piece.triangle_patch[t]).add(piece, piece.boundary_triangle(t));
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(mine),
+                 [](const PieceArea& row) { return row.triangles > 0; });
+  }
   std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < volume.patches.size(); ++p) {
     const auto type = p < volume.patch_types.size() ? volume.patch_types[p] : mesh::PatchType::wall;
     patches.push_back({.name = volume.patches[p], .type = type, .inner = type == mesh::PatchType::interior});
   }
-  for (const PatchArea& row : rows) {
-    patches[row.patch].area += row.area;
-    patches[row.patch].triangles += row.triangles;
+  for (const PieceArea& row : gather_areas(volume, mine)) {
+    patches[row.of].area += row.area;
+    patches[row.of].triangles += row.triangles;
   }
   return patches;
 }

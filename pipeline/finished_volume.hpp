@@ -7,6 +7,7 @@
 #include "pipeline/report/run_record.hpp"
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::pipeline {
@@ -32,6 +33,22 @@ report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, con
 
 /// Adds the volumes of the regions of the model, for comparison.
 void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);
+
+/// The area and the triangles that one piece has of a face or patch.
+struct PieceArea {
+  mesh::PieceId piece;
+  std::int32_t of;  ///< the face or patch
+  double area = 0;
+  std::int64_t triangles = 0;
+
+  void add(const mesh::Piece& of_piece, const mesh::LocalIndex* triangle);
+  static constexpr auto fields() {
+    return std::tuple(&PieceArea::piece, &PieceArea::of, &PieceArea::area, &PieceArea::triangles);
+  }
+};
+/// The rows of all ranks, by piece, then face or patch. Sums in this order do not depend on ranks.
+/// Collective.
+std::vector<PieceArea> gather_areas(const mesh::DistributedMesh& mesh, const std::vector<PieceArea>& mine);
 
 /// Triangles and areas of the patches of a mesh from a file; there is no CAD to compare them with.
 /// Collective.

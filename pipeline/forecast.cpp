@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,13 +26,13 @@ constexpr double base_bytes = 115e6, bytes_per_tetrahedron = 95;
 // The shares of stages in that, of one core for a triangle or a tetrahedron, and what of it no further rank
 // spares, from the same runs.
 constexpr double surface_per_triangle = 23e-6;
-struct StageShare {
+struct StageModel {
   const char* name;
   std::optional<parallel::TaskKind> pieces;  // the kind of its tasks; empty: it has none
   double seconds_per_tetrahedron, repeated;
   double spread = 0;  // of what its tasks take
 };
-constexpr std::array<StageShare, 5> stage_shares{
+constexpr std::array<StageModel, 5> stage_models{
     {{"decompose", std::nullopt, 1.0e-6, 0.05},
      {"volume", parallel::TaskKind::zone, 2.1e-6, 0, 0.2},
      {"improve", parallel::TaskKind::improved_piece, 1.9e-6, 0, 0.6},
@@ -42,7 +41,7 @@ constexpr std::array<StageShare, 5> stage_shares{
 
 /// Of what layers add to the seconds of a run, the share of their own stage: 6.1 s for the 7 million prisms
 /// of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the rest.
-constexpr double share_of_layer_stage = 0.3;
+constexpr double fraction_of_layer_stage = 0.3;
 
 /// What a run is predicted to make and to hold, layers included, all ranks together but for what each starts
 /// with.
@@ -107,13 +106,13 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
   const double layer_seconds = layers ? layers->seconds() : 0, layer_bytes = layers ? layers->bytes() : 0;
   if (layer_seconds > 0) {
     study::StageCosts stage{.name = "layers", .own_bytes = held + layer_bytes};
-    stage.groups = {uneven_tasks(parallel::TaskKind::wall_piece, share_of_layer_stage * layer_seconds,
+    stage.groups = {uneven_tasks(parallel::TaskKind::wall_piece, fraction_of_layer_stage * layer_seconds,
                                  counts.triangles, double{layers::wall_piece_triangles}, spread_of_surface)};
     measured.stages.push_back(std::move(stage));
   }
   const auto of_piece = static_cast<double>(
       input.volume.piece_tets.value_or(partition::suitable_piece_tets(counts.tetrahedra)));
-  for (const StageShare& share : stage_shares) {
+  for (const StageModel& share : stage_models) {
     const double seconds = share.seconds_per_tetrahedron * counts.tetrahedra;
     study::StageCosts stage{.name = share.name, .repeated = share.repeated * seconds};
     stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra + layer_bytes;
@@ -125,7 +124,7 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
           uneven_tasks(*share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
     measured.stages.push_back(std::move(stage));
   }
-  measured.stages.back().divisible += (1 - share_of_layer_stage) * layer_seconds;
+  measured.stages.back().divisible += (1 - fraction_of_layer_stage) * layer_seconds;
   return study::worthwhile_ranks(measured, {});
 }
 

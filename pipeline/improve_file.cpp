@@ -17,7 +17,7 @@ namespace {
 
 /// Tetrahedra of boundary layers are flat on purpose: improvement takes them for bad ones. Collective.
 void warn_of_layers(const mesh::DistributedMesh& volume) {
-  constexpr double flat_deg = 1, share_of_layers = 0.1;  // chosen, not measured
+  constexpr double flat_deg = 1, fraction_of_layers = 0.1;  // chosen, not measured
   std::int64_t flat = 0, all = 0;
   for (const mesh::Piece& piece : volume.pieces) {
     all += piece.cell_count();
@@ -29,7 +29,7 @@ void warn_of_layers(const mesh::DistributedMesh& volume) {
   }
   flat = volume.communicator.sum(flat), all = volume.communicator.sum(all);
   if (!volume.communicator.is_root() ||
-      static_cast<double>(flat) <= share_of_layers * static_cast<double>(all))
+      static_cast<double>(flat) <= fraction_of_layers * static_cast<double>(all))
     return;
   parallel::log_warning(fmt::format(
       "improve: {:.0f} % of the tetrahedra have an angle below {} degree, as those of boundary layers have: "

@@ -10,7 +10,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -37,7 +36,7 @@ geometry::Box bounds_of(const io::FileMesh& mesh) {
 
 /// Letters of names that are no UTF-8 are replaced.
 void show(const InfoRequest& request, const Json& facts, const std::string& text) {
-  std::error_code ignored;  // the size is told where there is one
+  std::error_code ignored;  // the size is printed where there is one
   const std::uintmax_t bytes = std::filesystem::file_size(request.file, ignored);
   if (request.print_json) {
     Json json = {{"schema_version", info_schema_version}, {"file", request.file}};

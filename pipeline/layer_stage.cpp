@@ -7,7 +7,6 @@
 #include "surface/plane_remesher.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>

@@ -147,7 +147,7 @@ private:
       std::optional<cad::Domain> domain;
       parallel::agree(_communicator, [&] {
         const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-        domain = unpack_domain_product(std::move(*found));
+        domain = domain::unpack_domain(found->common);
       });
       if (!_communicator.is_root()) domain->report = {};
       _record.domain = domain->report;
@@ -159,7 +159,8 @@ private:
       if (_communicator.is_root()) require_same_file(_identity, _input);
     });
     _checkpoints->keep(SavedStage::geometry, [&] {
-      return _communicator.is_root() ? pack_domain_product(domain) : io::CheckpointDraft();
+      return _communicator.is_root() ? io::CheckpointDraft{domain::pack_domain(domain), {}}
+                                     : io::CheckpointDraft();
     });
     return domain;
   }

@@ -4,7 +4,6 @@
 #include "pipeline/report/library_versions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <system_error>

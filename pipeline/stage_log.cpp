@@ -145,8 +145,8 @@ void log_decompose(const volume::DecompositionReport& report) {
 }
 
 void warn_of_count(double expected, double forecast, int resize_rounds) {
-  constexpr double telling = 1.5;  // more than forecasts err by (docs/bounds.md)
-  if (expected < telling * forecast) return;
+  constexpr double least_warned_ratio = 1.5;  // more than forecasts err by (docs/bounds.md)
+  if (expected < least_warned_ratio * forecast) return;
   parallel::log_warning(fmt::format(
       "decompose: about {:.2g} tetrahedra are to be made, {:.2g} times the {:.2g} that the sizes forecast{}. "
       "Remedy: larger sizes (sizing.minimum, sizing.feature_minimum)",

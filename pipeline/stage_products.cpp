@@ -1,7 +1,6 @@
 #include "pipeline/stage_products.hpp"
 
 #include "cad/model/topology/joined_faces.hpp"
-#include "pipeline/domain/domain_bytes.hpp"
 
 #include <tuple>
 #include <utility>
@@ -80,14 +79,6 @@ parallel::Digest digest_of(const domain::SizedDomain& sized) {
 }
 
 }  // namespace
-
-CheckpointDraft pack_domain_product(const cad::Domain& domain) {
-  return {domain::pack_domain(domain), {}};
-}
-
-cad::Domain unpack_domain_product(CheckpointContent content) {
-  return domain::unpack_domain(content.common);
-}
 
 CheckpointDraft pack_sizes(const domain::SizedDomain& sized) {
   return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.findings}), {}};

@@ -3,7 +3,6 @@
 /// are checked before).
 #pragma once
 
-#include "cad/domain/domain.hpp"
 #include "improve/improve_report.hpp"
 #include "io/checkpoint_file.hpp"
 #include "mesh/data/distributed_mesh.hpp"
@@ -15,9 +14,6 @@
 #include <optional>
 
 namespace aeroloom::pipeline {
-
-io::CheckpointDraft pack_domain_product(const cad::Domain& domain);
-cad::Domain unpack_domain_product(io::CheckpointContent content);
 
 /// The model is that of the domain with its faces joined: it is made again.
 io::CheckpointDraft pack_sizes(const domain::SizedDomain& sized);

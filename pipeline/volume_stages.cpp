@@ -5,7 +5,6 @@
 #include "pipeline/finished_volume.hpp"
 #include "pipeline/stage_log.hpp"
 
-#include <optional>
 #include <string>
 #include <utility>
 

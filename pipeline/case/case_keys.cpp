@@ -2,11 +2,8 @@
 
 #include "pipeline/case/layer_keys.hpp"
 #include "pipeline/case/level_keys.hpp"
-#include "pipeline/case/source_keys.hpp"
 #include "pipeline/case/wall_keys.hpp"
 #include "sizing/field/size_field.hpp"
-
-#include <string>
 
 namespace aeroloom::cases {
 

@@ -1,7 +1,6 @@
 #include "pipeline/commands/command.hpp"
 
 #include "parallel/communication/collective_error.hpp"
-#include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 #include "pipeline/case/option_keys.hpp"
@@ -54,7 +53,8 @@ void add_overrides(CLI::App& command, CaseArguments& arguments) {
 
 namespace {
 
-/// Collective: throws CollectiveError where a rank has no child processes and nobody said that it need not.
+/// Collective: throws CollectiveError where a rank has no child processes although the case asks for a
+/// sandbox.
 void choose_sandbox(const Invocation& invocation, parallel::Sandbox sandbox) {
   if (sandbox == parallel::Sandbox::none) parallel::run_without_sandbox(invocation.communicator);
   parallel::agree(invocation.communicator, [&] {

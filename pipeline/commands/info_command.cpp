@@ -9,7 +9,7 @@
 namespace aeroloom::pipeline {
 
 Command add_info(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("info", "tell what a file holds: a mesh, CAD, triangles, or a case");
+  CLI::App* app = program.add_subcommand("info", "describe a file: a mesh, CAD, triangles, or a case");
   const auto request = std::make_shared<InfoRequest>();
   app->add_option("file", request->file,
                   "a mesh in any format that is read (docs/formats.md), CAD, triangles, or a case")

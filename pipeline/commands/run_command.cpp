@@ -2,6 +2,7 @@
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/memory_option.hpp"
 #include "pipeline/commands/staged_run.hpp"
+#include "pipeline/run.hpp"
 
 #include <memory>
 

@@ -6,7 +6,6 @@
 #include "parallel/observation/memory_limit.hpp"
 #include "pipeline/commands/plain_words.hpp"
 #include "pipeline/output_lock.hpp"
-#include "pipeline/report/report.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/write_outputs.hpp"
 
@@ -27,12 +26,12 @@ namespace aeroloom::pipeline {
 namespace {
 
 /// By rank 0, unless facts are not wanted.
-void tell(std::string text) {
+void print_facts(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   parallel::log_info(text);
 }
 
-void tell_older(const std::vector<std::string>& files, const std::string& folder) {
+void warn_of_older(const std::vector<std::string>& files, const std::string& folder) {
   if (files.empty()) return;
   parallel::log_warning(fmt::format("in '{}', not of this run: {}", folder, fmt::join(files, ", ")));
 }
@@ -70,7 +69,7 @@ int run_stages(const Invocation& invocation, const cases::Case& input, const rep
                     keeps ? "what checkpoints have kept is found by --resume"
                           : "nothing is kept for another run (--checkpoints does that)")};
     try {
-      if (earlier) tell_older(ended.older_files = earlier->left(), input.output.directory);
+      if (earlier) warn_of_older(ended.older_files = earlier->left(), input.output.directory);
       report::write_last_report(input, ended, subject, ranks);
     } catch (const std::exception& error) {
       parallel::log_error(fmt::format("the report cannot be written: {}", error.what()));
@@ -86,10 +85,10 @@ int run_stages(const Invocation& invocation, const cases::Case& input, const rep
     outcome = {failure.code(), failure.stage(), plain_words(failure.what())};
   }
   record.wall_seconds = age + parallel::wall_seconds() - begin;
-  if (earlier) tell_older(outcome.older_files = earlier->left(record.hash), input.output.directory);
+  if (earlier) warn_of_older(outcome.older_files = earlier->left(record.hash), input.output.directory);
   try {
     const std::string table = report::write_report(communicator, input, record, outcome, subject);
-    if (outcome.code == report::ExitCode::ok) tell(table);
+    if (outcome.code == report::ExitCode::ok) print_facts(table);
   } catch (const parallel::CollectiveError& error) {
     if (outcome.code == report::ExitCode::ok)
       outcome = {code_of(error, report::ExitCode::files), "output", plain_words(error.what())};
@@ -105,11 +104,11 @@ int run_stages(const Invocation& invocation, const cases::Case& input, const rep
   }
   for (const io::FileFormat format : input.output.formats) {
     const std::string path = std::filesystem::absolute(path_of(input.output, format)).string();
-    tell(fmt::format("{}: {}", io::row_of(format).announcement, path));
+    print_facts(fmt::format("{}: {}", io::row_of(format).announcement, path));
   }
   const std::filesystem::path page = std::filesystem::absolute(input.output.directory) / "report.html";
   std::error_code ignored;  // what cannot be looked at is not there
-  if (std::filesystem::exists(page, ignored)) tell("report: " + page.string());
+  if (std::filesystem::exists(page, ignored)) print_facts("report: " + page.string());
   return 0;
 }
 

@@ -11,9 +11,9 @@ namespace aeroloom::domain {
 namespace {
 
 constexpr std::size_t shown_faces = 4;   // in a line of the log; the report has all
-constexpr double least_fraction = 0.01;  // of a face's area, to be told in a line
+constexpr double least_fraction = 0.01;  // of a face's area, to be named in a line
 constexpr double half_turn = 180;        // degrees: an element that turns by it follows no curvature at all
-constexpr double few_degrees = 10;       // told with a digit more
+constexpr double few_degrees = 10;       // below this, printed with a digit more
 
 std::string degrees_text(double degrees) {
   if (degrees >= half_turn) return "180 degrees and more";
@@ -59,14 +59,14 @@ std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
 
 std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes) {
   std::string text;
-  std::size_t told = 0, left_out = 0;
+  std::size_t named = 0, left_out = 0;
   for (const NamedBound& each : faces) {
     if (each.fraction < least_fraction) break;
-    if (told == shown_faces) {
+    if (named == shown_faces) {
       ++left_out;
       continue;
     }
-    text += fmt::format("{} on {:.0f} % of '{}' elements turn by {}", told++ > 0 ? "," : "",
+    text += fmt::format("{} on {:.0f} % of '{}' elements turn by {}", named++ > 0 ? "," : "",
                         100 * each.fraction, each.face, degrees_text(each.degrees));
   }
   if (text.empty()) return text;

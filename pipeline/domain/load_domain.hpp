@@ -1,9 +1,11 @@
-/// The domain from CAD, the same on every rank. What reads CAD runs in a sandbox (sandboxed_cad.hpp).
+/// Loads the domain from CAD, equal on every rank. The CAD library reads in a sandbox (sandboxed_cad.hpp).
 #pragma once
 
 #include "cad/domain/domain.hpp"
 #include "cad/model/model.hpp"
 #include "parallel/communication/communicator.hpp"
+
+#include <span>
 
 namespace aeroloom::domain {
 
@@ -11,7 +13,12 @@ namespace aeroloom::domain {
 /// report. Collective; throws CollectiveError.
 cad::Domain load_domain(const parallel::Communicator& communicator, const cad::DomainOptions& options);
 
-/// The model that rank 0 has as bytes, on every rank. Collective; throws CollectiveError.
+/// Sends the model of rank 0, as bytes, to every rank. Collective; throws CollectiveError.
 cad::Model broadcast_model(const parallel::Communicator& communicator, parallel::Bytes bytes);
+
+/// The domain as bytes, for a child process or a checkpoint.
+parallel::Bytes pack_domain(const cad::Domain& domain);
+/// Throws cad::CadError if the bytes are no model.
+cad::Domain unpack_domain(std::span<const std::byte> bytes);
 
 }  // namespace aeroloom::domain

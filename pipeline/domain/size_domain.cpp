@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -30,7 +29,7 @@ constexpr double join_tolerance = 0.05;
 constexpr double missed_target = 1.25;
 /// Logarithm of what a key does to the count, from which on it is named: about the logarithm of
 /// missed_target.
-constexpr double telling_cost = 0.2;
+constexpr double least_named_cost = 0.2;
 /// Share of features over one, below which there are none to speak of.
 constexpr double some_features = 1.01;
 
@@ -88,15 +87,15 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
                    [&](const auto& a, const auto& b) { return weight(a) > weight(b); });
   std::string text;
   for (const sizing::BoundCost& cost : costs) {
-    if (weight(cost) < telling_cost) break;
+    if (weight(cost) < least_named_cost) break;
     text += (text.empty() ? "" : ", ") + text_of_cost(cost);
   }
   return text.empty() ? describe_all(costs) : text;
 }
 
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
-void tell_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
-                        const cases::SizingRequest& request, double target) {
+void warn_of_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
+                           const cases::SizingRequest& request, double target) {
   const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
   if (ratio < missed_target && ratio > 1 / missed_target) return;
   const std::string costs = describe_costs(sizing::costs_of_given(sampler, chosen, request));
@@ -121,7 +120,7 @@ struct Trial {
 };
 
 /// The sizes that trailing edges are judged by. Its functions refer to the sampler.
-TrialSizes tell(sizing::ModelSampler& sampler, const Trial& trial) {
+TrialSizes trial_sizes(sizing::ModelSampler& sampler, const Trial& trial) {
   const sizing::SizingOptions options = trial.options();
   return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
           [&sampler, options](const std::vector<geometry::Vec3>& places) {
@@ -147,7 +146,7 @@ SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& re
   }
   const double target = *target_of(request);
   sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request, purpose);
-  tell_missed_target(sampler, chosen, request, target);
+  warn_of_missed_target(sampler, chosen, request, target);
   SizingFindings findings{std::move(joined), chosen.counts};
   if (!request.holds_features())
     findings.features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
@@ -198,7 +197,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
   // A level resolves trailing edges, however thin.
   const bool automatic = !asked.level && simplification.trailing_edges == cad::TrailingEdges::automatic;
-  // An estimate tells which faces are narrow; sizes are chosen for the model without them.
+  // An estimate decides which faces are narrow; sizes are chosen for the model without them.
   if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*sampler, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);
   std::vector<sizing::TrailingEdge> edges;
@@ -211,7 +210,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
     }
   }
   const Trial trial = try_sizes(*sampler, request, near);
-  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*sampler, trial));
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, trial_sizes(*sampler, trial));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
   if (closed && trial.prospect) near = trial.prospect->options;

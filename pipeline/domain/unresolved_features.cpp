@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t shown_strips = 5;  // in a line of the log; the report has all
 /// Triangles that are longer than wide by less have angles above the 28 degrees that improvement aims at.
-constexpr double telling_aspect = 1.9;
+constexpr double least_listed_aspect = 1.9;
 
 }  // namespace
 
 FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
                               double tetrahedra) {
   FeatureReport report{share, tetrahedra, {}};
-  if (!share.limited || share.aspect < telling_aspect) return report;
-  const double widest = share.minimum / telling_aspect;
+  if (!share.limited || share.aspect < least_listed_aspect) return report;
+  const double widest = share.minimum / least_listed_aspect;
   for (const sizing::Strip& strip : sampler.strips_narrower_than(widest, share.minimum)) {
     report.strips.push_back({sampler.model().face(strip.face).name, strip.width, strip.place,
                              std::atan(1 / share.aspect_at(strip.width)) * 180 / std::numbers::pi});
@@ -36,8 +36,8 @@ double FeatureReport::wanted_tetrahedra() const {
 }
 
 std::string describe_share(const FeatureReport& report) {
-  constexpr double telling = 1.25;  // less is what a forecast may be off by
-  if (report.share.share < telling) return {};
+  constexpr double least_logged_ratio = 1.25;  // less is what a forecast may be off by
+  if (report.share.share < least_logged_ratio) return {};
   return fmt::format(
       "features finer than the smallest size make it {:.2g} times as many: about {:.2g} "
       "tetrahedra (sizing.feature_budget, sizing.feature_minimum bound them)",

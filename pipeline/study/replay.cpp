@@ -3,8 +3,6 @@
 #include "pipeline/study/task_schedule.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
