@@ -23,8 +23,8 @@ namespace {
 constexpr double seconds_per_triangle = 65e-6, seconds_per_tetrahedron = 5e-6;
 constexpr double base_bytes = 115e6, bytes_per_tetrahedron = 95;
 
-// The shares of stages in that, of one core for a triangle or a tetrahedron, and what of it no further rank
-// spares, from the same runs.
+// The part of each stage in it, from the same runs: seconds of one core for a triangle or a tetrahedron, and
+// the fraction that every rank repeats.
 constexpr double surface_per_triangle = 23e-6;
 struct StageModel {
   const char* name;
@@ -39,8 +39,9 @@ constexpr std::array<StageModel, 5> stage_models{
      {"inspect", std::nullopt, 0.7e-6, 0},
      {"output", std::nullopt, 0.4e-6, 0}}};
 
-/// Of what layers add to the seconds of a run, the share of their own stage: 6.1 s for the 7 million prisms
-/// of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the rest.
+/// Of what layers add to the seconds of a run, the fraction of their own stage: 6.1 s for the 7 million
+/// prisms of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the
+/// rest.
 constexpr double fraction_of_layer_stage = 0.3;
 
 /// What a run is predicted to make and to hold, layers included, all ranks together but for what each starts
@@ -57,12 +58,12 @@ std::string advise(const Elements& elements, double limit, int ranks_here, int r
     return fmt::format("{} rank(s) on a node take {:.3g} GiB before the first element: fewer ranks on each",
                        ranks_here, base_bytes * ranks_here / parallel::gibibyte);
   }
-  const double share = for_elements * ranks / (elements.bytes * ranks_here);
-  const double fitting = share * elements.tetrahedra;
+  const double fraction = for_elements * ranks / (elements.bytes * ranks_here);
+  const double fitting = fraction * elements.tetrahedra;
   return fmt::format(
       "{:.2g} tetrahedra would fit: sizes {:.2f} times as large (sizing.minimum, sizing.maximum "
       "or sizing.target_tetrahedra), or {} times as many nodes",
-      fitting, std::cbrt(1 / share), std::ceil(1 / share));
+      fitting, std::cbrt(1 / fraction), std::ceil(1 / fraction));
 }
 
 // Zones hold about two fifths of the tetrahedra, the rest comes from a table (volume.core_tetrahedra of the
@@ -112,16 +113,16 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
   }
   const auto of_piece = static_cast<double>(
       input.volume.piece_tets.value_or(partition::suitable_piece_tets(counts.tetrahedra)));
-  for (const StageModel& share : stage_models) {
-    const double seconds = share.seconds_per_tetrahedron * counts.tetrahedra;
-    study::StageCosts stage{.name = share.name, .repeated = share.repeated * seconds};
+  for (const StageModel& model : stage_models) {
+    const double seconds = model.seconds_per_tetrahedron * counts.tetrahedra;
+    study::StageCosts stage{.name = model.name, .repeated = model.repeated * seconds};
     stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra + layer_bytes;
     const double rest = seconds - stage.repeated;
-    if (!share.pieces)
+    if (!model.pieces)
       stage.divisible = rest;
     else
       stage.groups = {
-          uneven_tasks(*share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
+          uneven_tasks(*model.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, model.spread)};
     measured.stages.push_back(std::move(stage));
   }
   measured.stages.back().divisible += (1 - fraction_of_layer_stage) * layer_seconds;

@@ -21,10 +21,10 @@ std::string degrees_text(double degrees) {
                                : fmt::format("up to {:.0f} degrees", degrees);
 }
 
-double share_of_body(const std::vector<NamedBound>& faces) {
-  double share = 0;
-  for (const NamedBound& each : faces) share += each.share_of_body;
-  return share;
+double body_fraction(const std::vector<NamedBound>& faces) {
+  double sum = 0;
+  for (const NamedBound& each : faces) sum += each.body_fraction;
+  return sum;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
   std::map<std::string, NamedBound> by_name;
   for (const sizing::BoundedFace& each : sampler.faces_bounded_by_minimum(sizes)) {
     NamedBound& bound = by_name[model.face(each.face).name];
-    bound.share_of_body += each.fraction * sampler.area(each.face);
+    bound.body_fraction += each.fraction * sampler.area(each.face);
     bound.degrees = std::max(bound.degrees, std::min(each.degrees, half_turn));
   }
   std::map<std::string, double> areas;
@@ -48,8 +48,8 @@ std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
   std::vector<NamedBound> faces;
   for (auto& [name, bound] : by_name) {
     bound.face = name;
-    bound.fraction = std::min(1.0, bound.share_of_body / areas[name]);
-    bound.share_of_body /= body;
+    bound.fraction = std::min(1.0, bound.body_fraction / areas[name]);
+    bound.body_fraction /= body;
     faces.push_back(bound);
   }
   std::stable_sort(faces.begin(), faces.end(),
@@ -79,13 +79,13 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
         ". That is {:.0f} % of the body. Remedy: sizes in the unit of the model; a smaller "
         "sizing.minimum, or a larger sizing.target_tetrahedra where it was chosen; or a larger "
         "sizing.curvature_angle, which takes fewer elements elsewhere",
-        100 * share_of_body(faces));
+        100 * body_fraction(faces));
   return text;
 }
 
 bool is_much_of_body(const std::vector<NamedBound>& faces) {
   constexpr double much = 0.1;  // of its area; chosen, not measured
-  return share_of_body(faces) > much;
+  return body_fraction(faces) > much;
 }
 
 }  // namespace aeroloom::domain

@@ -18,11 +18,11 @@ struct NamedBound {
   std::string face;
   double fraction;       ///< of the area of these faces
   double degrees;        ///< largest angle between normals across an element; 180 at most
-  double share_of_body;  ///< the bounded area over the area of the body
+  double body_fraction;  ///< the bounded area over the area of the body
 
   static constexpr auto fields() {
     return std::tuple(&NamedBound::face, &NamedBound::fraction, &NamedBound::degrees,
-                      &NamedBound::share_of_body);
+                      &NamedBound::body_fraction);
   }
 };
 

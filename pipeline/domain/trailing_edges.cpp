@@ -32,7 +32,7 @@ namespace {
 
 std::string borders_move(const JudgedEdge& edge) {
   return fmt::format("by {:.3g}, at most {:.2g} % of the local chord ({:.3g} where it is shortest)",
-                     moved(edge), 50 * edge.share, edge.chord);
+                     moved(edge), 50 * edge.width_over_chord, edge.chord);
 }
 
 std::string unresolved(const JudgedEdge& edge) {
@@ -64,7 +64,7 @@ bool moves_little(const cad::BluntEdge& strip, const TrialSizes& trial) {
 
 void judge(JudgedEdge& edge, const cad::BluntEdge& strip, const TrialSizes& trial) {
   if (edge.aspect <= largest_kept_aspect) return keep(edge);
-  if (0.5 * edge.share > closing_fraction_of_chord) {
+  if (0.5 * edge.width_over_chord > closing_fraction_of_chord) {
     return grade(edge, fmt::format("closing it would move its borders {}, more than {:g} %",
                                    borders_move(edge), 100 * closing_fraction_of_chord));
   }
@@ -80,7 +80,8 @@ void describe_closure(JudgedEdge& edge, const cad::Change& change) {
       "{}: {}. Its borders move {}. A blunt end of {:.2g} % of the chord has a base drag of about "
       "{:.1g} drag counts (Hoerner), which the mesh will not show; geometry.trailing_edges: keep leaves it "
       "blunt",
-      change.what, unresolved(edge), borders_move(edge), 100 * edge.share, base_drag_counts(edge.share));
+      change.what, unresolved(edge), borders_move(edge), 100 * edge.width_over_chord,
+      base_drag_counts(edge.width_over_chord));
 }
 
 JudgedEdge* find(TrailingEdgeReport& report, cad::FaceId face) {
@@ -112,10 +113,9 @@ TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
   TrailingEdgeReport report;
   for (const sizing::TrailingEdge& each : edges) {
     const cad::BluntEdge& strip = each.strip;
-    JudgedEdge edge{strip.face,      domain.face(strip.face).name,
-                    strip.place,     strip.length,
-                    strip.narrowest, strip.widest,
-                    each.chord,      each.share};
+    JudgedEdge edge{
+        strip.face, domain.face(strip.face).name, strip.place, strip.length, strip.narrowest, strip.widest,
+        each.chord, each.width_over_chord};
     edge.aspect = aspect_along(strip, trial);
     judge(edge, strip, trial);
     report.push_back(std::move(edge));

@@ -36,16 +36,17 @@ struct JudgedEdge {
   std::string name;
   geometry::Vec3 place;
   double length = 0, narrowest = 0, widest = 0;
-  double chord = 0;   ///< shortest local chord
-  double share = 0;   ///< largest ratio of width to local chord
-  double aspect = 1;  ///< length over width of its elements; of a closed edge: in the trial
+  double chord = 0;             ///< shortest local chord
+  double width_over_chord = 0;  ///< largest ratio of width to local chord
+  double aspect = 1;            ///< length over width of its elements; of a closed edge: in the trial
   EdgeFate fate = EdgeFate::kept;
   std::string what = {};  ///< one sentence for messages
 
   static constexpr auto fields() {
     return std::tuple(&JudgedEdge::face, &JudgedEdge::name, &JudgedEdge::place, &JudgedEdge::length,
-                      &JudgedEdge::narrowest, &JudgedEdge::widest, &JudgedEdge::chord, &JudgedEdge::share,
-                      &JudgedEdge::aspect, &JudgedEdge::fate, &JudgedEdge::what);
+                      &JudgedEdge::narrowest, &JudgedEdge::widest, &JudgedEdge::chord,
+                      &JudgedEdge::width_over_chord, &JudgedEdge::aspect, &JudgedEdge::fate,
+                      &JudgedEdge::what);
   }
 };
 

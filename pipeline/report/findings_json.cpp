@@ -13,7 +13,7 @@ nlohmann::ordered_json to_json(const std::vector<domain::NamedBound>& faces) {
     json.push_back({{"face", each.face},
                     {"fraction", each.fraction},
                     {"degrees", each.degrees},
-                    {"share_of_body", each.share_of_body}});
+                    {"share_of_body", each.body_fraction}});
   return json;
 }
 
@@ -28,7 +28,7 @@ nlohmann::ordered_json to_json(const domain::TrailingEdgeReport& report) {
                      {"narrowest", edge.narrowest},
                      {"widest", edge.widest},
                      {"chord", edge.chord},
-                     {"width_over_chord", edge.share},
+                     {"width_over_chord", edge.width_over_chord},
                      {"aspect", edge.aspect},
                      {"moved", edge.fate == domain::EdgeFate::closed ? domain::moved(edge) : 0.0}});
   }
