@@ -3,7 +3,7 @@
 
 #include "pipeline/case/case.hpp"
 #include "pipeline/domain/size_domain.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
 
 namespace aeroloom::domain {
 
@@ -13,8 +13,8 @@ struct LevelRequest {
   LevelFindings found;
 };
 
-/// Adds the sizes of the level to the sampler. Collective. Throws CollectiveError if the model has no lifting
-/// body, or if even the coarsest level exceeds the budget.
-LevelRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request);
+/// Adds the sizes of the level to the fields of the factory. Collective. Throws CollectiveError if the model
+/// has no lifting body, or if even the coarsest level exceeds the budget.
+LevelRequest apply_level(sizing::FieldFactory& factory, const cases::SizingRequest& request);
 
 }  // namespace aeroloom::domain

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-class ModelSampler;
+class SampledModel;
 }
 
 namespace aeroloom::domain {
@@ -41,7 +41,7 @@ struct FeatureReport {
 };
 
 /// Lists unresolved narrow regions. Collective.
-FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
+FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureShare& share,
                               double tetrahedra);
 
 /// A message about unresolved features: their cost, their effect, and remedies. Empty if there are none.

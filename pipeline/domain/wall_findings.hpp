@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-class ModelSampler;
+class FieldFactory;
 struct CoincidentFaces;
 }  // namespace aeroloom::sizing
 
@@ -48,9 +48,9 @@ struct WallFindings {
 };
 
 /// Converts findings to names. Keeps only coincident faces that the field does not separate. `model`: where
-/// the faces were found; `sampler`: of the model to mesh.
+/// the faces were found; `factory`: of the model to mesh.
 WallFindings report_walls(const cad::Model& model, const std::vector<sizing::CoincidentFaces>& coincident,
-                          const sizing::ModelSampler& sampler, const sizing::SizeField& field);
+                          const sizing::FieldFactory& factory, const sizing::SizeField& field);
 
 /// A message about searches that ended early; may be empty.
 std::string describe(const std::vector<UnseenWalls>& unseen);

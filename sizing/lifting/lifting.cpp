@@ -29,10 +29,10 @@ constexpr double widest = 0.05;
 class Surveyor {
 public:
   /// `goes_on` tells at which ends another trailing edge begins.
-  Surveyor(const ModelSampler& sampler, Vec3 flow, TrailingSeed seed, std::array<bool, 2> goes_on)
-      : _model(sampler.model()), _flow(flow), _element(std::move(seed.element)), _goes_on(goes_on) {
+  Surveyor(const SampledModel& sampled, Vec3 flow, TrailingSeed seed, std::array<bool, 2> goes_on)
+      : _model(sampled.model()), _flow(flow), _element(std::move(seed.element)), _goes_on(goes_on) {
     const std::set<FaceId> faces = skin_faces(_model, seed.neighbours, _element.strip, Kinks::no_valleys);
-    for (const Wall& wall : sampler.walls().facets)
+    for (const Wall& wall : sampled.walls().facets)
       if (faces.contains(wall.face)) _skin.push_back(wall);
     list_ends(faces);
     measure_lengths();
@@ -286,10 +286,10 @@ bool is_wanted(const std::optional<TrailingSeed>& seed, const std::vector<bool>&
 
 }  // namespace
 
-LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow,
+LiftingBodies find_lifting_bodies(const SampledModel& sampled, Vec3 flow,
                                   const std::vector<std::string>& named) {
-  const parallel::Communicator& communicator = sampler.communicator();
-  const cad::Model& model = sampler.model();
+  const parallel::Communicator& communicator = sampled.communicator();
+  const cad::Model& model = sampled.model();
   std::vector<bool> wanted;
   std::vector<std::int32_t> strips, edges;
   parallel::agree(communicator, [&] {
@@ -322,10 +322,10 @@ LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow,
         goes_on[side] = std::any_of(vertices.begin(), vertices.end(),
                                     [&](cad::VertexId vertex) { return users[vertex] > 1; });
       }
-      if (auto element = Surveyor(sampler, flow, std::move(seed), goes_on).survey())
+      if (auto element = Surveyor(sampled, flow, std::move(seed), goes_on).survey())
         bodies.elements.push_back(std::move(*element));
     }
-    if (!bodies.elements.empty()) add_reference(model, sampler.body_box(), flow, bodies);
+    if (!bodies.elements.empty()) add_reference(model, sampled.body_box(), flow, bodies);
   });
   return bodies;
 }

@@ -1,8 +1,8 @@
-// What users ask for at places and on patches, as part of what a sampler finds.
+#include "sizing/choice/demands.hpp"
+
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/observation/timers.hpp"
-#include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/sources/formula_sources.hpp"
 #include "sizing/sources/sized_surface.hpp"
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,8 +35,8 @@ struct Demand {
 
 /// This rank's part of what a key of the case asks for, one more than `most` at most. Collective. What it
 /// throws is about the case, not the geometry.
-std::vector<SizeSource> find_demanded(const parallel::Communicator& communicator, const Demand& demand,
-                                      double most) {
+std::vector<SizeSource> find_demanded(const SampledModel& sampled, const Demand& demand, double most) {
+  const parallel::Communicator& communicator = sampled.communicator();
   const double room = static_cast<double>(parallel::node_memory_bytes()) / bytes_per_region_cell;
   const double own_room = room / communicator.size();
   std::vector<SizeSource> mine;
@@ -62,36 +61,43 @@ std::vector<SizeSource> find_demanded(const parallel::Communicator& communicator
 
 }  // namespace
 
-void ModelSampler::demand(std::vector<SizeLine> lines) {
-  _demands.lines = std::move(lines);
-  _estimates.clear();
+Demands::Demands(const SampledModel& sampled, SizeDemands demands)
+    : _demands(std::move(demands)), _asked_on_faces(sizes_on_faces(sampled.model(), _demands)) {
+  lay_surfaces(sampled);
 }
 
-SizingOptions ModelSampler::options_on(cad::FaceId face, const SizingOptions& options) const {
+Demands::Demands(Demands&& before, const SampledModel& joined)
+    : _demands(std::move(before._demands)),
+      _asked_on_faces(sizes_on_faces(joined.model(), _demands)),
+      _surfaces(std::move(before._surfaces)) {}
+
+SizingOptions Demands::options_on(const SampledModel& sampled, cad::FaceId face,
+                                  const SizingOptions& options) const {
   const double asked = _asked_on_faces[face];
   if (asked <= 0) return options;
   SizingOptions here = options;
   here.surface_maximum = std::min(asked, largest_size(false, options));
   here.minimum = std::min(options.minimum, asked);
-  if (_far_field[face]) here.maximum = std::min(options.maximum, asked);
+  if (sampled.bounds_far_field(face)) here.maximum = std::min(options.maximum, asked);
   // What follows from the minimum where it is not given stays as it is.
   here.feature_minimum = smallest_feature_size(options);
   here.gap_minimum = smallest_gap_size(options);
   return here;
 }
 
-std::vector<SizeSource> ModelSampler::sample_regions(double coarser) const {
+std::vector<SizeSource> Demands::sample_regions(const SampledModel& sampled, double coarser) const {
+  const parallel::Communicator& communicator = sampled.communicator();
   double cells = 0;
   const SizeRegion* largest = nullptr;
   double most = 0;
   for (const SizeRegion& region : _demands.regions) {
-    const double of_region = cells_in(_root, region, coarser * region.size);
+    const double of_region = cells_in(sampled.root(), region, coarser * region.size);
     cells += of_region;
     if (of_region > most) most = of_region, largest = &region;
   }
   for (const SizeLine& line : _demands.lines) cells += points_along(line, coarser);
   const double room = static_cast<double>(parallel::node_memory_bytes()) / bytes_per_region_cell;
-  if (_communicator.maximum(static_cast<std::int64_t>(cells / _communicator.size() > room)) != 0) {
+  if (communicator.maximum(static_cast<std::int64_t>(cells / communicator.size() > room)) != 0) {
     if (largest == nullptr)
       throw std::invalid_argument(fmt::format(
           "sizing.level: sizes along edges and wakes take about {:.2g} elements, more than this machine can "
@@ -103,34 +109,34 @@ std::vector<SizeSource> ModelSampler::sample_regions(double coarser) const {
         largest->name, largest->size, most));
   }
   std::vector<SizeSource> mine;
-  parallel::agree(_communicator, [&] {
+  parallel::agree(communicator, [&] {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
     for (const SizeRegion& region : _demands.regions) {
       const auto more =
-          sources_in(_root, region, coarser * region.size, _communicator.rank(), _communicator.size());
+          sources_in(sampled.root(), region, coarser * region.size, communicator.rank(), communicator.size());
       mine.insert(mine.end(), more.begin(), more.end());
     }
     const auto lines = static_cast<int>(_demands.lines.size());
-    for (int i = _communicator.rank(); i < lines; i += _communicator.size()) {
-      const auto more = sources_along(_root, _demands.lines[static_cast<std::size_t>(i)], coarser);
+    for (int i = communicator.rank(); i < lines; i += communicator.size()) {
+      const auto more = sources_along(sampled.root(), _demands.lines[static_cast<std::size_t>(i)], coarser);
       mine.insert(mine.end(), more.begin(), more.end());
     }
   });
   return mine;
 }
 
-void ModelSampler::lay_surfaces() {
+void Demands::lay_surfaces(const SampledModel& sampled) {
   std::vector<SizedSurface> surfaces;
   const auto lay = [&](const std::string& key, std::vector<SizedTriangle> triangles, double reach) {
     surfaces.emplace_back(key, std::move(triangles), reach);
   };
-  parallel::agree(_communicator, [&] {
+  parallel::agree(sampled.communicator(), [&] {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
     for (const WallSize& wall : _demands.walls) {
-      const std::vector<bool> named = faces_like(_model, wall.faces);
+      const std::vector<bool> named = faces_like(sampled.model(), wall.faces);
       std::vector<SizedTriangle> triangles;
-      for (const Wall& facet : _walls->facets) {
-        if (wall.faces.empty() ? !_far_field[facet.face] : named[facet.face])
+      for (const Wall& facet : sampled.walls().facets) {
+        if (wall.faces.empty() ? !sampled.bounds_far_field(facet.face) : named[facet.face])
           triangles.push_back({facet.corners, {wall.size, wall.size, wall.size}});
       }
       lay("sizing.walls." + wall.name, std::move(triangles), wall.distance);
@@ -140,11 +146,12 @@ void ModelSampler::lay_surfaces() {
       std::vector<std::array<geometry::Vec3, 2>> segments;
       if (shape.from && shape.to) segments.push_back({*shape.from, *shape.to});
       if (!shape.behind.empty())
-        segments = trailing_segments(_model, faces_like(_model, shape.behind), normalized(shape.direction));
+        segments = trailing_segments(sampled.model(), faces_like(sampled.model(), shape.behind),
+                                     normalized(shape.direction));
       lay("sizing.sources." + wake.name, wake_sheet(segments, wake), 0);
     }
     for (const EdgeSize& edge : _demands.edges)
-      lay("sizing.edges." + edge.name, edges_asked_for(_model, edge), 0);
+      lay("sizing.edges." + edge.name, edges_asked_for(sampled.model(), edge), 0);
   });
   for (const SizedSurface& each : surfaces) {
     if (each.empty())
@@ -154,54 +161,58 @@ void ModelSampler::lay_surfaces() {
           "box "
           "of edges; geometry.trailing_edges: keep, where a trailing edge is named that would be closed");
   }
-  _surfaces = std::make_shared<const std::vector<SizedSurface>>(std::move(surfaces));
+  _surfaces = std::move(surfaces);
 }
 
-std::vector<SizeSource> ModelSampler::sample_formula(const SizingOptions& options, double coarser,
-                                                     double most) const {
+std::vector<SizeSource> Demands::sample_formula(const SampledModel& sampled, const SizingOptions& options,
+                                                double coarser, double most) const {
   if (!_demands.formula) return {};
   const FormulaSize& formula = *_demands.formula;
-  const FormulaSpace space{_model.bounds(), _body_box, coarser, coarser * options.maximum,
+  const FormulaSpace space{sampled.model().bounds(), sampled.body_box(), coarser, coarser * options.maximum,
                            coarser * std::log(options.growth)};
   const Demand demand{"sizing.expression", [&] { return cells_of_formula(formula, space); },
                       [&](RankOf part, std::int64_t limit) {
-                        return sources_of_formula(_root, formula, space, part.rank, part.ranks, limit);
+                        return sources_of_formula(sampled.root(), formula, space, part.rank, part.ranks,
+                                                  limit);
                       }};
-  return find_demanded(_communicator, demand, most);
+  return find_demanded(sampled, demand, most);
 }
 
-std::vector<SizeSource> ModelSampler::sample_surfaces(const SizingOptions& options, double coarser,
-                                                      double most) const {
+std::vector<SizeSource> Demands::sample_surfaces(const SampledModel& sampled, const SizingOptions& options,
+                                                 double coarser, double most) const {
   std::vector<SizeSource> mine;
-  for (const SizedSurface& surface : *_surfaces) {
+  for (const SizedSurface& surface : _surfaces) {
     const auto ask = [&](geometry::Vec3 middle, double half) { return surface.ask(middle, half, coarser); };
-    const Demand demand{surface.key(), [&] { return surface.cells(_root, coarser); },
+    const Demand demand{surface.key(), [&] { return surface.cells(sampled.root(), coarser); },
                         [&](RankOf part, std::int64_t limit) {
-                          return sources_where(_root, ask, part, coarser * options.maximum, limit);
+                          return sources_where(sampled.root(), ask, part, coarser * options.maximum, limit);
                         }};
-    const auto more = find_demanded(_communicator, demand, most);
+    const auto more = find_demanded(sampled, demand, most);
     mine.insert(mine.end(), more.begin(), more.end());
   }
   return mine;
 }
 
-std::vector<SizeSource> ModelSampler::sample_demands(const SizingOptions& options, double coarser) const {
-  std::vector<SizeSource> mine = sample_regions(coarser);
+std::vector<SizeSource> Demands::sample(const SampledModel& sampled, const SizingOptions& options,
+                                        double coarser) const {
+  std::vector<SizeSource> mine = sample_regions(sampled, coarser);
   const auto add = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
   };
-  add(sample_formula(options, coarser, any_number));
-  add(sample_surfaces(options, coarser, any_number));
+  add(sample_formula(sampled, options, coarser, any_number));
+  add(sample_surfaces(sampled, options, coarser, any_number));
   return mine;
 }
 
-bool ModelSampler::demands_more_cells(const SizingOptions& options, double coarser, double most) const {
+bool Demands::ask_for_more_cells(const SampledModel& sampled, const SizingOptions& options, double coarser,
+                                 double most) const {
   double cells = 0;
-  for (const SizeRegion& region : _demands.regions) cells += cells_in(_root, region, coarser * region.size);
+  for (const SizeRegion& region : _demands.regions)
+    cells += cells_in(sampled.root(), region, coarser * region.size);
   if (cells > most) return true;
-  const std::size_t mine =
-      sample_formula(options, coarser, most).size() + sample_surfaces(options, coarser, most).size();
-  return static_cast<double>(_communicator.sum(static_cast<std::int64_t>(mine))) > most;
+  const std::size_t mine = sample_formula(sampled, options, coarser, most).size() +
+                           sample_surfaces(sampled, options, coarser, most).size();
+  return static_cast<double>(sampled.communicator().sum(static_cast<std::int64_t>(mine))) > most;
 }
 
 }  // namespace aeroloom::sizing

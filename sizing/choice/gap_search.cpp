@@ -1,13 +1,11 @@
-// Gaps between the faces of a model: what ModelSampler looks for once, before any sizes.
+#include "sizing/choice/gap_search.hpp"
+
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/progress.hpp"
-#include "parallel/observation/timers.hpp"
-#include "sizing/choice/model_sampler.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -64,7 +62,7 @@ std::optional<UnseenGaps> describe_unseen(FaceId face, const Gaps& gaps, double 
 struct FaceSearch {
   FaceId face;
   Gaps* gaps;
-  GapSearch search;
+  FaceGapSearch search;
   std::int64_t share;  ///< of `all_shares`
 };
 
@@ -74,7 +72,8 @@ std::int64_t share_of_face(double faces, double area_part, double facet_part) {
 }
 
 /// Looks until everything was looked at or the work is done. Collective.
-void search_faces(const parallel::Communicator& communicator, std::vector<FaceSearch>& searches) {
+void search_faces(const SampledModel& sampled, std::vector<FaceSearch>& searches) {
+  const parallel::Communicator& communicator = sampled.communicator();
   parallel::Progress progress("sizing", static_cast<std::int64_t>(searches.size()),
                               "faces searched for gaps");
   const auto is_done = [](const FaceSearch& each) { return each.gaps->unseen.empty(); };
@@ -102,8 +101,8 @@ void search_faces(const parallel::Communicator& communicator, std::vector<FaceSe
 
 /// In the open gaps of those faces. Gaps may turn out to be narrower than was seen before: what some faces
 /// leave goes to where the narrow parts are by then. Collective.
-void look_closer(const parallel::Communicator& communicator, double layers,
-                 std::vector<FaceSearch>& searches) {
+void look_closer(const SampledModel& sampled, double layers, std::vector<FaceSearch>& searches) {
+  const parallel::Communicator& communicator = sampled.communicator();
   std::int64_t rays_left = most_close_rays, nodes_left = most_close_nodes;
   const auto is_worth_it = [&] {
     return rays_left > least_deal * most_close_rays && nodes_left > least_deal * most_close_nodes;
@@ -144,18 +143,42 @@ void look_closer(const parallel::Communicator& communicator, double layers,
 
 }  // namespace
 
-void ModelSampler::measure_gaps(Notes notes) {
-  const geometry::Vec3 size = _body_box.size();
+GapSearch::GapSearch(const SampledModel& sampled, double layers) : _layers(layers) {
+  measure(sampled, Notes::tell);
+}
+
+GapSearch::GapSearch(GapSearch&& before, const SampledModel& joined) : _layers(before._layers) {
+  const cad::Model& model = joined.model();
+  const auto is_joined = [&](FaceId other) { return model.sheet_count(other) > 1; };
+  for (const SampledFace& face : joined.own_faces()) {
+    if (is_joined(face.id)) continue;
+    // Between walls that meet in an edge there is no gap: neighbours that were joined share more edges.
+    const bool neighbours_joined =
+        std::any_of(face.facets.boundary.begin(), face.facets.boundary.end(), [&](const auto& line) {
+          const std::vector<FaceId>& users = model.edge(line.use.edge).faces;
+          return std::any_of(users.begin(), users.end(), is_joined);
+        });
+    auto gaps = before._gaps.extract(model.members(face.id).front());
+    if (neighbours_joined || gaps.empty()) continue;
+    gaps.key() = face.id;
+    _gaps.insert(std::move(gaps));
+  }
+  measure(joined, Notes::were_told);
+}
+
+void GapSearch::measure(const SampledModel& sampled, Notes notes) {
+  const cad::Model& model = sampled.model();
+  const geometry::Vec3 size = sampled.body_box().size();
   const double extent = std::max({size.x, size.y, size.z});
   std::int64_t facets = 0;
-  for (const OwnFace& face : _faces)
-    facets += _model.is_far_field(face.id) ? 0 : static_cast<std::int64_t>(face.facets.triangles.size());
-  const auto all_facets = static_cast<double>(std::max<std::int64_t>(1, _communicator.sum(facets)));
+  for (const SampledFace& face : sampled.own_faces())
+    facets += model.is_far_field(face.id) ? 0 : static_cast<std::int64_t>(face.facets.triangles.size());
+  const auto all_facets = static_cast<double>(std::max<std::int64_t>(1, sampled.communicator().sum(facets)));
   std::vector<FaceSearch> searches;
-  parallel::agree(_communicator, [&] {
+  parallel::agree(sampled.communicator(), [&] {
     double area = 0, count = 0;
-    for (FaceId f = 0; f < _model.face_count(); ++f) {
-      if (!_model.is_far_field(f)) area += _areas[f], ++count;
+    for (FaceId f = 0; f < model.face_count(); ++f) {
+      if (!model.is_far_field(f)) area += sampled.area(f), ++count;
     }
     const double finest = finest_facet(extent, area);
     if (notes == Notes::tell && _layers > 0 && finest > coarser_than_wanted * extent / finest_gap) {
@@ -166,31 +189,31 @@ void ModelSampler::measure_gaps(Notes notes) {
     }
     const ScopedCpu cpu(ScopedCpu::As::task);
     const GapLimits limits{extent / narrow_gap, finest, _layers};
-    for (OwnFace& face : _faces) {
-      if (_layers <= 0 || face.gaps || _model.is_far_field(face.id)) continue;
-      face.gaps.emplace();
+    for (const SampledFace& face : sampled.own_faces()) {
+      if (_layers <= 0 || model.is_far_field(face.id)) continue;
+      const auto [gaps, is_new] = _gaps.try_emplace(face.id);
+      if (!is_new) continue;
       searches.push_back({face.id,
-                          &*face.gaps,
-                          {_model, face.id, face.facets, *_walls, limits},
-                          share_of_face(count, _areas[face.id] / std::max(area, least_area),
+                          &gaps->second,
+                          {model, face.id, face.facets, sampled.walls(), limits},
+                          share_of_face(count, sampled.area(face.id) / std::max(area, least_area),
                                         static_cast<double>(face.facets.triangles.size()) / all_facets)});
     }
   });
-  search_faces(_communicator, searches);
-  look_closer(_communicator, _layers, searches);
-  gather_gaps();
+  search_faces(sampled, searches);
+  look_closer(sampled, _layers, searches);
+  gather(sampled);
 }
 
-void ModelSampler::gather_gaps() {
+void GapSearch::gather(const SampledModel& sampled) {
   double narrowest = std::numeric_limits<double>::infinity();
   std::vector<UnseenGaps> mine;
-  for (const OwnFace& face : _faces) {
-    if (!face.gaps) continue;
-    for (const Gap& gap : face.gaps->open) narrowest = std::min(narrowest, gap.width);
-    if (const auto unseen = describe_unseen(face.id, *face.gaps, _layers)) mine.push_back(*unseen);
+  for (const auto& [face, gaps] : _gaps) {
+    for (const Gap& gap : gaps.open) narrowest = std::min(narrowest, gap.width);
+    if (const auto unseen = describe_unseen(face, gaps, _layers)) mine.push_back(*unseen);
   }
-  _narrowest_gap = _communicator.minimum(narrowest);
-  _unseen_gaps = _communicator.all_gather_items<UnseenGaps>(mine);
+  _narrowest_gap = sampled.communicator().minimum(narrowest);
+  _unseen_gaps = sampled.communicator().all_gather_items<UnseenGaps>(mine);
   std::sort(_unseen_gaps.begin(), _unseen_gaps.end(),
             [](const UnseenGaps& a, const UnseenGaps& b) { return a.face < b.face; });
 }
