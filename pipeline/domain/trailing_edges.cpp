@@ -115,7 +115,7 @@ TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
     const cad::BluntEdge& strip = each.strip;
     JudgedEdge edge{
         strip.face, domain.face(strip.face).name, strip.place, strip.length, strip.narrowest, strip.widest,
-        each.chord, each.width_over_chord};
+        each.chord, each.share};
     edge.aspect = aspect_along(strip, trial);
     judge(edge, strip, trial);
     report.push_back(std::move(edge));

@@ -165,14 +165,14 @@ std::string last_word_of_queue(const fs::path& printed) {
 }  // namespace
 
 std::map<std::string, std::string> query_queue(const fs::path& folder) {
-  std::map<std::string, std::string> jobs, states;
+  std::map<std::string, std::string> jobs, of_runs;
   std::ifstream file(folder / submitted_name);
   std::string ids;
   for (std::string name, id; file >> name >> id;) {
     jobs[name] = id;  // the last counts
     ids += (ids.empty() ? "" : ",") + id;
   }
-  if (ids.empty()) return states;
+  if (ids.empty()) return of_runs;
   const fs::path answer = folder / "sacct";
   const Ended ended = run_line(
       "exec sacct --noheader --parsable2 --allocations --format=JobID,State,ExitCode --jobs=" + ids, answer);
@@ -189,10 +189,10 @@ std::map<std::string, std::string> query_queue(const fs::path& folder) {
   }
   for (const auto& [name, id] : jobs) {
     std::string state = states.count(id) > 0 ? states[id] : last_word_of_queue(folder / (name + ".out"));
-    states[name] =
+    of_runs[name] =
         fmt::format("job {}{}{}", id, state.empty() ? ", of which sacct says nothing" : " ", state);
   }
-  return states;
+  return of_runs;
 }
 
 }  // namespace aeroloom::study
