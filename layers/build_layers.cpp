@@ -46,10 +46,10 @@ void limit_by_gaps(const WallShare& wall, const Directions& directions, ColumnLi
 
 Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
                     const PlaneRemesher& remesh_planes) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
+  const parallel::Communicator& communicator = wall.communicator;
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
-  parallel::add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
-  const WallShare walls(wall.mesh, options);
+  parallel::add_pieces(static_cast<std::int64_t>(wall.pieces.size()));
+  const WallShare walls(wall, options);
   const Fans fans = gather_fans(walls);
   const Directions directions = find_directions(walls, fans);
   ColumnLimits limits(walls, options, fans, directions);

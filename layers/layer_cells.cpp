@@ -9,9 +9,7 @@
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -42,57 +40,48 @@ std::vector<std::optional<std::size_t>> places_in_front(const mesh::DistributedM
   return places;
 }
 
-/// What pieces of the volume ask of a vertex of the front.
-struct FrontVertex {
-  std::int32_t count;              ///< of layers before it
-  std::int32_t dimension, entity;  ///< its classification; as wide as each other, so that there is no padding
+/// The number of layers before each vertex of the front.
+using CountTable = mesh::DistributedTable<std::int32_t>;
 
-  static constexpr auto fields() {
-    return std::tuple(&FrontVertex::count, &FrontVertex::dimension, &FrontVertex::entity);
-  }
-};
-using FrontTable = mesh::DistributedTable<FrontVertex>;
-
-FrontTable make_table(const Columns& columns, const NamedFront& front,
+CountTable make_table(const Columns& columns, const mesh::NumberedMesh& front,
                       const std::vector<std::optional<std::size_t>>& places) {
-  const Communicator& communicator = front.mesh.communicator;
-  std::vector<const PieceColumns*> columns_of(front.mesh.pieces.size(), nullptr);
+  const Communicator& communicator = front.communicator;
+  std::vector<const PieceColumns*> columns_of(front.pieces.size(), nullptr);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
   }
-  std::vector<FrontTable::KeyedValue> rows;
-  for (std::size_t p = 0; p < front.mesh.pieces.size(); ++p) {
-    const Piece& piece = front.mesh.pieces[p];
+  std::vector<CountTable::KeyedValue> rows;
+  for (std::size_t p = 0; p < front.pieces.size(); ++p) {
+    const Piece& piece = front.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (!front.numbering.owned[p][v]) continue;
-      rows.push_back({front.numbering.vertices[p][v],
-                      {columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0,
-                       static_cast<std::int32_t>(piece.vertex_dimension[v]), front.entities[p][v]}});
+      rows.push_back(
+          {front.numbering.vertices[p][v], columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0});
     }
   }
   return {communicator, mesh::even_ranges(communicator.size(), front.numbering.vertex_count),
           std::move(rows)};
 }
 
-/// The pieces behind the front: their vertices on it get keys that layers know, and their classification; the
-/// triangles that layers lie before are boundary no more.
+/// The pieces behind the front: their vertices on it get keys that layers know; those off the wall are
+/// inside the region now; the triangles that layers lie before are boundary no more.
 class BehindFront {
 public:
   /// Collective.
-  BehindFront(const mesh::DistributedMesh& wall, const FrontTable& table, const mesh::DistributedMesh& volume)
+  BehindFront(const mesh::DistributedMesh& wall, const CountTable& table, const mesh::DistributedMesh& volume)
       : _wall(wall) {
     for (const Piece& piece : volume.pieces) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-        if (is_on_boundary(piece.vertex_dimension[v])) _asked.push_back(piece.vertex_entity[v]);
+        if (is_on_boundary(piece.vertex_dimension[v])) _asked.push_back(number_of(piece, v));
       }
     }
     geometry::sort_unique(_asked);
-    const FrontTable::Fetched found = table.fetch(_asked);
+    const CountTable::Fetched found = table.fetch(_asked);
     if (found.missing >= 0)
       throw parallel::CollectiveError(
           parallel::FailureKind::bug,
           fmt::format("layers: the volume has a vertex of the front, {}, that there is not", found.missing));
-    _rows = found.values;
+    _counts = found.values;
   }
 
   void join(mesh::DistributedMesh& volume) const {
@@ -100,8 +89,11 @@ public:
   }
 
 private:
-  const FrontVertex& row(GlobalIndex number) const {
-    return _rows[std::lower_bound(_asked.begin(), _asked.end(), number) - _asked.begin()];
+  static GlobalIndex number_of(const Piece& piece, LocalIndex v) {
+    return piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v];
+  }
+  std::int32_t count(GlobalIndex number) const {
+    return _counts[std::lower_bound(_asked.begin(), _asked.end(), number) - _asked.begin()];
   }
 
   void join(Piece& piece) const {
@@ -113,14 +105,14 @@ private:
     }
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (!is_on_boundary(piece.vertex_dimension[v])) continue;
-      const GlobalIndex number = piece.vertex_entity[v];
-      const FrontVertex& of_front = row(number);
+      const GlobalIndex number = number_of(piece, v);
       keys.emplace_back(v, mesh::running_key(number));
-      grows[v] = of_front.count > 0 ? 1 : 0;
-      piece.vertex_dimension[v] =
-          grows[v] ? mesh::CadDimension::region : static_cast<mesh::CadDimension>(of_front.dimension);
-      piece.vertex_entity[v] = grows[v] ? piece.region : of_front.entity;
+      if (count(number) == 0) continue;
+      grows[v] = 1;
+      piece.vertex_dimension[v] = mesh::CadDimension::region;
+      piece.vertex_entity[v] = piece.region;
     }
+    piece.surface_numbers = {};
     std::sort(keys.begin(), keys.end());
     piece.shared_vertices.clear(), piece.shared_keys.clear();
     for (const auto& [vertex, key] : keys) {
@@ -148,8 +140,8 @@ private:
   }
 
   const mesh::DistributedMesh& _wall;
-  std::vector<GlobalIndex> _asked;  // ascending
-  std::vector<FrontVertex> _rows;   // of those
+  std::vector<GlobalIndex> _asked;    // ascending
+  std::vector<std::int32_t> _counts;  // of those
 };
 
 std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, const Piece& piece) {
@@ -161,25 +153,25 @@ std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, c
 
 /// The pieces of the layers over the pieces of the wall on this rank, by piece of the wall, without ids.
 std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, const Columns& columns,
-                                            const NamedFront& front,
+                                            const mesh::NumberedMesh& front,
                                             const std::vector<std::optional<std::size_t>>& places,
                                             const std::vector<LateralEdge>& laterals,
                                             const LayerCellOptions& options) {
-  std::vector<std::vector<Piece>> made(wall.mesh.pieces.size());
+  std::vector<std::vector<Piece>> made(wall.pieces.size());
   for (std::size_t p = 0; p < made.size(); ++p) {
     if (!places[p]) continue;
-    const Piece& piece = wall.mesh.pieces[p];
+    const Piece& piece = wall.pieces[p];
     const auto [first, last] =
         std::equal_range(laterals.begin(), laterals.end(), LateralEdge{piece.id, 0, 0, 0},
                          [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
-    const std::vector<std::uint8_t> bears = bearing_triangles(wall.mesh, piece);
+    const std::vector<std::uint8_t> bears = bearing_triangles(wall, piece);
     const LayeredPiece source{piece,
-                              front.mesh.pieces[*places[p]],
+                              front.pieces[*places[p]],
                               columns.pieces[p],
                               front.numbering.vertices[*places[p]],
                               bears,
                               {first, last},
-                              wall.mesh.sides_of(piece.common_face()).front,
+                              wall.sides_of(piece.common_face()).front,
                               options.elements};
     const std::vector<TriangleRange> ranges = cut_into_ranges(source, options.most_cells_per_piece);
     const std::vector<std::uint8_t> shared = find_shared(source, ranges);
@@ -224,35 +216,18 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 
 }  // namespace
 
-NamedFront name_front(mesh::DistributedMesh front) {
-  const Communicator communicator = front.communicator;
-  NamedFront named{{std::move(front), {}}, {}};
-  named.numbering = mesh::number_mesh(named.mesh);
-  parallel::agree(communicator, [&] {
-    if (named.numbering.vertex_count > std::numeric_limits<std::int32_t>::max())
-      throw std::runtime_error("layers: the surface has more vertices than 2^31");
-    for (std::size_t p = 0; p < named.mesh.pieces.size(); ++p) {
-      Piece& piece = named.mesh.pieces[p];
-      named.entities.push_back(piece.vertex_entity);
-      for (LocalIndex v = 0; v < piece.vertex_count(); ++v)
-        piece.vertex_entity[v] = static_cast<std::int32_t>(named.numbering.vertices[p][v]);
-    }
-  });
-  return named;
-}
-
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& front,
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& front,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
-  const Communicator& communicator = wall.mesh.communicator;
-  const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
-  BehindFront(wall.mesh, make_table(columns, front, places), volume).join(volume);
+  const Communicator& communicator = wall.communicator;
+  const std::vector<std::optional<std::size_t>> places = places_in_front(wall, front);
+  BehindFront(wall, make_table(columns, front, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
   parallel::agree(communicator, [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
-  const std::vector<GlobalIndex> first = mesh::first_by_piece(wall.mesh, counts);
+  const std::vector<GlobalIndex> first = mesh::first_by_piece(wall, counts);
   for (std::size_t p = 0; p < made.size(); ++p) {
     auto id = static_cast<PieceId>(volume.piece_count + first[p]);
     for (Piece& piece : made[p]) {

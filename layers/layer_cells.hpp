@@ -10,23 +10,15 @@
 
 namespace aeroloom::layers {
 
-/// A front on its way through volume and improvement. Vertices are known there by their classification: the
-/// dimension stays, so that nobody moves them, and the entity is their number.
-struct NamedFront : mesh::NumberedMesh {
-  std::vector<std::vector<std::int32_t>> entities;  ///< by piece and vertex: of the CAD
-};
-
-/// Throws CollectiveError where the front has more vertices than entities can be counted by. Collective.
-NamedFront name_front(mesh::DistributedMesh front);
-
 struct LayerCellOptions {
   std::int64_t most_cells_per_piece = 0;  ///< where a triangle does not have more itself
   LayerElements elements = LayerElements::prisms;
 };
 
-/// Appends the cells of layers to the tetrahedra behind a named front, whose boundary is still the front's
-/// triangles. Pieces of the front are those of the wall, the same ones in the same order, but for planes that
-/// were meshed again: theirs come last.
+/// Appends the cells of layers to the tetrahedra behind the front, whose boundary is still the front's
+/// triangles and whose vertices there have the front's numbers (`Piece::surface_numbers`, gone after it).
+/// Pieces of the front are those of the wall, the same ones in the same order, but for planes that were
+/// meshed again: theirs come last.
 ///
 /// Over a triangle of the wall with the columns a, b, c layer k = 1 .. max(counts) lies between the nodes
 /// min(k - 1, count) and min(k, count) of each: three that go on make a prism, two a pyramid, one a
@@ -42,9 +34,9 @@ struct LayerCellOptions {
 ///
 /// Boundary faces of walls with a column at a corner go over to the layers as the wall has them; those of
 /// other patches stay, and what layers end on there (a plane of symmetry) gets quadrilaterals and triangles
-/// of its CAD face and patch. Vertices get their classification back; those off the wall lie in their region,
+/// of its CAD face and patch. Vertices of the front that are off the wall now lie in their region,
 /// or on the plane that layers end on. Collective.
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& front,
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& front,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume);
 
 /// Whether triangles of the patch get cells: those of walls.

@@ -53,17 +53,15 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 void inspect_surface(const std::string& what, FinishedSurface& surface) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  require_valid(what, mesh::check_surface_mesh(surface.mesh, surface.numbering));
+  require_valid(what, mesh::check_surface_mesh(surface));
   report::SurfaceFigures& figures = surface.figures;
-  figures.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
-  figures.face_table = table_of_faces(surface.model, surface.mesh);
-  figures.patches = table_of_patches(surface.model, figures.face_table, surface.patch_types);
+  figures.surface_quality = mesh::summarise_quality(surface);
+  figures.face_table = table_of_faces(surface.model, surface);
+  figures.patches = table_of_patches(surface.model, figures.face_table, surface.types);
 }
 
-void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface) {
-  surface.mesh = mesh::boundary_mesh(volume, numbering);
-  surface.numbering = mesh::number_mesh(surface.mesh);
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface) {
+  static_cast<mesh::NumberedMesh&>(surface) = mesh::number_mesh(mesh::boundary_mesh(volume));
   inspect_surface("the improved surface mesh", surface);
 }
 

@@ -1,4 +1,4 @@
-/// A finished surface: its numbers, its sizes, checks and figures.
+/// The finished surface mesh, its checks and its figures.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -11,25 +11,22 @@
 
 namespace aeroloom::pipeline {
 
-/// The finished surface with its sizes, and the model that it is of.
-struct FinishedSurface : mesh::NumberedMesh {
-  sizing::SizeField field;
-  surface::SurfaceReport report;
+/// The finished surface, its model and its sizes.
+struct FinishedSurface : surface::SurfaceMesh {
   cad::Model model;
-  std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
-  sizing::SizingOptions sizes;               ///< that it was made for
-  double forecast_tetrahedra = 0;            ///< by these sizes
-  bool bounds_volume = true;  ///< false where layers end on planes: the volume has other triangles there
-  report::SurfaceFigures figures = {};  ///< by inspect_surface()
+  std::vector<mesh::PatchType> types;  ///< by patch of the model
+  sizing::SizingOptions sizes;         ///< used for the surface
+  double forecast_tetrahedra = 0;      ///< predicted for the volume from these sizes
+  bool bounds_volume = true;  ///< false if layers end on planes: the volume has other triangles there
+  report::SurfaceFigures figures = {};  ///< results of inspect_surface()
 };
 
-/// Checks the surface and measures its quality, faces and patches. `what` names it in messages. Collective.
-/// Throws as require_valid().
+/// Checks the surface and measures quality, faces and patches. `what` names the surface in messages.
+/// Collective. Throws as require_valid().
 void inspect_surface(const std::string& what, FinishedSurface& surface);
 
-/// Replaces the surface mesh by the boundary of a volume that was improved there. Collective. Throws as
+/// Replaces the surface mesh by the boundary of an improved volume and inspects it. Collective. Throws as
 /// inspect_surface().
-void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface);
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface);
 
 }  // namespace aeroloom::pipeline

@@ -7,7 +7,6 @@
 #include "pipeline/case/layer_gate.hpp"
 #include "pipeline/stage_log.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -32,8 +31,8 @@ std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& vol
 }
 
 /// Measures that compare neighbours and edges. Collective.
-mesh::MixedQuality measure_cells(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering) {
-  return mesh::measure_quality(volume, numbering, mesh::link_faces(volume, numbering));
+mesh::MixedQuality measure_cells(const mesh::NumberedMesh& volume) {
+  return mesh::measure_quality(volume, mesh::link_faces(volume));
 }
 
 }  // namespace
@@ -62,25 +61,24 @@ improve::ImproveReport improve_volume(const improve::ImproveOptions& options,
 }
 
 report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, const cases::QualityGate& gate,
-                                     const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                                     const mesh::DistributedMesh* surface) {
+                                     const mesh::NumberedMesh& volume, const mesh::DistributedMesh* surface) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, numbering, surface);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, surface);
   require_valid("the volume mesh", validity);
   report::VolumeFigures figures;
   figures.mesh_volume = validity.volume;
-  figures.counts = mesh::count_mesh(volume, numbering);
+  figures.counts = mesh::count_mesh(volume);
   figures.regions_filled = table_of_regions(volume, validity.region_volumes);
   mesh::CellsOutside suspects;
   if (options.enabled) suspects.limits = attribution::suspect_angles(options.target_angle);
-  figures.quality = mesh::summarise_quality(volume, numbering, &suspects);
-  if (gate.asks_for_cells()) figures.cells = measure_cells(volume, numbering);
+  figures.quality = mesh::summarise_quality(volume, &suspects);
+  if (gate.asks_for_cells()) figures.cells = measure_cells(volume);
   if (options.enabled) {
-    figures.pinned = attribution::find_pinned(volume, numbering, options.target_angle, suspects,
-                                              options.boundary_may_change);
+    figures.pinned =
+        attribution::find_pinned(volume, options.target_angle, suspects, options.boundary_may_change);
     log_pinned(figures.pinned);
   }
-  figures.hash = mesh::hash_mesh(volume, numbering);
+  figures.hash = mesh::hash_mesh(volume);
   return figures;
 }
 
@@ -91,11 +89,8 @@ void PieceArea::add(const mesh::Piece& of_piece, const mesh::LocalIndex* v) {
 }
 
 std::vector<PieceArea> gather_areas(const mesh::DistributedMesh& mesh, const std::vector<PieceArea>& mine) {
-  std::vector<PieceArea> rows = mesh.communicator.all_gather_items<PieceArea>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceArea& a, const PieceArea& b) {
-    return std::tie(a.piece, a.of) < std::tie(b.piece, b.of);
-  });
-  return rows;
+  return mesh.communicator.gather_sorted(mine,
+                                         [](const PieceArea& each) { return std::tie(each.piece, each.of); });
 }
 
 std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume) {

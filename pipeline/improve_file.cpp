@@ -53,24 +53,21 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
                              [&] { return improve_volume(options, {}, volume); });
   report::VolumeFigures figures;
   std::vector<report::PatchRow> patches;
-  const mesh::Numbering numbering = run_stage(record.clock, "inspect", report::ExitCode::volume, [&] {
-    mesh::Numbering finished = mesh::number_mesh(volume);
-    figures = inspect_volume(options, input.gate, volume, finished, nullptr);
-    patches = table_of_patches(volume);
-    return finished;
+  const mesh::NumberedMesh finished = run_stage(record.clock, "inspect", report::ExitCode::volume, [&] {
+    mesh::NumberedMesh numbered = mesh::number_mesh(std::move(volume));
+    figures = inspect_volume(options, input.gate, numbered, nullptr);
+    patches = table_of_patches(numbered);
+    return numbered;
   });
   static_cast<report::VolumeFigures&>(record) = figures;
   record.patches = patches;
   run_stage(record.clock, "output", report::ExitCode::files, [&] {
     if (!wants_vtk(input.output) && !input.output.pictures)
-      return write_outputs(volume, numbering, nullptr, input.output);
-    const mesh::DistributedMesh surface = mesh::boundary_mesh(volume, numbering);
-    const mesh::Numbering surface_numbers = mesh::number_mesh(surface);
-    const SurfaceView view{surface, surface_numbers};
-    write_outputs(volume, numbering, &view, input.output);
+      return write_outputs(finished, nullptr, input.output);
+    const mesh::NumberedMesh surface = mesh::number_mesh(mesh::boundary_mesh(finished));
+    write_outputs(finished, &surface, input.output);
     if (!input.output.pictures) return;
-    record.pictures =
-        report::pictures_or_warning({surface, surface_numbers, volume.patch_types, ""}, &volume);
+    record.pictures = report::pictures_or_warning({surface, finished.patch_types, ""}, &finished);
   });
   require_quality(input, {figures, patches});
 }

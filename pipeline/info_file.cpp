@@ -2,6 +2,7 @@
 
 #include "io/file_formats.hpp"
 #include "io/read_mesh.hpp"
+#include "mesh/data/bounds.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/domain/sandboxed_cad.hpp"
@@ -22,16 +23,11 @@ using Json = nlohmann::ordered_json;
 constexpr int info_schema_version = 1;
 
 geometry::Box bounds_of(const io::FileMesh& mesh) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
   for (const io::FilePart& part : mesh.parts) {
     for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
   }
-  box.low = {communicator.minimum(box.low.x), communicator.minimum(box.low.y),
-             communicator.minimum(box.low.z)};
-  box.high = {communicator.maximum(box.high.x), communicator.maximum(box.high.y),
-              communicator.maximum(box.high.z)};
-  return box;
+  return mesh::box_over_ranks(mesh.pieces->communicator, box);
 }
 
 /// Letters of names that are no UTF-8 are replaced.
@@ -90,16 +86,11 @@ void require_file(const std::string& file) {
 }  // namespace
 
 void show_info(const parallel::Communicator& communicator, const InfoRequest& request) {
-  const auto on_root = [&](const auto& work) {
-    parallel::agree(communicator, [&] {
-      if (communicator.is_root()) work();
-    });
-  };
-  on_root([&] { require_file(request.file); });
+  parallel::on_root(communicator, [&] { require_file(request.file); });
   if (io::readable_file(request.file).row != nullptr)
     return show_mesh(io::read_mesh(communicator, request.file, 0), request);
   if (request.file.ends_with(".yaml") || request.file.ends_with(".yml"))
-    return on_root([&] { show_case(request); });
+    return parallel::on_root(communicator, [&] { show_case(request); });
   const std::optional<io::FileFormat> written = io::format_of_path(request.file);
   if (written) {
     throw parallel::CollectiveError(
@@ -107,7 +98,7 @@ void show_info(const parallel::Communicator& communicator, const InfoRequest& re
         fmt::format("'{}': {} is written here, but not read; meshes that are read end like {}", request.file,
                     io::name_of(*written), fmt::join(io::readable_extensions(), ", ")));
   }
-  on_root([&] { show_cad(request); });
+  parallel::on_root(communicator, [&] { show_cad(request); });
 }
 
 }  // namespace aeroloom::pipeline

@@ -87,26 +87,25 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 }  // namespace
 
 LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) {
-  surface.mesh.patch_types = surface.patch_types;
+  surface.patch_types = surface.types;
   const layers::LayerOptions options =
-      cases::layer_options(input.layers, input.sizing, surface.mesh.patches, surface.patch_types);
-  const surface::PlanesToRemesh planes{faces_of_planes(surface.mesh, options), input.surface};
+      cases::layer_options(input.layers, input.sizing, surface.patches, surface.types);
+  const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
-      mesh::split_pieces(surface.mesh, layers::wall_piece_triangles, planes.faces);
+      mesh::split_pieces(surface, layers::wall_piece_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
     surface::PlaneConflicts conflicts = surface::remesh_planes(surface.model, surface.field, planes, front);
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
   log_layers(made.report);
-  const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
-  sizing::SizeField field = surface.mesh.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
+  const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface, made.columns, surface.field);
+  sizing::SizeField field = surface.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)
                                 : surface.field;
   return {std::move(made.columns),
-          layers::name_front(std::move(made.front)),
-          std::move(field),
+          {mesh::number_mesh(std::move(made.front)), std::move(field)},
           {options, std::move(made.report)}};
 }
 

@@ -48,9 +48,7 @@ std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
 }
 
 /// The finished volume.
-struct InspectedVolume {
-  mesh::DistributedMesh mesh;
-  mesh::Numbering numbering;
+struct InspectedVolume : mesh::NumberedMesh {
   report::VolumeFigures figures = {};
 };
 
@@ -68,8 +66,7 @@ public:
     domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return size(domain); });
     FinishedSurface surface =
         stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, std::move(sized)); });
-    const report::PictureSource pictured{surface.mesh, surface.numbering, surface.patch_types,
-                                         domain.model.unit_name()};
+    const report::PictureSource pictured{surface, surface.types, domain.model.unit_name()};
     std::optional<report::LayerRecord> layers;
     VolumeProduct volume = report::with_pictures_of_failure(pictured, _input.output, _record.pictures, [&] {
       VolumeStages stages(_input, *_checkpoints);
@@ -78,8 +75,7 @@ public:
         layered = stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface); });
         _record.layers = layers = layered->record;
       }
-      const VolumeBoundary boundary =
-          layered ? VolumeBoundary{layered->front, layered->field} : VolumeBoundary{surface, surface.field};
+      const sizing::SizedSurface& boundary = layered ? layered->front : surface;
       VolumeStart start =
           stage("decompose", ExitCode::volume, [&] { return decompose(stages, boundary, surface); });
       VolumeProduct filled =
@@ -100,7 +96,7 @@ public:
     stage("output", ExitCode::files, [&] {
       write(finished, surface);
       if (_communicator.is_root()) warn(judged, domain.model.unit_in_metres());
-      if (_input.output.pictures) _record.pictures = report::pictures_or_warning(pictured, &finished.mesh);
+      if (_input.output.pictures) _record.pictures = report::pictures_or_warning(pictured, &finished);
     });
     require_quality(_input, judged);
   }
@@ -145,19 +141,15 @@ private:
   cad::Domain find_or_load_domain() {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
       std::optional<cad::Domain> domain;
-      parallel::agree(_communicator, [&] {
-        const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-        domain = domain::unpack_domain(found->common);
-      });
+      parallel::collectively(_communicator, parallel::ScopedCpu::As::repeated,
+                             [&] { domain = domain::unpack_domain(found->common); });
       if (!_communicator.is_root()) domain->report = {};
       _record.domain = domain->report;
       return std::move(*domain);
     }
     cad::Domain domain = domain::load_domain(_communicator, _input.domain);
     _record.domain = domain.report;
-    parallel::agree(_communicator, [&] {
-      if (_communicator.is_root()) require_same_file(_identity, _input);
-    });
+    parallel::on_root(_communicator, [&] { require_same_file(_identity, _input); });
     _checkpoints->keep(SavedStage::geometry, [&] {
       return _communicator.is_root() ? io::CheckpointDraft{domain::pack_domain(domain), {}}
                                      : io::CheckpointDraft();
@@ -219,14 +211,13 @@ private:
     const bool simplified = is_simplified(sized);
     if (std::optional<surface::SurfaceMesh> known = find_surface(domain.model, sized)) {
       if (is_simplified(sized) != simplified) note_sizes(sized);
-      parallel::add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
+      parallel::add_pieces(static_cast<std::int64_t>(known->pieces.size()));
       return finish_surface(domain, sized, std::move(*known));
     }
     surface::SurfaceMesh made = build_surface_or_advise(domain.model, sized);
     FinishedSurface finished = finish_surface(domain, sized, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
-      return pack_surface(
-          {finished.mesh, finished.field, finished.report, sized, is_simplified(sized) != simplified});
+      return pack_surface({finished, sized, is_simplified(sized) != simplified});
     });
     return finished;
   }
@@ -246,14 +237,8 @@ private:
   FinishedSurface finish_surface(const cases::TypedPatches& domain, const domain::SizedDomain& sized,
                                  surface::SurfaceMesh surface) {
     _record.surface = surface.report;
-    mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-    FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)},
-                             std::move(surface.field),
-                             std::move(surface.report),
-                             sized.model,
-                             types_of(sized.model.patches(), domain),
-                             sized.sizes,
-                             sized.findings.counts.tetrahedra};
+    FinishedSurface finished{std::move(surface), sized.model, types_of(sized.model.patches(), domain),
+                             sized.sizes, sized.findings.counts.tetrahedra};
     inspect_surface("the surface mesh", finished);
     static_cast<report::SurfaceFigures&>(_record) = finished.figures;
     log_surface(finished.report, finished.figures);
@@ -262,7 +247,7 @@ private:
   }
 
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized) {
-    return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface,
+    return surface::mesh_surface(sized.model, sized.field, _input.surface,
                                  _checkpoints->tasks(SavedStage::surface));
   }
 
@@ -303,7 +288,7 @@ private:
 
   // --- volume
 
-  VolumeStart decompose(VolumeStages& stages, const VolumeBoundary& boundary,
+  VolumeStart decompose(VolumeStages& stages, const sizing::SizedSurface& boundary,
                         const FinishedSurface& surface) {
     VolumeStart start = stages.decompose(boundary);
     if (start.zones) {
@@ -327,25 +312,23 @@ private:
   // --- the finished mesh
 
   InspectedVolume inspect(VolumeProduct volume, FinishedSurface& surface) {
-    mesh::Numbering numbering = mesh::number_mesh(volume.mesh);
-    InspectedVolume finished{std::move(volume.mesh), std::move(numbering)};
-    if (volume.improve.changed_triangles > 0) adopt_boundary(finished.mesh, finished.numbering, surface);
+    InspectedVolume finished{mesh::number_mesh(std::move(volume.mesh))};
+    if (volume.improve.changed_triangles > 0) adopt_boundary(finished, surface);
     static_cast<report::SurfaceFigures&>(_record) = surface.figures;
-    finished.figures = inspect_volume(improve_options(_input), _input.gate, finished.mesh, finished.numbering,
-                                      surface.bounds_volume ? &surface.mesh : nullptr);
+    finished.figures = inspect_volume(improve_options(_input), _input.gate, finished,
+                                      surface.bounds_volume ? &surface : nullptr);
     add_cad_volumes(surface.model, finished.figures.regions_filled);
     static_cast<report::VolumeFigures&>(_record) = finished.figures;
     const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-    _record.conformity = attribution::measure_conformity(finished.mesh, surface.field);
-    finished.mesh.patch_types = surface.patch_types;
+    _record.conformity = attribution::measure_conformity(finished, surface.field);
+    finished.patch_types = surface.types;
     return finished;
   }
 
   void write(const InspectedVolume& volume, const FinishedSurface& surface) {
-    const SurfaceView view{surface.mesh, surface.numbering, surface.bounds_volume};
     {
       const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-      write_outputs(volume.mesh, volume.numbering, &view, _input.output);
+      write_outputs(volume, surface.bounds_volume ? &surface : nullptr, _input.output);
     }
     if (_input.output.formats.size() == 1 && wants_vtk(_input.output))
       note_files(volume.figures.counts.cells);

@@ -66,14 +66,15 @@ void warn_of_units(const std::string& unit, double metres, const cases::OutputOp
 
 namespace {
 
-void log_closed_tips(const std::vector<surface::ClosedTip>& tips, const std::vector<report::FaceRow>& faces) {
-  if (tips.empty()) return;
+void log_closed_cusps(const std::vector<surface::ClosedCusp>& cusps,
+                      const std::vector<report::FaceRow>& faces) {
+  if (cusps.empty()) return;
   const auto farthest = std::max_element(
-      tips.begin(), tips.end(),
-      [](const surface::ClosedTip& a, const surface::ClosedTip& b) { return a.moved < b.moved; });
+      cusps.begin(), cusps.end(),
+      [](const surface::ClosedCusp& a, const surface::ClosedCusp& b) { return a.moved < b.moved; });
   log_info(fmt::format(
-      "surface: {} tip(s) of faces between tangent curves closed, by at most {:.3g} (face '{}' at {})",
-      tips.size(), farthest->moved, faces.at(farthest->face).name, geometry::place_text(farthest->point)));
+      "surface: {} cusp(s) of faces between tangent curves closed, by at most {:.3g} (face '{}' at {})",
+      cusps.size(), farthest->moved, faces.at(farthest->face).name, geometry::place_text(farthest->point)));
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigu
                   "average",
                   report.triangles, report.pieces, figures.surface_quality->min_dihedral.minimum,
                   figures.surface_quality->mean_ratio.mean));
-  log_closed_tips(report.closed_tips, figures.face_table);
+  log_closed_cusps(report.closed_cusps, figures.face_table);
 }
 
 void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces) {
@@ -105,10 +106,10 @@ void log_needles(const surface::SurfaceReport& report, const std::vector<report:
                           group.degrees, geometry::place_text(group.at));
   }
   if (forced > 0) {
-    log_info(
-        fmt::format("surface: {} triangles below {:g} degrees that corners of the CAD and strips between its "
-                    "curves force, in {} places, from {:.3g} degrees",
-                    forced, surface::needle_degrees, forced_groups, least));
+    log_info(fmt::format(
+        "surface: {} triangles below {:g} degrees that corners of the CAD and narrow regions between its "
+        "curves force, in {} places, from {:.3g} degrees",
+        forced, surface::needle_degrees, forced_groups, least));
   }
   if (others > 0) {
     parallel::log_warning(fmt::format(
@@ -177,7 +178,7 @@ void log_pinned(const attribution::PinnedReport& report) {
   };
   log_info(fmt::format(
       "improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
-      "are at {} strips and gaps that are finer than their elements, {}{} are neither",
+      "are at {} narrow regions and gaps that are finer than their elements, {}{} are neither",
       part(report.pinned), report.entities.size(), part(report.at_features), report.features.size(),
       report.held.tetrahedra == 0
           ? ""

@@ -96,12 +96,13 @@ domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, Che
 
 // The common part of rank 0 counts: others pack none of what each node holds once.
 CheckpointDraft pack_surface(const SurfaceProduct& product) {
-  SurfaceRecord record{digest_of(product.sized), {}, product.report, {}, product.mesh};
-  if (product.mesh.communicator.is_root()) {
+  SurfaceRecord record{digest_of(product.sized), {}, product.surface.report, {}, product.surface};
+  if (product.surface.communicator.is_root()) {
     if (product.sizes_are_other) record.sizes = pack_sizes(product.sized).common;
-    if (product.field.digest() != product.sized.field.digest()) record.field = product.field.pack();
+    const sizing::SizeField& field = product.surface.field;
+    if (field.digest() != product.sized.field.digest()) record.field = field.pack();
   }
-  return {to_wire(record), draft_pieces(product.mesh)};
+  return {to_wire(record), draft_pieces(product.surface)};
 }
 
 std::optional<surface::SurfaceMesh> unpack_surface(CheckpointContent content, const cad::Model& domain,
@@ -110,10 +111,12 @@ std::optional<surface::SurfaceMesh> unpack_surface(CheckpointContent content, co
   auto record = from_wire<SurfaceRecord>(content.common);
   if (!record.sizes.empty()) sized = unpack_sizes(communicator, {std::move(record.sizes), {}}, domain);
   if (record.sized != digest_of(sized)) return std::nullopt;
+  mesh::DistributedMesh mesh =
+      add_pieces(mesh::DistributedMesh(communicator, std::move(record.mesh)), std::move(content.items));
   return surface::SurfaceMesh{
-      add_pieces(mesh::DistributedMesh(communicator, std::move(record.mesh)), std::move(content.items)),
-      std::move(record.report),
-      record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)};
+      {mesh::number_mesh(std::move(mesh)),
+       record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)},
+      std::move(record.report)};
 }
 
 CheckpointDraft pack_volume(const VolumeProduct& product) {

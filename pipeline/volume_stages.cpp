@@ -19,9 +19,8 @@ namespace {
                                      const volume::VolumeFailure& failure, const std::string& file) {
   std::string outcome = "the triangles are in " + file;
   try {
-    parallel::agree(surface.communicator, [&] {
-      if (surface.communicator.is_root()) io::write_triangles(failure.points(), failure.triangles(), file);
-    });
+    parallel::on_root(surface.communicator,
+                      [&] { io::write_triangles(failure.points(), failure.triangles(), file); });
   } catch (const parallel::CollectiveError& error) {
     outcome = fmt::format("the triangles cannot be written: {}", error.what());
   }
@@ -30,7 +29,7 @@ namespace {
 
 }  // namespace
 
-VolumeStart VolumeStages::decompose(const VolumeBoundary& boundary) {
+VolumeStart VolumeStages::decompose(const sizing::SizedSurface& boundary) {
   VolumeStart start;
   if (_input.improve.enabled) start.improved = _checkpoints.find(SavedStage::improve);
   if (!start.improved) start.filled = _checkpoints.find(SavedStage::volume);
@@ -40,7 +39,7 @@ VolumeStart VolumeStages::decompose(const VolumeBoundary& boundary) {
   return start;
 }
 
-VolumeProduct VolumeStages::fill(const VolumeBoundary& boundary, VolumeStart& start,
+VolumeProduct VolumeStages::fill(const sizing::SizedSurface& boundary, VolumeStart& start,
                                  volume::VolumeReport& tried) {
   if (start.improved) return {};
   if (start.filled) return adopt(boundary, *std::exchange(start.filled, std::nullopt));
@@ -57,7 +56,7 @@ VolumeProduct VolumeStages::fill(const VolumeBoundary& boundary, VolumeStart& st
   return product;
 }
 
-VolumeProduct VolumeStages::improve(const cad::Model& model, const VolumeBoundary& boundary,
+VolumeProduct VolumeStages::improve(const cad::Model& model, const sizing::SizedSurface& boundary,
                                     VolumeStart& start, VolumeProduct filled) {
   if (start.improved) {
     VolumeProduct improved = adopt(boundary, *std::exchange(start.improved, std::nullopt));
@@ -72,8 +71,8 @@ VolumeProduct VolumeStages::improve(const cad::Model& model, const VolumeBoundar
   return filled;
 }
 
-VolumeProduct VolumeStages::adopt(const VolumeBoundary& boundary, io::CheckpointContent content) {
-  const parallel::Communicator& communicator = boundary.surface.mesh.communicator;
+VolumeProduct VolumeStages::adopt(const sizing::SizedSurface& boundary, io::CheckpointContent content) {
+  const parallel::Communicator& communicator = boundary.communicator;
   VolumeProduct product;
   parallel::agree(communicator, [&] { product = unpack_volume(communicator, std::move(content)); });
   parallel::add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
@@ -86,17 +85,16 @@ void VolumeStages::keep(SavedStage saved, const VolumeProduct& product) {
   _checkpoints.keep(saved, [&] { return pack_volume(product); });
 }
 
-volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
-  return {boundary.surface.mesh, boundary.surface.numbering, boundary.field, _input.volume,
-          _checkpoints.tasks(SavedStage::volume)};
+volume::VolumeInput VolumeStages::input_of(const sizing::SizedSurface& boundary) {
+  return {boundary, _input.volume, _checkpoints.tasks(SavedStage::volume), _input.layers.given};
 }
 
-mesh::DistributedMesh VolumeStages::fill_zones(const VolumeBoundary& boundary, volume::Decomposition zones,
-                                               volume::VolumeReport& report) {
+mesh::DistributedMesh VolumeStages::fill_zones(const sizing::SizedSurface& boundary,
+                                               volume::Decomposition zones, volume::VolumeReport& report) {
   try {
     return volume::fill_zones(input_of(boundary), std::move(zones), report);
   } catch (const volume::VolumeFailure& failure) {
-    point_at_offenders(boundary.surface.mesh, failure, _input.output.directory + "/offending_triangles.vtp");
+    point_at_offenders(boundary, failure, _input.output.directory + "/offending_triangles.vtp");
   }
 }
 

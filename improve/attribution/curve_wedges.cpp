@@ -90,18 +90,15 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
   return found != edges.end() && *found == edge ? found - edges.begin() : -1;
 }
 
-std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                      const std::vector<EdgeName>& edges) {
+std::vector<EdgeWedge> measure_wedges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges) {
   const parallel::Communicator& communicator = mesh.communicator;
   std::vector<EdgeShare> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-      add_shares(mesh.pieces[i], numbering.vertices[i], edges, mine);
+      add_shares(mesh.pieces[i], mesh.numbering.vertices[i], edges, mine);
   }
-  std::vector<EdgeShare> all = communicator.all_gather_items<EdgeShare>(mine);
-  std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
-    return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
-  });
+  std::vector<EdgeShare> all =
+      communicator.gather_sorted(mine, [](const EdgeShare& each) { return std::tie(each.edge, each.piece); });
   std::vector<EdgeWedge> wedges(edges.size());
   for (const EdgeShare& share : all) {
     wedges[share.edge].angle += share.angle;

@@ -24,7 +24,6 @@ EdgeName name_edge(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex
 std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge);
 
 /// Of each edge of the list (ascending, the same on every rank). Collective; the same on every rank.
-std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                      const std::vector<EdgeName>& edges);
+std::vector<EdgeWedge> measure_wedges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges);
 
 }  // namespace aeroloom::attribution

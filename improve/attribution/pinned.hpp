@@ -82,7 +82,7 @@ mesh::DihedralRange suspect_angles(double target_angle);
 /// between two faces which is, are at that feature. Where the surface was to stay as it is, others with three
 /// or four corners on it are held by it. `suspects` are those beyond the angles above, as
 /// mesh::summarise_quality finds them. Collective; the same on every rank and for any number of ranks.
-PinnedReport find_pinned(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                         double target_angle, const mesh::CellsOutside& suspects, bool surface_may_change);
+PinnedReport find_pinned(const mesh::NumberedMesh& mesh, double target_angle,
+                         const mesh::CellsOutside& suspects, bool surface_may_change);
 
 }  // namespace aeroloom::attribution

@@ -13,17 +13,16 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                        const std::vector<EdgeName>& edges) {
+std::vector<StripEdge> find_strip_edges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges) {
   const parallel::Communicator& communicator = mesh.communicator;
-  const auto triangles = find_strip_triangles(mesh, numbering);
+  const auto triangles = find_strip_triangles(mesh);
   std::vector<StripEdge> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     for (const StripTriangle& strip : triangles[i]) {
       const LocalIndex c = strip.corners[2];
       for (const LocalIndex a : {strip.corners[0], strip.corners[1]}) {
-        const GlobalIndex ga = numbering.vertices[i][a], gc = numbering.vertices[i][c];
+        const GlobalIndex ga = mesh.numbering.vertices[i][a], gc = mesh.numbering.vertices[i][c];
         // The triangles are in pieces of one side of a face; its edges are meant as any region sees them.
         const EdgeName first{std::min(ga, gc), std::max(ga, gc), std::numeric_limits<std::int64_t>::min()};
         for (auto found = std::lower_bound(edges.begin(), edges.end(), first);

@@ -34,8 +34,7 @@ struct StripEdge {
 
 /// The edges (ascending, the same on every rank) that belong to strip triangles and run from one
 /// curve to the other: by number, each once, the same on every rank. Collective.
-std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                        const std::vector<EdgeName>& edges);
+std::vector<StripEdge> find_strip_edges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges);
 
 /// The one with the number, null where there is none.
 const StripEdge* find_strip_edge(const std::vector<StripEdge>& strips, std::int64_t edge);

@@ -19,7 +19,7 @@ using mesh::LocalIndex;
 using mesh::Piece;
 
 /// Two curves run along each other where their segments enclose less than 30 degrees, as in
-/// surface/tips/needles.cpp.
+/// surface/cusps/needles.cpp.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
 /// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.
@@ -72,8 +72,7 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
 }
 
 /// Curves are known by their edges: those at which triangles of two CAD faces meet.
-std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
-                                              const mesh::Numbering& numbering) {
+std::vector<CurveAtVertex> curves_at_vertices(const mesh::NumberedMesh& mesh) {
   const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
     const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
@@ -82,7 +81,7 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
   };
   std::vector<EdgeAtVertex> edges;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-    add_edges(mesh.pieces[i], numbering.vertices[i], edges);
+    add_edges(mesh.pieces[i], mesh.numbering.vertices[i], edges);
   sort_out(edges);
   edges = communicator.all_gather_items<EdgeAtVertex>(edges);
   sort_out(edges);
@@ -174,9 +173,8 @@ std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<Curve
 
 }  // namespace
 
-std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::DistributedMesh& mesh,
-                                                             const mesh::Numbering& numbering) {
-  const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh, numbering);
+std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::NumberedMesh& mesh) {
+  const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh);
   std::vector<std::vector<StripTriangle>> strips;
   for (const Piece& piece : mesh.pieces) strips.push_back(strips_of(piece, curves));
   return strips;

@@ -23,7 +23,6 @@ struct StripTriangle {
 /// Per piece of this rank the boundary triangles with two vertices on one curve and the third on another that
 /// has neither of them and runs along, and a height of `strip_fraction` at most. Which curves meet at a CAD
 /// vertex is read off the mesh: a curve is where triangles of two CAD faces meet. Collective.
-std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::DistributedMesh& mesh,
-                                                             const mesh::Numbering& numbering);
+std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::NumberedMesh& mesh);
 
 }  // namespace aeroloom::attribution

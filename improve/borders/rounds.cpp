@@ -117,7 +117,8 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
     geometry::sort_unique(used);
     for (const auto& [cavity, v] : used)
       result.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
-                                 vertex_key[v], piece.point(v), piece.vertex_entity[v]});
+                                 vertex_key[v], piece.point(v), piece.vertex_entity[v],
+                                 piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
@@ -160,9 +161,7 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
                          [&](std::size_t first, std::size_t last) {
                            rows.push_back({all[first], static_cast<std::int64_t>(last - first)});
                          });
-  std::vector<CavitySize> table = communicator.all_gather_items<CavitySize>(rows);
-  std::sort(table.begin(), table.end(),
-            [](const CavitySize& a, const CavitySize& b) { return a.cavity < b.cavity; });
+  std::vector<CavitySize> table = communicator.gather_sorted(rows, &CavitySize::cavity);
   CavityTable result;
   for (const CavitySize& row : table) {
     if (result.ids.empty() || result.ids.back() != row.cavity) {
@@ -179,6 +178,7 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
 struct OwnedCavity {
   Cavity cavity;
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per point, ascending
+  std::vector<mesh::GlobalIndex> surface_numbers;  ///< per point
   std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
   std::optional<CavityContent> content;
   CavityShares shares;  ///< of the content
@@ -209,6 +209,7 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
     for (; v < vertices.size() && vertices[v].cavity == owned.cavity.id; ++v) {
       if (!owned.vertex_keys.empty() && owned.vertex_keys.back() == vertices[v].vertex_key) continue;
       owned.vertex_keys.push_back(vertices[v].vertex_key);
+      owned.surface_numbers.push_back(vertices[v].surface_number);
       owned.cavity.entity.push_back(vertices[v].entity);
       owned.cavity.points.push_back(vertices[v].point);
       owned.cavity.dimension.push_back(static_cast<mesh::CadDimension>(vertices[v].dimension));
@@ -260,12 +261,13 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
   for (const auto& [piece, v] : uses) {
     if (v < known) {
       out.vertices.push_back({id, piece, static_cast<std::int32_t>(owned.cavity.dimension[v]),
-                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v]});
+                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v],
+                              owned.surface_numbers[v]});
     } else {
       const AddedVertex& added = owned.content->added[v - known];
       out.vertices.push_back(
           {id, piece, static_cast<std::int32_t>(added.dimension), vertex_key(v), added.point,
-           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity});
+           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity, -1});
     }
   }
   const std::vector<CavityTriangle>& triangles = owned.content->triangles_of(owned.cavity);
@@ -383,9 +385,7 @@ CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVert
       outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }
   });
-  outcomes = communicator.all_gather_items<Outcome>(outcomes);
-  std::sort(outcomes.begin(), outcomes.end(),
-            [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
+  outcomes = communicator.gather_sorted(outcomes, &Outcome::cavity);
   std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
   const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
   const Delivery delivery = deliver_replaced(communicator, cavities, outcomes, owner_of_piece, round);

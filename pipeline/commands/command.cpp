@@ -102,9 +102,7 @@ int with_case(const Invocation& invocation, const CaseArguments& arguments,
 }
 
 void print(const Invocation& invocation, const std::string& text) {
-  parallel::agree(invocation.communicator, [&] {
-    if (invocation.communicator.is_root()) report::print_text(parallel::printable(text));
-  });
+  parallel::on_root(invocation.communicator, [&] { report::print_text(parallel::printable(text)); });
 }
 
 int fail(const Invocation& invocation, report::ExitCode code, const std::string& message) {

@@ -97,9 +97,7 @@ Command add_init(CLI::App& program) {
   return {app, [arguments](const Invocation& invocation) {
             invocation.configure_log();
             return guarded(invocation, report::ExitCode::usage, [&] {
-              parallel::agree(invocation.communicator, [&] {
-                if (invocation.communicator.is_root()) write_template(*arguments);
-              });
+              parallel::on_root(invocation.communicator, [&] { write_template(*arguments); });
               return report::ExitCode::ok;
             });
           }};

@@ -112,9 +112,8 @@ report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<i
 report::ExitCode measure_network(const Invocation& invocation, const std::string& file) {
   const parallel::Communicator& communicator = invocation.communicator;
   const parallel::NetworkProbe probe = parallel::probe_network(communicator);
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) report::write_text(file, to_json(probe, communicator.size()).dump(1) + "\n");
-  });
+  parallel::on_root(communicator,
+                    [&] { report::write_text(file, to_json(probe, communicator.size()).dump(1) + "\n"); });
   print(invocation, describe(probe, communicator.size(), file));
   return report::ExitCode::ok;
 }

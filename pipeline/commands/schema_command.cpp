@@ -82,9 +82,7 @@ Command add_schema(CLI::App& program) {
   return {app, [arguments](const Invocation& invocation) {
             invocation.configure_log();
             return guarded(invocation, report::ExitCode::usage, [&] {
-              parallel::agree(invocation.communicator, [&] {
-                if (invocation.communicator.is_root()) write_or_print(*arguments);
-              });
+              parallel::on_root(invocation.communicator, [&] { write_or_print(*arguments); });
               if (!arguments->output.empty()) parallel::log_info("wrote " + arguments->output);
               return report::ExitCode::ok;
             });

@@ -38,8 +38,7 @@ void warn_of_older(const std::vector<std::string>& files, const std::string& fol
 
 /// Hours of meshing are not lost on a folder that was mistyped.
 void require_writable_folder(const Invocation& invocation, const std::string& folder) {
-  parallel::agree(invocation.communicator, [&] {
-    if (!invocation.communicator.is_root()) return;
+  parallel::on_root(invocation.communicator, [&] {
     std::filesystem::create_directories(folder);
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
       throw std::filesystem::filesystem_error("cannot write into", folder,

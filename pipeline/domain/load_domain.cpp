@@ -199,8 +199,7 @@ cad::CadFacts look_sandboxed(const std::string& file) {
 cad::Domain load_domain(const parallel::Communicator& communicator, const DomainOptions& options) {
   cad::DomainReport report;
   Bytes bytes;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     cad::Domain domain = prepare_sandboxed(options);
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::serial);
     report = std::move(domain.report);
@@ -212,10 +211,8 @@ cad::Domain load_domain(const parallel::Communicator& communicator, const Domain
 cad::Model broadcast_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
   communicator.broadcast(bytes);
   std::optional<cad::Model> model;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-    model = cad::Model::from_bytes(bytes);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated,
+                         [&] { model = cad::Model::from_bytes(bytes); });
   return *model;
 }
 

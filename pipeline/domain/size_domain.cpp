@@ -41,8 +41,7 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   std::vector<sizing::NarrowFace> narrow = sizing::find_narrow_faces(communicator, model, width, tolerance);
   if (narrow.empty()) return std::nullopt;
   std::optional<cad::Model> joined;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated, [&] {
     what.groups = sizing::group_narrow_faces(model, narrow, tolerance);
     joined = cad::join_faces(model, what.groups);
   });

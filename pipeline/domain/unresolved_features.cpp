@@ -50,7 +50,8 @@ std::string describe(const FeatureReport& report) {
                                  ? fmt::format("{:.3g} long", report.share.minimum)
                                  : fmt::format("{:.2g} times as long as wide", report.share.aspect);
   std::string text = fmt::format(
-      "{} face(s) have strips that {:.3g} tetrahedra do not resolve: triangles along them are {}; resolved, "
+      "{} face(s) have narrow regions that {:.3g} tetrahedra do not resolve: triangles along them are {}; "
+      "resolved, "
       "they would take about {:.2g}:",
       report.strips.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
   for (std::size_t i = 0; i < std::min(shown_strips, report.strips.size()); ++i) {

@@ -1,5 +1,6 @@
 #include "pipeline/report/pictures.hpp"
 
+#include "mesh/data/bounds.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
@@ -81,7 +82,7 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 
 Subject find_subject(const PictureSource& source) {
   Subject subject{source, picture::find_scene(source.surface, source.types), {}, {}, {}};
-  subject.neighbours = picture::find_edge_neighbours(source.surface, source.numbering, subject.scene.shown);
+  subject.neighbours = picture::find_edge_neighbours(source.surface, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
@@ -109,9 +110,7 @@ Picture painted(const Subject& subject, Picture picture, const std::function<voi
   parallel::agree(communicator, [&] { draw(canvas.emplace(picture.width, picture.height)); });
   const picture::Image image =
       picture::composite(communicator, std::move(*canvas), picture::white, draw_alike);
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) picture.png = picture::encode_png(image, bytes_of_picture);
-  });
+  parallel::on_root(communicator, [&] { picture.png = picture::encode_png(image, bytes_of_picture); });
   return picture;
 }
 
@@ -125,11 +124,7 @@ Box seen_from(const Subject& subject, const Viewpoint& view) {
       for (int k = 0; k < 3; ++k) mine.add(in_view(view, pieces[p].point(pieces[p].cell(t)[k])));
     }
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    mine.low[axis] = subject.source.surface.communicator.minimum(mine.low[axis]);
-    mine.high[axis] = subject.source.surface.communicator.maximum(mine.high[axis]);
-  }
-  return mine;
+  return mesh::box_over_ranks(subject.source.surface.communicator, mine);
 }
 
 /// A height that suits what is to be seen.
@@ -359,11 +354,9 @@ Picture leading_edge_cut_picture(const Subject& subject, const mesh::Distributed
 
 std::vector<Picture> make_all(const PictureSource& source, const mesh::DistributedMesh* volume) {
   const Subject subject = find_subject(source);
-  const mesh::DistributedMesh& surface = source.surface;
-  const std::optional<Place> edge =
-      find_leading_edge(surface, source.numbering, subject.neighbours, subject.scene);
-  const std::optional<Place> junction =
-      find_junction(surface, source.numbering, subject.neighbours, subject.scene);
+  const mesh::NumberedMesh& surface = source.surface;
+  const std::optional<Place> edge = find_leading_edge(surface, subject.neighbours, subject.scene);
+  const std::optional<Place> junction = find_junction(surface, subject.neighbours, subject.scene);
   std::vector<Picture> pictures{body_picture(subject), views_picture(subject)};
   if (edge) pictures.push_back(leading_edge_picture(subject, *edge));
   if (junction) pictures.push_back(junction_picture(subject, *junction));

@@ -266,8 +266,7 @@ std::vector<CoincidentFaces> find_coincident_faces(const SampledModel& sampled) 
   const Vec3 size = sampled.body_box().size();
   const double extent = std::max({size.x, size.y, size.z});
   std::vector<CoincidentFaces> mine;
-  parallel::agree(sampled.communicator(), [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
     std::vector<std::int32_t> first_walls(model.face_count(), -1);
     for (std::size_t w = walls.facets.size(); w-- > 0;)
       first_walls[walls.facets[w].face] = static_cast<std::int32_t>(w);

@@ -5,7 +5,7 @@
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/sources/formula_sources.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +41,7 @@ std::vector<SizeSource> find_demanded(const SampledModel& sampled, const Demand&
   const double own_room = room / communicator.size();
   std::vector<SizeSource> mine;
   try {
-    parallel::agree(communicator, [&] {
-      const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+    parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
       const double count = demand.count();
       if (count <= room)
         mine =
@@ -109,8 +108,7 @@ std::vector<SizeSource> Demands::sample_regions(const SampledModel& sampled, dou
         largest->name, largest->size, most));
   }
   std::vector<SizeSource> mine;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
     for (const SizeRegion& region : _demands.regions) {
       const auto more =
           sources_in(sampled.root(), region, coarser * region.size, communicator.rank(), communicator.size());
@@ -126,12 +124,11 @@ std::vector<SizeSource> Demands::sample_regions(const SampledModel& sampled, dou
 }
 
 void Demands::lay_surfaces(const SampledModel& sampled) {
-  std::vector<SizedSurface> surfaces;
+  std::vector<SurfaceDemand> surfaces;
   const auto lay = [&](const std::string& key, std::vector<SizedTriangle> triangles, double reach) {
     surfaces.emplace_back(key, std::move(triangles), reach);
   };
-  parallel::agree(sampled.communicator(), [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
+  parallel::collectively(sampled.communicator(), parallel::ScopedCpu::As::repeated, [&] {
     for (const WallSize& wall : _demands.walls) {
       const std::vector<bool> named = faces_like(sampled.model(), wall.faces);
       std::vector<SizedTriangle> triangles;
@@ -153,7 +150,7 @@ void Demands::lay_surfaces(const SampledModel& sampled) {
     for (const EdgeSize& edge : _demands.edges)
       lay("sizing.edges." + edge.name, edges_asked_for(sampled.model(), edge), 0);
   });
-  for (const SizedSurface& each : surfaces) {
+  for (const SurfaceDemand& each : surfaces) {
     if (each.empty())
       throw std::invalid_argument(
           each.key() +
@@ -181,7 +178,7 @@ std::vector<SizeSource> Demands::sample_formula(const SampledModel& sampled, con
 std::vector<SizeSource> Demands::sample_surfaces(const SampledModel& sampled, const SizingOptions& options,
                                                  double coarser, double most) const {
   std::vector<SizeSource> mine;
-  for (const SizedSurface& surface : _surfaces) {
+  for (const SurfaceDemand& surface : _surfaces) {
     const auto ask = [&](geometry::Vec3 middle, double half) { return surface.ask(middle, half, coarser); };
     const Demand demand{surface.key(), [&] { return surface.cells(sampled.root(), coarser); },
                         [&](RankOf part, std::int64_t limit) {

@@ -3,7 +3,7 @@
 
 #include "sizing/choice/sampled_model.hpp"
 #include "sizing/sources/size_demands.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include <utility>
 #include <vector>
@@ -44,7 +44,7 @@ private:
 
   SizeDemands _demands;
   std::vector<double> _asked_on_faces;  // sizes of their patches; 0: none
-  std::vector<SizedSurface> _surfaces;
+  std::vector<SurfaceDemand> _surfaces;
 };
 
 }  // namespace aeroloom::sizing

@@ -50,9 +50,7 @@ std::vector<BoundedFace> FieldFactory::faces_bounded_by_minimum(const SizingOpti
       if (seen.bounded_area > 0) mine.push_back({face, seen.bounded_area / seen.area, seen.degrees});
     }
   });
-  std::vector<BoundedFace> all = _sampled.communicator().all_gather_items<BoundedFace>(mine);
-  std::sort(all.begin(), all.end(),
-            [](const BoundedFace& a, const BoundedFace& b) { return a.face < b.face; });
+  std::vector<BoundedFace> all = _sampled.communicator().gather_sorted(mine, &BoundedFace::face);
   return all;
 }
 

@@ -128,8 +128,7 @@ std::vector<SizeSource> FieldFactory::sample_corners(std::span<const SizeSource>
   points = _sampled.communicator().all_gather_items<geometry::Vec3>(points);
   const std::vector<double> sizes = sizes_at(points, own, options);
   std::vector<SizeSource> mine;
-  parallel::agree(_sampled.communicator(), [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_sampled.communicator(), ScopedCpu::As::task, [&] {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto more = corner_sources(model(), corners[i], sizes[before + i], options);
       mine.insert(mine.end(), more.begin(), more.end());
@@ -142,10 +141,8 @@ std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, doubl
   check_options(options);
   require_possible(options);
   std::vector<SizeSource> mine;
-  parallel::agree(_sampled.communicator(), [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
-    mine = sample_own(options, coarser);
-  });
+  parallel::collectively(_sampled.communicator(), ScopedCpu::As::task,
+                         [&] { mine = sample_own(options, coarser); });
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : mine) source.size *= coarser;

@@ -3,6 +3,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,8 +86,7 @@ void search_faces(const SampledModel& sampled, std::vector<FaceSearch>& searches
     if (wanting == 0) break;
     const double per_share =
         static_cast<double>(left) / (deal == 0 ? all_shares : static_cast<double>(wanting));
-    parallel::agree(communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(communicator, ScopedCpu::As::task, [&] {
       for (FaceSearch& each : searches) {
         if (deal > 0 && is_done(each)) continue;
         visited += each.search.go_on(std::llround(per_share * static_cast<double>(each.share)), *each.gaps);
@@ -119,8 +119,7 @@ void look_closer(const SampledModel& sampled, double layers, std::vector<FaceSea
     const auto wanted = static_cast<double>(std::max<std::int64_t>(1, rays));
     const double apart = std::max(1.0, std::sqrt(wanted / static_cast<double>(rays_left)));
     std::int64_t shot = 0, visited = 0;
-    parallel::agree(communicator, [&] {
-      const ScopedCpu cpu(ScopedCpu::As::task);
+    parallel::collectively(communicator, ScopedCpu::As::task, [&] {
       for (FaceSearch& each : searches) {
         if (each.gaps->narrow.empty()) continue;
         // Half of it the same for each face, half by what is to be looked at.
@@ -213,9 +212,7 @@ void GapSearch::gather(const SampledModel& sampled) {
     if (const auto unseen = describe_unseen(face, gaps, _layers)) mine.push_back(*unseen);
   }
   _narrowest_gap = sampled.communicator().minimum(narrowest);
-  _unseen_gaps = sampled.communicator().all_gather_items<UnseenGaps>(mine);
-  std::sort(_unseen_gaps.begin(), _unseen_gaps.end(),
-            [](const UnseenGaps& a, const UnseenGaps& b) { return a.face < b.face; });
+  _unseen_gaps = sampled.communicator().gather_sorted(mine, &UnseenGaps::face);
 }
 
 }  // namespace aeroloom::sizing

@@ -26,8 +26,7 @@ std::vector<Strip> strips_narrower_than(const SampledModel& sampled, double widt
   options.maximum = width;
   options.strip_minimum = finest_strip * width;
   std::vector<Strip> mine;
-  parallel::agree(sampled.communicator(), [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
     for (const SampledFace& face : sampled.own_faces()) {
       Strip narrowest{face.id, width, {}};
       for (const StripPart& part :
@@ -38,10 +37,8 @@ std::vector<Strip> strips_narrower_than(const SampledModel& sampled, double widt
       if (narrowest.width < width) mine.push_back(narrowest);
     }
   });
-  std::vector<Strip> all = sampled.communicator().all_gather_items<Strip>(mine);
-  std::sort(all.begin(), all.end(), [](const Strip& a, const Strip& b) {
-    return std::pair(a.width, a.face) < std::pair(b.width, b.face);
-  });
+  std::vector<Strip> all = sampled.communicator().gather_sorted(
+      mine, [](const Strip& each) { return std::pair(each.width, each.face); });
   return all;
 }
 
@@ -59,8 +56,7 @@ std::vector<double> elements_along_strips(const SampledModel& sampled, std::span
   SizingOptions rough = options;
   rough.feature_aspect = aspect_of_parts;
   std::vector<FaceElements> mine;
-  parallel::agree(sampled.communicator(), [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
     SizingOptions sizes = options;
     for (const SampledFace& face : sampled.own_faces()) {
       const auto parts =
@@ -78,11 +74,9 @@ std::vector<double> elements_along_strips(const SampledModel& sampled, std::span
       }
     }
   });
-  std::vector<FaceElements> all = sampled.communicator().all_gather_items<FaceElements>(mine);
   // Summed in the order of faces, whatever the number of ranks.
-  std::sort(all.begin(), all.end(), [](const FaceElements& a, const FaceElements& b) {
-    return std::pair(a.face, a.aspect) < std::pair(b.face, b.aspect);
-  });
+  std::vector<FaceElements> all = sampled.communicator().gather_sorted(
+      mine, [](const FaceElements& each) { return std::pair(each.face, each.aspect); });
   std::vector<double> elements(aspects.size());
   for (const FaceElements& face : all) elements[face.aspect] += face.elements;
   return elements;

@@ -178,8 +178,7 @@ double count_triangles(const SampledModel& sampled, const SizeField& field) {
       if (area > 0) mine.push_back({face.id, triangles_per_square * sum * sampled.area(face.id) / area});
     }
   }
-  std::vector<FaceCount> all = sampled.communicator().all_gather_items<FaceCount>(mine);
-  std::sort(all.begin(), all.end(), [](const FaceCount& a, const FaceCount& b) { return a.face < b.face; });
+  std::vector<FaceCount> all = sampled.communicator().gather_sorted(mine, &FaceCount::face);
   double total = 0;
   for (const FaceCount& face : all) total += face.count;
   return total;

@@ -3,6 +3,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -31,8 +32,7 @@ std::vector<double> predict_sampling_loads(const std::vector<bool>& far_field,
 
 SampledModel::SampledModel(const parallel::Communicator& communicator, const cad::Model& model)
     : _communicator(communicator), _model(model), _root(model.bounds()), _areas(measure_faces()) {
-  parallel::agree(communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(communicator, ScopedCpu::As::task, [&] {
     _far_field = find_far_field(model);
     const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
     _owners = parallel::assign_largest_first(loads, communicator.size());
@@ -57,8 +57,7 @@ SampledModel::SampledModel(SampledModel&& before, const cad::Model& joined)
       _part_on_boundary(std::move(before._part_on_boundary)),
       _walls(std::move(before._walls)),
       _body_box(before._body_box) {
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<FaceId> number(before._model.face_count());
     for (FaceId f = 0; f < joined.face_count(); ++f) {
       const std::vector<FaceId> members = joined.members(f);
@@ -75,8 +74,7 @@ SampledModel::SampledModel(SampledModel&& before, const cad::Model& joined)
 
 std::vector<double> SampledModel::measure_faces() const {
   std::vector<double> mine, areas(_model.face_count());
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (FaceId f = _communicator.rank(); f < _model.face_count(); f += _communicator.size()) {
       mine.push_back(_model.face_area(f));
     }
@@ -121,8 +119,7 @@ void SampledModel::list_corners() {
 
 void SampledModel::gather_triangles() {
   std::vector<Wall> mine;
-  parallel::agree(_communicator, [&] {
-    ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (const SampledFace& face : _faces) {
       if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
       const auto& points = face.facets.points;

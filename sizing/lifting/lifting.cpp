@@ -6,7 +6,7 @@
 #include "sizing/features/segment_tree.hpp"
 #include "sizing/features/skin_faces.hpp"
 #include "sizing/lifting/lifting_section.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -300,10 +300,8 @@ LiftingBodies find_lifting_bodies(const SampledModel& sampled, Vec3 flow,
     for (cad::EdgeId e = communicator.rank(); e < model.edge_count(); e += communicator.size())
       if (is_wanted(sharp_seed(model, e, flow), wanted)) edges.push_back(e);
   });
-  std::vector<std::int32_t> all_strips = communicator.all_gather_items<std::int32_t>(strips),
-                            all_edges = communicator.all_gather_items<std::int32_t>(edges);
-  std::sort(all_strips.begin(), all_strips.end());
-  std::sort(all_edges.begin(), all_edges.end());
+  const std::vector<std::int32_t> all_strips = communicator.gather_sorted(strips),
+                                  all_edges = communicator.gather_sorted(edges);
   LiftingBodies bodies;
   parallel::agree(communicator, [&] {
     std::vector<TrailingSeed> seeds;

@@ -88,8 +88,7 @@ std::vector<TrailingEdge> find_trailing_edges(const SampledModel& sampled, doubl
       if (found.kind == Kind::closable && found.edge.narrowest < width) mine.push_back(f);
     }
   });
-  std::vector<FaceId> all = communicator.all_gather_items<FaceId>(mine);
-  std::sort(all.begin(), all.end());
+  std::vector<FaceId> all = communicator.gather_sorted(mine);
   std::vector<TrailingEdge> edges;
   parallel::agree(communicator, [&] {
     for (const FaceId f : all) edges.push_back(measure(sampled, cad::examine_blunt_edge(model, f, 0).edge));

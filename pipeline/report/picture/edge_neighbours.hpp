@@ -31,8 +31,7 @@ using EdgeNeighbours = std::vector<std::vector<EdgeNeighbour>>;
 
 /// Matches edges within a piece locally and sends the others. Where more than two triangles meet, each gets
 /// the next one in the order of pieces and triangles. Collective.
-EdgeNeighbours find_edge_neighbours(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                    const Shown& shown);
+EdgeNeighbours find_edge_neighbours(const mesh::NumberedMesh& surface, const Shown& shown);
 
 /// The turning angle of the surface at an edge, in radians. `edge` runs counter-clockwise around the triangle
 /// with this normal. Positive: the wall is convex to the flow (leading edge); negative: a crease (wing and

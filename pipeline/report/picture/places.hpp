@@ -30,13 +30,13 @@ struct Place {
 /// leading edge: the edge or triangle with the largest turning angle, if that is 40 degrees at an edge or a
 /// curvature of 8 over the diagonal; else nothing. Curvature tensor: Cohen-Steiner and Morvan (SoCG 2003,
 /// doi:10.1145/777792.777839), over one triangle. Collective.
-std::optional<Place> find_leading_edge(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                       const EdgeNeighbours& neighbours, const Scene& scene);
+std::optional<Place> find_leading_edge(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                       const Scene& scene);
 
 /// The upstream end of the longest crease: connected edges where the surface turns towards the flow by more
 /// than 20 degrees. Empty without a body or a crease of more than 10 edges. All edges of creases are gathered
 /// on rank 0; creases are lines, so these are few. Collective.
-std::optional<Place> find_junction(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                   const EdgeNeighbours& neighbours, const Scene& scene);
+std::optional<Place> find_junction(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                   const Scene& scene);
 
 }  // namespace aeroloom::picture

@@ -1,7 +1,7 @@
 #include "sizing/lifting/lifting.hpp"
 
 #include "cad/domain/domain.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 #include "tests/cad/real_files.hpp"
 
 #include <algorithm>
