@@ -22,14 +22,14 @@ struct Place {
   }
 };
 
-/// The middle of the longest leading edge; the flow comes along x. A triangle lies on a leading edge if (1)
-/// the wall normal points upstream by at least 0.3, (2) the flow divides there: the normal of the
-/// cross-section points upstream inside the triangle or at its edge, and (3) its curvature times the diagonal
-/// of the shown body exceeds 15 across the edge and is less than 0.4 times that along it. Connected triangles
-/// form one leading edge; of those within 2 % of the longest extent the lowest in y is taken. Without a
-/// leading edge: the edge or triangle with the largest turning angle, if that is 40 degrees at an edge or a
-/// curvature of 8 over the diagonal; else nothing. Curvature tensor: Cohen-Steiner and Morvan (SoCG 2003,
-/// doi:10.1145/777792.777839), over one triangle. Collective.
+/// The middle of the longest leading edge; the flow comes along x. A triangle lies on a leading edge under
+/// three conditions. (1) The wall normal points upstream by at least 0.3. (2) The flow divides there: the
+/// normal of the cross-section points upstream inside the triangle or at its edge. (3) The curvature across
+/// the edge exceeds 15 over the diagonal of the shown body; along the edge it is less than 0.4 times that.
+/// Connected triangles form one leading edge; of those within 2 % of the longest extent the lowest in y is
+/// taken. Without a leading edge: the edge or triangle with the largest turning angle (at least 40 degrees,
+/// or a curvature of 8 over the diagonal); else nothing. Curvature tensor: Cohen-Steiner and Morvan (SoCG
+/// 2003, doi:10.1145/777792.777839), over one triangle. Collective.
 std::optional<Place> find_leading_edge(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
                                        const Scene& scene);
 
