@@ -156,8 +156,8 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
     text += "a run joins: " + line + "\n";
   const std::string features = findings.features ? describe(*findings.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
-  const std::string share = findings.features ? domain::describe_share(*findings.features) : std::string();
-  if (!share.empty()) text += "features: " + share + "\n";
+  const std::string added = findings.features ? domain::describe_added(*findings.features) : std::string();
+  if (!added.empty()) text += "features: " + added + "\n";
   const std::string bounded = describe(findings.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
   const std::string unseen = describe(findings.walls.unseen);

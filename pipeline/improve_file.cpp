@@ -45,7 +45,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   improve::ImproveOptions options = improve_options(input);
   options.boundary_may_change = false;
   mesh::DistributedMesh volume = run_stage(record.clock, "input", report::ExitCode::files, [&] {
-    return imported::import_mesh(communicator, file, input.volume.piece_tets);
+    return imported::import_mesh({communicator, file}, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
   warn_of_layers(volume);

@@ -24,7 +24,7 @@ constexpr int info_schema_version = 1;
 
 geometry::Box bounds_of(const io::FileMesh& mesh) {
   geometry::Box box;
-  for (const io::FilePart& part : mesh.parts) {
+  for (const io::MeshPart& part : mesh.parts) {
     for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
   }
   return mesh::box_over_ranks(mesh.pieces->communicator, box);
@@ -88,7 +88,7 @@ void require_file(const std::string& file) {
 void show_info(const parallel::Communicator& communicator, const InfoRequest& request) {
   parallel::on_root(communicator, [&] { require_file(request.file); });
   if (io::readable_file(request.file).row != nullptr)
-    return show_mesh(io::read_mesh(communicator, request.file, 0), request);
+    return show_mesh(io::read_mesh({communicator, request.file}, 0), request);
   if (request.file.ends_with(".yaml") || request.file.ends_with(".yml"))
     return parallel::on_root(communicator, [&] { show_case(request); });
   const std::optional<io::FileFormat> written = io::format_of_path(request.file);

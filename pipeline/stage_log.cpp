@@ -38,7 +38,7 @@ void log_sizing(const domain::SizedDomain& sized) {
                   sized.sizes.minimum, sized.sizes.maximum, sized.sizes.curvature_angle, sized.sizes.growth,
                   sized.field.leaf_count()));
   if (findings.features) {
-    if (const std::string text = domain::describe_share(*findings.features); !text.empty())
+    if (const std::string text = domain::describe_added(*findings.features); !text.empty())
       log_info("sizing: " + text);
   }
   const std::string bounds = describe(findings.bounded, sized.sizes);

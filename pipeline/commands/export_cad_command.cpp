@@ -29,8 +29,8 @@ Command add_export_cad(CLI::App& program) {
             return with_case(invocation, *arguments, [&](const cases::Case& input) {
               return guarded(invocation, report::ExitCode::cad, [&] {
                 parallel::agree(invocation.communicator, [&] {
-                  const cad::ExportedPart part =
-                      arguments->domain ? cad::ExportedPart::domain : cad::ExportedPart::geometry;
+                  const cad::ExportedShape part =
+                      arguments->domain ? cad::ExportedShape::domain : cad::ExportedShape::geometry;
                   if (invocation.communicator.is_root())
                     cad::export_step(input.domain, part, arguments->step);
                 });

@@ -45,7 +45,7 @@ Command add_quality(CLI::App& program) {
               std::string missed;
               const int code = guarded(invocation, report::ExitCode::files, [&] {
                 const QualityRequest& request = arguments->request;
-                missed = show_quality(io::read_mesh(invocation.communicator, request.file, 0), request,
+                missed = show_quality(io::read_mesh({invocation.communicator, request.file}, 0), request,
                                       input.gate);
                 return report::ExitCode::ok;
               });

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/vec.hpp"
-#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/feature_resolution.hpp"
 
 #include <string>
 #include <tuple>
@@ -29,25 +29,25 @@ struct UnresolvedStrip {
 
 /// Features finer than the smallest size and their resolution, if sizes were chosen from the model.
 struct FeatureReport {
-  sizing::FeatureShare share;
+  sizing::FeatureResolution resolution;
   double tetrahedra = 0;                ///< predicted total
   std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty if all are resolved
 
   static constexpr auto fields() {
-    return std::tuple(&FeatureReport::share, &FeatureReport::tetrahedra, &FeatureReport::strips);
+    return std::tuple(&FeatureReport::resolution, &FeatureReport::tetrahedra, &FeatureReport::strips);
   }
   /// Approximate prediction with all narrow regions resolved.
   double wanted_tetrahedra() const;
 };
 
 /// Lists unresolved narrow regions. Collective.
-FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureShare& share,
-                              double tetrahedra);
+FeatureReport report_features(const sizing::SampledModel& sampled,
+                              const sizing::FeatureResolution& resolution, double tetrahedra);
 
 /// A message about unresolved features: their cost, their effect, and remedies. Empty if there are none.
 std::string describe(const FeatureReport& report);
 
 /// A message about the elements that fine features add. Empty if they are few.
-std::string describe_share(const FeatureReport& report);
+std::string describe_added(const FeatureReport& report);
 
 }  // namespace aeroloom::domain
