@@ -13,8 +13,7 @@ namespace aeroloom::benchmarks {
 /// Collective.
 inline surface::SurfaceMesh mesh_surface(const parallel::Communicator& communicator,
                                          const cases::Case& input) {
-  cad::DomainReport domain;
-  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain).model;
   const domain::SizedDomain sized =
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
   return surface::mesh_surface(sized.model, sized.field, input.surface);

@@ -35,9 +35,8 @@ std::uint64_t hash_field(const sizing::SizeField& field) {
 void run(const Communicator& communicator, const char* file) {
   const cases::Case input = cases::read_case(file, {});
   parallel::StageClock clock;
-  cad::DomainReport domain;
   clock.begin("geometry");
-  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain).model;
   clock.end();
   clock.begin("sizing");
   const domain::SizedDomain sized =

@@ -223,9 +223,8 @@ Request read_request(const std::vector<std::string>& arguments) {
 
 void run(const Communicator& communicator, const cases::Case& input, const Request& request) {
   parallel::StageClock clock;
-  cad::DomainReport domain;
   clock.begin("geometry");
-  const cad::Model model = domain::load_domain(communicator, input.domain, domain);
+  const cad::Model model = domain::load_domain(communicator, input.domain).model;
   clock.end();
   clock.begin("sizing");
   const domain::SizedDomain sized =

@@ -22,7 +22,6 @@
 #include <filesystem>
 #include <ios>
 #include <set>
-#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -157,8 +156,8 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
     text += "a run joins: " + line + "\n";
   const std::string features = findings.features ? describe(*findings.features) : std::string();
   if (!features.empty()) text += "features: " + features + "\n";
-  const std::string share = findings.features ? domain::describe_share(*findings.features) : std::string();
-  if (!share.empty()) text += "features: " + share + "\n";
+  const std::string added = findings.features ? domain::describe_added(*findings.features) : std::string();
+  if (!added.empty()) text += "features: " + added + "\n";
   const std::string bounded = describe(findings.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
   const std::string unseen = describe(findings.walls.unseen);
@@ -310,7 +309,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   if (!meshable) clock.end();
   if (meshable) {
     cases::TypedPatches patches =
-        domain::find_patches(communicator, domain::share_model(communicator, std::move(bytes)), input);
+        domain::find_patches(communicator, domain::broadcast_model(communicator, std::move(bytes)), input);
     clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;

@@ -1,4 +1,4 @@
-/// The command check: what a run would meet, before it meshes anything.
+/// The command `check`: diagnoses the geometry and predicts a run without meshing.
 #pragma once
 
 #include "cad/repair/diagnosis.hpp"
@@ -14,29 +14,28 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace aeroloom::pipeline {
 
-/// Two faces whose coarse facets meet although the faces share no edge and no vertex: they intersect, or are
-/// closer to each other than the facets follow them.
+/// Two faces without common edge or vertex whose coarse facets meet. The faces intersect, or their distance
+/// is below the accuracy of the facets.
 struct FaceContact {
   cad::FaceId first, second;
   geometry::Vec3 where;
 };
 
-/// The predicted cost of a run, by the constants in docs/usage.md.
+/// The predicted cost of a run (constants: docs/usage.md).
 struct RunForecast {
   sizing::SizingOptions sizes;
   domain::SizingFindings findings;
-  std::optional<LayerForecast> layers;               ///< where the case asks for them; on rank 0
-  double seconds = 0;                                ///< of one core, with layers
-  double bytes = 0;                                  ///< of memory, all ranks together, with layers
-  std::vector<LevelForecast> levels;                 ///< all of those of the case's level; none without
-  std::optional<domain::LevelFindings> found;        ///< by that level
-  study::WorthwhileRanks worthwhile;                 ///< how many ranks are worth asking for
-  std::int64_t piece_triangles = 0, piece_tets = 0;  ///< piece sizes that give every rank several pieces
+  std::optional<LayerForecast> layers;               ///< if the case asks for layers; on rank 0
+  double seconds = 0;                                ///< of one core, layers included
+  double bytes = 0;                                  ///< of memory, all ranks together, layers included
+  std::vector<LevelForecast> levels;                 ///< all levels of the same kind; empty without a level
+  std::optional<domain::LevelFindings> found;        ///< by the level
+  study::WorthwhileRanks worthwhile;                 ///< useful number of ranks
+  std::int64_t piece_triangles = 0, piece_tets = 0;  ///< so that each rank gets several pieces
 };
 
 struct CheckRecord {
@@ -47,13 +46,12 @@ struct CheckRecord {
   RunForecast forecast;
 };
 
-/// Contacts among the faces of a model that are not far field, at most `most` of them listed. Not collective.
+/// Contacts between faces outside the far field; lists at most `most`, counts all. Not collective.
 std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t most, std::int64_t& count);
 
-/// Diagnoses the geometry, prints what was found on rank 0 and writes check.json to the output directory.
-/// Returns ok when a volume can be meshed, cad when not. Collective; throws CollectiveError when the file
-/// cannot be read or check.json cannot be written, std::invalid_argument for a patch of the case that matches
-/// no face.
+/// Diagnoses the geometry, prints the result on rank 0 and writes check.json (a warning if that fails).
+/// Returns ok if a volume can be meshed, else cad. Collective. Throws CollectiveError if the geometry cannot
+/// be read, std::invalid_argument for a patch rule that matches no face.
 report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

@@ -104,9 +104,9 @@ std::string difference(const std::string& then, const std::string& now) {
 
 }  // namespace
 
-Checkpoints::Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
+Checkpoints::Checkpoints(parallel::Communicator communicator, const cases::Case& input,
                          const RunIdentity& identity)
-    : _communicator(communicator),
+    : _communicator(std::move(communicator)),
       _input(input),
       _identity(identity),
       _folder(input.output.directory + "/checkpoint"),
@@ -162,7 +162,7 @@ void Checkpoints::refuse_imported() const {
     std::optional<io::CheckpointLabel> found;
     try {
       found = io::read_checkpoint_label({_communicator, path_of(stage)}, about_texts);
-    } catch (const parallel::CollectiveError&) {  // find() tells, where it is needed
+    } catch (const parallel::CollectiveError&) {  // find() logs it where it matters
     }
     if (!found) continue;
     const io::CheckpointLabel own = label_of(stage);

@@ -1,8 +1,8 @@
-/// Checkpoints of a run: what its stages have made, in OUTPUT/checkpoint, for a run that goes on from there.
+/// Checkpoints: results of stages in OUTPUT/checkpoint, with which a later run resumes.
 ///
-/// A checkpoint is named by the digest of all that its content depends on: program, geometry, and the keys of
-/// the case that matter up to its stage. One that is of something else is not taken; nor is a damaged one. So
-/// whatever lies there, the mesh is that of the case.
+/// The name of a checkpoint is the digest of all that its content depends on: program, geometry, and the keys
+/// of the case that matter up to its stage. Only undamaged checkpoints with this digest are used. So the mesh
+/// is always that of the case.
 #pragma once
 
 #include "io/checkpoint_file.hpp"
@@ -19,24 +19,23 @@
 
 namespace aeroloom::pipeline {
 
-/// Stages whose result is kept.
+/// Stages whose results are kept.
 enum class SavedStage : std::int8_t { geometry, sizing, surface, volume, improve };
 inline constexpr std::size_t saved_stages = 5;
 
 class Checkpoints {
 public:
-  /// Where a run is to go on, refuses checkpoints of another geometry or program: throws
-  /// std::invalid_argument. Collective.
-  Checkpoints(const parallel::Communicator& communicator, const cases::Case& input,
-              const RunIdentity& identity);
+  /// If the run resumes: throws std::invalid_argument for checkpoints of another geometry or program.
+  /// Collective.
+  Checkpoints(parallel::Communicator communicator, const cases::Case& input, const RunIdentity& identity);
 
-  /// The result of the stage from an earlier run, if it can be had; says why where it is there and cannot.
+  /// The result of the stage from an earlier run, if it is usable. Logs why an existing one is not.
   /// Collective.
   std::optional<io::CheckpointContent> find(SavedStage stage);
-  /// Keeps what `draft` gives, where that is wanted, and lets go what it makes needless. Where it cannot be
-  /// written warns, and keeps nothing from then on. Collective.
+  /// Writes the checkpoint that `draft` makes, if checkpoints are wanted, and removes those that it replaces.
+  /// If writing fails, warns and keeps nothing from then on. Collective.
   void keep(SavedStage stage, const std::function<io::CheckpointDraft()>& draft);
-  /// For the tasks of a stage; null where nothing is kept. Collective.
+  /// The store for tasks of a stage; null without checkpoints. Collective.
   parallel::TaskStore* tasks(SavedStage stage);
 
 private:
@@ -50,7 +49,7 @@ private:
   void remove_volume_of(SavedStage kept);
   bool attempt(const std::function<void()>& work);
 
-  const parallel::Communicator& _communicator;
+  parallel::Communicator _communicator;
   const cases::Case& _input;
   RunIdentity _identity;
   std::string _folder;

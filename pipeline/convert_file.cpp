@@ -4,7 +4,6 @@
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/timers.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 

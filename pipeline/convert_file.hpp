@@ -1,4 +1,4 @@
-/// A mesh from one file format to another.
+/// Converts a mesh from one file format to another.
 #pragma once
 
 #include "io/write_mesh.hpp"
@@ -15,9 +15,9 @@ struct Conversion {
   io::WriteOptions options;
 };
 
-/// Reads a mesh (io/read_mesh.hpp) and writes it (io/write_mesh.hpp), all ranks their share. Points and
-/// cells keep the order of the file in formats of one part; the others are cut along a space-filling curve.
-/// Collective. Throws CollectiveError; std::invalid_argument for a name that means no format.
+/// Reads a mesh (io/read_mesh.hpp) and writes it (io/write_mesh.hpp), distributed over all ranks. Formats
+/// without parts keep the order of points and cells; for formats with parts the mesh is cut along a
+/// space-filling curve. Collective. Throws CollectiveError, std::invalid_argument for a name of no format.
 void convert_file(const parallel::Communicator& communicator, const Conversion& conversion);
 
 }  // namespace aeroloom::pipeline

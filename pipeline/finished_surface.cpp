@@ -5,46 +5,25 @@
 #include "mesh/quality/quality.hpp"
 #include "pipeline/finished_volume.hpp"
 
-#include <tuple>
-
 namespace aeroloom::pipeline {
-
-using parallel::Communicator;
 
 namespace {
 
 /// Areas and counts by face; sums run in the order of the pieces, whatever rank they live on.
 std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh::DistributedMesh& surface) {
-  const Communicator& communicator = surface.communicator;
-  struct PieceRow {
-    mesh::PieceId piece;
-    cad::FaceId face;
-    double area;
-    std::int64_t triangles;
-
-    static constexpr auto fields() {
-      return std::tuple(&PieceRow::piece, &PieceRow::face, &PieceRow::area, &PieceRow::triangles);
-    }
-  };
-  std::vector<PieceRow> mine;
+  std::vector<PieceArea> mine;
   for (const mesh::Piece& piece : surface.pieces) {
-    double area = 0;
-    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const mesh::LocalIndex* v = piece.cell(t);
-      const geometry::Vec3 a = piece.point(v[0]);
-      area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
-    }
-    mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
+    PieceArea& row = mine.emplace_back(PieceArea{piece.id, piece.common_face()});
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) row.add(piece, piece.cell(t));
   }
-  std::vector<PieceRow> rows = communicator.gather_sorted(mine, &PieceRow::piece);
   std::vector<report::FaceRow> faces;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Face& face = model.face(f);
     faces.push_back({.name = face.name, .number = face.number, .patch = model.patches()[face.patch]});
   }
-  for (const PieceRow& row : rows) {
-    report::FaceRow& face = faces[row.face];
-    if (face.triangles == 0) face.cad_area = model.face_area(row.face);
+  for (const PieceArea& row : gather_areas(surface, mine)) {
+    report::FaceRow& face = faces[row.of];
+    if (face.triangles == 0) face.cad_area = model.face_area(row.of);
     face.area += row.area;
     face.triangles += row.triangles;
   }
@@ -72,17 +51,18 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 }  // namespace
 
-void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record) {
+void inspect_surface(const std::string& what, FinishedSurface& surface) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(surface));
-  record.surface_quality = mesh::summarise_quality(surface);
-  record.face_table = table_of_faces(surface.model, surface);
-  record.patches = table_of_patches(surface.model, record.face_table, surface.patch_types);
+  report::SurfaceFigures& figures = surface.figures;
+  figures.surface_quality = mesh::summarise_quality(surface);
+  figures.face_table = table_of_faces(surface.model, surface);
+  figures.patches = table_of_patches(surface.model, figures.face_table, surface.types);
 }
 
-void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface, report::RunRecord& record) {
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface) {
   static_cast<mesh::NumberedMesh&>(surface) = mesh::number_mesh(mesh::boundary_mesh(volume));
-  inspect_surface("the improved surface mesh", surface, record);
+  inspect_surface("the improved surface mesh", surface);
 }
 
 }  // namespace aeroloom::pipeline

@@ -1,10 +1,9 @@
-/// A finished surface: its numbers, its sizes, checks and figures.
+/// The finished surface mesh, its checks and its figures.
 #pragma once
 
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "pipeline/run.hpp"
+#include "pipeline/report/run_record.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <string>
@@ -12,18 +11,22 @@
 
 namespace aeroloom::pipeline {
 
-/// The finished surface and the model that it is of.
+/// The finished surface, its model and its sizes.
 struct FinishedSurface : surface::SurfaceMesh {
   cad::Model model;
-  std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
-  bool bounds_volume = true;  ///< false where layers end on planes: the volume has other triangles there
+  std::vector<mesh::PatchType> types;  ///< by patch of the model
+  sizing::SizingOptions sizes;         ///< used for the surface
+  double forecast_tetrahedra = 0;      ///< predicted for the volume from these sizes
+  bool bounds_volume = true;  ///< false if layers end on planes: the volume has other triangles there
+  report::SurfaceFigures figures = {};  ///< results of inspect_surface()
 };
 
-/// Checks the surface and puts its quality and the table of patches on record. Collective. Throws as
-/// require_valid().
-void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record);
+/// Checks the surface and measures quality, faces and patches. `what` names the surface in messages.
+/// Collective. Throws as require_valid().
+void inspect_surface(const std::string& what, FinishedSurface& surface);
 
-/// The surface follows a volume whose boundary was improved. Collective.
-void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface, report::RunRecord& record);
+/// Replaces the surface mesh by the boundary of an improved volume and inspects it. Collective. Throws as
+/// inspect_surface().
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface);
 
 }  // namespace aeroloom::pipeline

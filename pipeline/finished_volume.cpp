@@ -8,38 +8,26 @@
 #include "pipeline/stage_log.hpp"
 
 #include <cmath>
-#include <string>
-#include <tuple>
+#include <iterator>
 
 #include <fmt/format.h>
 
 namespace aeroloom::pipeline {
-
-using parallel::Communicator;
 
 namespace {
 
 /// Tetrahedra by region, with the volumes that the check has found.
 std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& volume,
                                                 const std::vector<double>& volumes) {
-  const Communicator& communicator = volume.communicator;
   std::vector<report::RegionRow> regions;
   for (std::size_t r = 0; r < volume.regions.size(); ++r) {
     std::int64_t count = 0;
     for (const mesh::Piece& piece : volume.pieces) {
       if (static_cast<std::size_t>(piece.region) == r) count += piece.cell_count();
     }
-    regions.push_back({volume.regions[r], volumes[r], communicator.sum(count)});
+    regions.push_back({volume.regions[r], volumes[r], volume.communicator.sum(count)});
   }
   return regions;
-}
-
-/// Tells the elements that the CAD forces from those that improvement could not mend.
-void list_pinned(const cases::Case& input, const mesh::NumberedMesh& volume,
-                 const mesh::CellsOutside& suspects, report::RunRecord& record) {
-  record.pinned = attribution::find_pinned(volume, input.improve.target_angle, suspects,
-                                           input.improve.boundary_may_change);
-  log_pinned(record);
 }
 
 /// Measures that compare neighbours and edges. Collective.
@@ -56,73 +44,74 @@ void require_valid(const std::string& what, const mesh::ValidityReport& report) 
   throw std::runtime_error(text);
 }
 
-improve::ImproveReport improve_volume(const cases::Case& input, const improve::MeshSource& source,
-                                      mesh::DistributedMesh& volume, report::RunRecord& record,
-                                      parallel::TaskStore* tasks) {
-  if (!input.improve.enabled) return {};
+improve::ImproveOptions improve_options(const cases::Case& input) {
   improve::ImproveOptions options = input.improve;
   options.percentiles = cases::percentile_targets(input.gate);
+  if (input.layers.given) options.boundary_may_change = false;
+  return options;
+}
+
+improve::ImproveReport improve_volume(const improve::ImproveOptions& options,
+                                      const improve::MeshSource& source, mesh::DistributedMesh& volume,
+                                      parallel::TaskStore* tasks) {
+  if (!options.enabled) return {};
   improve::ImproveReport report = improve::improve_mesh(volume, options, source, tasks);
-  record.improve = report;
-  log_improve(record);
+  log_improve(report);
   return report;
 }
 
-mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::NumberedMesh& volume,
-                                const mesh::DistributedMesh* surface, report::RunRecord& record) {
+report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, const cases::QualityGate& gate,
+                                     const mesh::NumberedMesh& volume, const mesh::DistributedMesh* surface) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, surface);
   require_valid("the volume mesh", validity);
-  record.mesh_volume = validity.volume;
-  const mesh::MeshCounts counts = mesh::count_mesh(volume);
-  record.counts = counts;
-  record.regions_filled = table_of_regions(volume, validity.region_volumes);
+  report::VolumeFigures figures;
+  figures.mesh_volume = validity.volume;
+  figures.counts = mesh::count_mesh(volume);
+  figures.regions_filled = table_of_regions(volume, validity.region_volumes);
   mesh::CellsOutside suspects;
-  if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
-  record.quality = mesh::summarise_quality(volume, &suspects);
-  if (input.gate.asks_for_cells()) record.cells = measure_cells(volume);
-  if (input.improve.enabled) list_pinned(input, volume, suspects, record);
-  record.hash = mesh::hash_mesh(volume);
-  return counts;
+  if (options.enabled) suspects.limits = attribution::suspect_angles(options.target_angle);
+  figures.quality = mesh::summarise_quality(volume, &suspects);
+  if (gate.asks_for_cells()) figures.cells = measure_cells(volume);
+  if (options.enabled) {
+    figures.pinned =
+        attribution::find_pinned(volume, options.target_angle, suspects, options.boundary_may_change);
+    log_pinned(figures.pinned);
+  }
+  figures.hash = mesh::hash_mesh(volume);
+  return figures;
+}
+
+void PieceArea::add(const mesh::Piece& of_piece, const mesh::LocalIndex* v) {
+  const geometry::Vec3 a = of_piece.point(v[0]);
+  area += 0.5 * norm(cross(of_piece.point(v[1]) - a, of_piece.point(v[2]) - a));
+  ++triangles;
+}
+
+std::vector<PieceArea> gather_areas(const mesh::DistributedMesh& mesh, const std::vector<PieceArea>& mine) {
+  return mesh.communicator.gather_sorted(mine,
+                                         [](const PieceArea& each) { return std::tie(each.piece, each.of); });
 }
 
 std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volume) {
-  const Communicator& communicator = volume.communicator;
-  struct PatchArea {
-    mesh::PieceId piece;
-    std::int32_t patch;
-    double area;
-    std::int64_t triangles;
-
-    static constexpr auto fields() {
-      return std::tuple(&PatchArea::piece, &PatchArea::patch, &PatchArea::area, &PatchArea::triangles);
-    }
-  };
-  std::vector<PatchArea> mine;
+  std::vector<PieceArea> mine;
   for (const mesh::Piece& piece : volume.pieces) {
-    std::vector<PatchArea> rows(volume.patches.size());
-    for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
-      const mesh::LocalIndex* v = piece.boundary_triangle(t);
-      const geometry::Vec3 a = piece.point(v[0]);
-      PatchArea& row = rows.at(piece.triangle_patch[t]);
-      row.area += 0.5 * norm(cross(piece.point(v[1]) - a, piece.point(v[2]) - a));
-      ++row.triangles;
-    }
-    for (std::size_t p = 0; p < rows.size(); ++p) {
-      if (rows[p].triangles > 0)
-        mine.push_back({piece.id, static_cast<std::int32_t>(p), rows[p].area, rows[p].triangles});
-    }
+    std::vector<PieceArea> rows;
+    for (std::size_t p = 0; p < volume.patches.size(); ++p)
+      rows.push_back({piece.id, static_cast<std::int32_t>(p)});
+    for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t)
+      rows.at(piece.triangle_patch[t]).add(piece, piece.boundary_triangle(t));
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(mine),
+                 [](const PieceArea& row) { return row.triangles > 0; });
   }
-  std::vector<PatchArea> rows = communicator.gather_sorted(
-      mine, [](const PatchArea& each) { return std::tie(each.piece, each.patch); });
   std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < volume.patches.size(); ++p) {
     const auto type = p < volume.patch_types.size() ? volume.patch_types[p] : mesh::PatchType::wall;
     patches.push_back({.name = volume.patches[p], .type = type, .inner = type == mesh::PatchType::interior});
   }
-  for (const PatchArea& row : rows) {
-    patches[row.patch].area += row.area;
-    patches[row.patch].triangles += row.triangles;
+  for (const PieceArea& row : gather_areas(volume, mine)) {
+    patches[row.of].area += row.area;
+    patches[row.of].triangles += row.triangles;
   }
   return patches;
 }
@@ -139,46 +128,46 @@ namespace {
 
 /// The message about a region that does not have the volume of the CAD's.
 std::string describe_missed_volume(const report::RegionRow& region, double most,
-                                   const report::RunRecord& record) {
+                                   const sizing::SizingOptions& sizes) {
   return fmt::format(
       "region '{}' has a volume of {:.6g}, in the CAD {:.6g}, {:.3g} of it apart, not {:g} at most; remedy: "
       "smaller sizes (sizing.minimum {:.3g} and sizing.surface_maximum {:.3g} were used)",
       region.name, region.volume, region.cad_volume, std::abs(region.volume / region.cad_volume - 1), most,
-      record.sizes.minimum, record.sizes.surface_maximum);
+      sizes.minimum, sizes.surface_maximum);
 }
 
 /// Whether a region is so few of the smallest elements wide that these explain what it misses: the square of
 /// their fraction of its breadth, as chords of arcs do.
-bool is_coarse(const report::RegionRow& region, double deviation, const report::RunRecord& record) {
-  const double chord = record.sizes.minimum / std::cbrt(region.cad_volume);
+bool is_coarse(const report::RegionRow& region, double deviation, const sizing::SizingOptions& sizes) {
+  const double chord = sizes.minimum / std::cbrt(region.cad_volume);
   return deviation <= chord * chord;
 }
 
 /// The region that misses the volume of the CAD's most, among those that are coarse or among the others; a
 /// far field may be coarse.
-const report::RegionRow* most_missed(const cases::QualityGate& gate, const report::RunRecord& record,
-                                     bool coarse) {
+const report::RegionRow* most_missed(const cases::QualityGate& gate, const JudgedMesh& mesh, bool coarse) {
   const report::RegionRow* worst = nullptr;
   double most = gate.area_deviation;
-  for (const report::RegionRow& region : record.regions_filled) {
+  for (const report::RegionRow& region : mesh.volume.regions_filled) {
     if (region.in_far_field || region.cad_volume <= 0) continue;
     const double deviation = std::abs(region.volume / region.cad_volume - 1);
-    if (deviation > most && is_coarse(region, deviation, record) == coarse) most = deviation, worst = &region;
+    if (deviation > most && is_coarse(region, deviation, mesh.sizes) == coarse)
+      most = deviation, worst = &region;
   }
   return worst;
 }
 
-std::string missed_volume(const cases::QualityGate& gate, const report::RunRecord& record) {
-  const report::RegionRow* worst = most_missed(gate, record, false);
+std::string missed_volume(const cases::QualityGate& gate, const JudgedMesh& mesh) {
+  const report::RegionRow* worst = most_missed(gate, mesh, false);
   if (worst == nullptr) return {};
-  return "improve.gate.area_deviation: " + describe_missed_volume(*worst, gate.area_deviation, record);
+  return "improve.gate.area_deviation: " + describe_missed_volume(*worst, gate.area_deviation, mesh.sizes);
 }
 
 /// The message about walls that do not have the area of the CAD; empty where they have, or there is none.
-std::string missed_area(const cases::QualityGate& gate, const report::RunRecord& record) {
+std::string missed_area(const cases::QualityGate& gate, const JudgedMesh& mesh) {
   double area = 0, cad = 0, most = 0;
   const report::PatchRow* worst = nullptr;
-  for (const report::PatchRow& patch : record.patches) {
+  for (const report::PatchRow& patch : mesh.patches) {
     if (patch.type != mesh::PatchType::wall || patch.cad_area <= 0) continue;
     area += patch.area;
     cad += patch.cad_area;
@@ -194,31 +183,32 @@ std::string missed_area(const cases::QualityGate& gate, const report::RunRecord&
       "used); "
       "sizes are in the unit of the file, which is {}",
       std::abs(area / cad - 1), gate.area_deviation, area, cad, worst->name, worst->area, worst->cad_area,
-      record.sizes.minimum, record.sizes.surface_maximum, record.unit);
+      mesh.sizes.minimum, mesh.sizes.surface_maximum, mesh.unit);
 }
 
-std::string missed_layers(const cases::LayerGate& gate, const report::RunRecord& record) {
-  if (!record.layers) return {};
+std::string missed_layers(const cases::LayerGate& gate, const JudgedMesh& mesh) {
+  if (mesh.layers == nullptr) return {};
   std::vector<std::string> names;
-  for (const report::PatchRow& patch : record.patches) names.push_back(patch.name);
-  return cases::missed_limits(gate, record.layers->asked, record.layers->report, names);
+  for (const report::PatchRow& patch : mesh.patches) names.push_back(patch.name);
+  return cases::missed_limits(gate, mesh.layers->asked, mesh.layers->report, names);
 }
 
 }  // namespace
 
-std::string coarse_region(const cases::QualityGate& gate, const report::RunRecord& record) {
-  const report::RegionRow* region = most_missed(gate, record, true);
+std::string coarse_region(const cases::QualityGate& gate, const JudgedMesh& mesh) {
+  const report::RegionRow* region = most_missed(gate, mesh, true);
   if (region == nullptr) return {};
-  return describe_missed_volume(*region, gate.area_deviation, record) +
+  return describe_missed_volume(*region, gate.area_deviation, mesh.sizes) +
          "; it is a few of the smallest elements wide";
 }
 
-void require_quality(const cases::Case& input, const report::RunRecord& record) {
+void require_quality(const cases::Case& input, const JudgedMesh& mesh) {
   const cases::QualityGate& gate = input.gate;
+  const report::VolumeFigures& volume = mesh.volume;
   std::string missed =
-      cases::missed_limits(gate, *record.quality, record.pinned, record.cells ? &*record.cells : nullptr);
+      cases::missed_limits(gate, *volume.quality, volume.pinned, volume.cells ? &*volume.cells : nullptr);
   for (const std::string& other :
-       {missed_layers(input.layers.gate, record), missed_area(gate, record), missed_volume(gate, record)})
+       {missed_layers(input.layers.gate, mesh), missed_area(gate, mesh), missed_volume(gate, mesh)})
     if (!other.empty()) missed += (missed.empty() ? "" : "\n") + other;
   if (!missed.empty()) throw report::StageFailure("quality gate", report::ExitCode::quality_gate, missed);
 }

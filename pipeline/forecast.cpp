@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,25 +23,26 @@ namespace {
 constexpr double seconds_per_triangle = 65e-6, seconds_per_tetrahedron = 5e-6;
 constexpr double base_bytes = 115e6, bytes_per_tetrahedron = 95;
 
-// The shares of stages in that, of one core for a triangle or a tetrahedron, and what of it no further rank
-// spares, from the same runs.
+// The part of each stage in it, from the same runs: seconds of one core for a triangle or a tetrahedron, and
+// the fraction that every rank repeats.
 constexpr double surface_per_triangle = 23e-6;
-struct StageShare {
+struct StageModel {
   const char* name;
   std::optional<parallel::TaskKind> pieces;  // the kind of its tasks; empty: it has none
   double seconds_per_tetrahedron, repeated;
   double spread = 0;  // of what its tasks take
 };
-constexpr std::array<StageShare, 5> stage_shares{
+constexpr std::array<StageModel, 5> stage_models{
     {{"decompose", std::nullopt, 1.0e-6, 0.05},
      {"volume", parallel::TaskKind::zone, 2.1e-6, 0, 0.2},
      {"improve", parallel::TaskKind::improved_piece, 1.9e-6, 0, 0.6},
      {"inspect", std::nullopt, 0.7e-6, 0},
      {"output", std::nullopt, 0.4e-6, 0}}};
 
-/// Of what layers add to the seconds of a run, the share of their own stage: 6.1 s for the 7 million prisms
-/// of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the rest.
-constexpr double share_of_layer_stage = 0.3;
+/// Of what layers add to the seconds of a run, the fraction of their own stage: 6.1 s for the 7 million
+/// prisms of the DLR-F6, which are taken to add 21 (benchmarks/results/layers.md). Checks and files have the
+/// rest.
+constexpr double fraction_of_layer_stage = 0.3;
 
 /// What a run is predicted to make and to hold, layers included, all ranks together but for what each starts
 /// with.
@@ -58,12 +58,12 @@ std::string advise(const Elements& elements, double limit, int ranks_here, int r
     return fmt::format("{} rank(s) on a node take {:.3g} GiB before the first element: fewer ranks on each",
                        ranks_here, base_bytes * ranks_here / parallel::gibibyte);
   }
-  const double share = for_elements * ranks / (elements.bytes * ranks_here);
-  const double fitting = share * elements.tetrahedra;
+  const double fraction = for_elements * ranks / (elements.bytes * ranks_here);
+  const double fitting = fraction * elements.tetrahedra;
   return fmt::format(
       "{:.2g} tetrahedra would fit: sizes {:.2f} times as large (sizing.minimum, sizing.maximum "
       "or sizing.target_tetrahedra), or {} times as many nodes",
-      fitting, std::cbrt(1 / share), std::ceil(1 / share));
+      fitting, std::cbrt(1 / fraction), std::ceil(1 / fraction));
 }
 
 // Zones hold about two fifths of the tetrahedra, the rest comes from a table (volume.core_tetrahedra of the
@@ -107,25 +107,25 @@ study::WorthwhileRanks predicted_ranks(study::RunCosts measured, const sizing::P
   const double layer_seconds = layers ? layers->seconds() : 0, layer_bytes = layers ? layers->bytes() : 0;
   if (layer_seconds > 0) {
     study::StageCosts stage{.name = "layers", .own_bytes = held + layer_bytes};
-    stage.groups = {uneven_tasks(parallel::TaskKind::wall_piece, share_of_layer_stage * layer_seconds,
+    stage.groups = {uneven_tasks(parallel::TaskKind::wall_piece, fraction_of_layer_stage * layer_seconds,
                                  counts.triangles, double{layers::wall_piece_triangles}, spread_of_surface)};
     measured.stages.push_back(std::move(stage));
   }
   const auto of_piece = static_cast<double>(
       input.volume.piece_tets.value_or(partition::suitable_piece_tets(counts.tetrahedra)));
-  for (const StageShare& share : stage_shares) {
-    const double seconds = share.seconds_per_tetrahedron * counts.tetrahedra;
-    study::StageCosts stage{.name = share.name, .repeated = share.repeated * seconds};
+  for (const StageModel& model : stage_models) {
+    const double seconds = model.seconds_per_tetrahedron * counts.tetrahedra;
+    study::StageCosts stage{.name = model.name, .repeated = model.repeated * seconds};
     stage.own_bytes = held + bytes_per_tetrahedron * counts.tetrahedra + layer_bytes;
     const double rest = seconds - stage.repeated;
-    if (!share.pieces)
+    if (!model.pieces)
       stage.divisible = rest;
     else
       stage.groups = {
-          uneven_tasks(*share.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, share.spread)};
+          uneven_tasks(*model.pieces, rest, fraction_of_zones * counts.tetrahedra, of_piece, model.spread)};
     measured.stages.push_back(std::move(stage));
   }
-  measured.stages.back().divisible += (1 - share_of_layer_stage) * layer_seconds;
+  measured.stages.back().divisible += (1 - fraction_of_layer_stage) * layer_seconds;
   return study::worthwhile_ranks(measured, {});
 }
 
@@ -137,8 +137,9 @@ double predicted_bytes(const sizing::PredictedCounts& counts, int ranks) {
   return base_bytes * ranks + bytes_per_tetrahedron * counts.tetrahedra;
 }
 
-void require_memory(const parallel::Communicator& communicator, const domain::SizedDomain& sized,
-                    const std::vector<mesh::PatchType>& types, const cases::Case& input) {
+void require_memory(const domain::SizedDomain& sized, const std::vector<mesh::PatchType>& types,
+                    const cases::Case& input) {
+  const parallel::Communicator& communicator = sized.field.communicator();
   const auto limit = static_cast<double>(communicator.minimum(input.memory_limit));
   if (limit <= 0) return;
   const int ranks = communicator.size();

@@ -1,4 +1,4 @@
-/// Improvement of a mesh from another program.
+/// The command `improve`: improves a mesh from a file.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -9,9 +9,9 @@
 
 namespace aeroloom::pipeline {
 
-/// Reads a mesh (imported_mesh.hpp), improves it with its boundary and the boundaries between its regions
-/// kept as they are, and writes mesh.pvtu and surface.pvtp. Of the case `improve`, `volume.piece_tets` and
-/// `output` count. Collective. Throws StageFailure on all ranks.
+/// Reads a mesh (imported_mesh.hpp), improves it, and writes mesh.pvtu and surface.pvtp. Its boundary and the
+/// faces between regions stay unchanged. Only `improve`, `volume.piece_tets` and `output` of the case matter.
+/// Collective. Throws StageFailure on all ranks.
 void improve_file(const parallel::Communicator& communicator, const std::string& file,
                   const cases::Case& input, report::RunRecord& record);
 

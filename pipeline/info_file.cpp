@@ -11,7 +11,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,7 +19,6 @@ namespace aeroloom::pipeline {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using parallel::Communicator;
 
 constexpr int info_schema_version = 1;
 
@@ -32,11 +30,9 @@ geometry::Box bounds_of(const io::FileMesh& mesh) {
   return mesh::box_over_ranks(mesh.pieces->communicator, box);
 }
 
-/// Rank 0 prints what it knows; what is no UTF-8 in names of a file is replaced.
-void show(const Communicator& communicator, const InfoRequest& request, const Json& facts,
-          const std::string& text) {
-  if (!communicator.is_root()) return;
-  std::error_code ignored;  // the size is told where there is one
+/// Letters of names that are no UTF-8 are replaced.
+void show(const InfoRequest& request, const Json& facts, const std::string& text) {
+  std::error_code ignored;  // the size is printed where there is one
   const std::uintmax_t bytes = std::filesystem::file_size(request.file, ignored);
   if (request.print_json) {
     Json json = {{"schema_version", info_schema_version}, {"file", request.file}};
@@ -49,55 +45,52 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
   }
 }
 
-void show_mesh(const Communicator& communicator, const InfoRequest& request) {
-  const io::Assembled file = io::read_mesh({communicator, request.file}, 0);
+/// Collective.
+void show_mesh(const io::Assembled& file, const InfoRequest& request) {
+  const parallel::Communicator& communicator = file.mesh.pieces->communicator;
   const io::ReadableFile format = io::readable_file(request.file);
   MeshFileFacts facts{std::string(format.end->description), 0, bounds_of(file.mesh)};
   if (communicator.is_root() && format.row->named_parts != nullptr)
     facts.parts = format.row->named_parts(request.file);
-  parallel::agree(communicator,
-                  [&] { show(communicator, request, info_json(file, facts), info_text(file, facts)); });
-}
-
-void show_case(const Communicator& communicator, const InfoRequest& request) {
   parallel::agree(communicator, [&] {
-    const std::string resolved = cases::resolved_yaml(cases::read_case(request.file, {}));
-    show(communicator, request, {{"kind", "case"}, {"configuration", resolved}},
-         "a case; with every value spelled out:\n" + resolved + "\n");
+    if (communicator.is_root()) show(request, info_json(file, facts), info_text(file, facts));
   });
 }
 
-void show_cad(const Communicator& communicator, const InfoRequest& request) {
-  parallel::on_root(communicator, [&] {
-    const cad::CadFacts facts = domain::look_sandboxed(request.file);
-    show(communicator, request, info_json(facts), info_text(facts));
-  });
+void show_case(const InfoRequest& request) {
+  const std::string resolved = cases::resolved_yaml(cases::read_case(request.file, {}));
+  show(request, {{"kind", "case"}, {"configuration", resolved}},
+       "a case; with every value spelled out:\n" + resolved + "\n");
+}
+
+void show_cad(const InfoRequest& request) {
+  const cad::CadFacts facts = domain::look_sandboxed(request.file);
+  show(request, info_json(facts), info_text(facts));
 }
 
 /// Refuses early, with one message, what is not a file.
-void require_file(const Communicator& communicator, const std::string& file) {
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root() || file.find('*') != std::string::npos) return;
-    std::error_code code;
-    const auto status = std::filesystem::status(file, code);
-    if (!std::filesystem::exists(status))
-      throw std::filesystem::filesystem_error("cannot read", file,
-                                              std::make_error_code(std::errc::no_such_file_or_directory));
-    if (std::filesystem::is_directory(status))
-      throw std::runtime_error(fmt::format(
-          "'{}' is a folder; give a file: a mesh ({}), CAD (STEP, IGES, BREP), triangles (STL, OBJ, OFF, "
-          "PLY, .poly, .smesh) or a case (.yaml)",
-          file, fmt::join(io::readable_extensions(), ", ")));
-  });
+void require_file(const std::string& file) {
+  if (file.find('*') != std::string::npos) return;
+  std::error_code code;
+  const auto status = std::filesystem::status(file, code);
+  if (!std::filesystem::exists(status))
+    throw std::filesystem::filesystem_error("cannot read", file,
+                                            std::make_error_code(std::errc::no_such_file_or_directory));
+  if (std::filesystem::is_directory(status))
+    throw std::runtime_error(fmt::format(
+        "'{}' is a folder; give a file: a mesh ({}), CAD (STEP, IGES, BREP), triangles (STL, OBJ, OFF, "
+        "PLY, .poly, .smesh) or a case (.yaml)",
+        file, fmt::join(io::readable_extensions(), ", ")));
 }
 
 }  // namespace
 
-void show_info(const Communicator& communicator, const InfoRequest& request) {
-  require_file(communicator, request.file);
-  if (io::readable_file(request.file).row != nullptr) return show_mesh(communicator, request);
+void show_info(const parallel::Communicator& communicator, const InfoRequest& request) {
+  parallel::on_root(communicator, [&] { require_file(request.file); });
+  if (io::readable_file(request.file).row != nullptr)
+    return show_mesh(io::read_mesh({communicator, request.file}, 0), request);
   if (request.file.ends_with(".yaml") || request.file.ends_with(".yml"))
-    return show_case(communicator, request);
+    return parallel::on_root(communicator, [&] { show_case(request); });
   const std::optional<io::FileFormat> written = io::format_of_path(request.file);
   if (written) {
     throw parallel::CollectiveError(
@@ -105,7 +98,7 @@ void show_info(const Communicator& communicator, const InfoRequest& request) {
         fmt::format("'{}': {} is written here, but not read; meshes that are read end like {}", request.file,
                     io::name_of(*written), fmt::join(io::readable_extensions(), ", ")));
   }
-  show_cad(communicator, request);
+  parallel::on_root(communicator, [&] { show_cad(request); });
 }
 
 }  // namespace aeroloom::pipeline

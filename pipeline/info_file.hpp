@@ -1,4 +1,4 @@
-/// Facts about a file, be it a mesh, CAD, or a case.
+/// The command `info`: describes a mesh, CAD or case file.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -12,9 +12,9 @@ struct InfoRequest {
   bool print_json = false;  ///< instead of text
 };
 
-/// Looks at the file and prints what it holds, on rank 0. A mesh goes by its extension and is read by all
-/// ranks (io/read_mesh.hpp); a case by .yaml or .yml; anything else is taken for CAD, which goes by content.
-/// Collective. Throws CollectiveError; CaseError for a case with mistakes.
+/// Reads the file and prints its facts on rank 0. Meshes are recognised by extension and read by all ranks
+/// (io/read_mesh.hpp), cases by .yaml or .yml; all other files are read as CAD. Collective. Throws
+/// CollectiveError.
 void show_info(const parallel::Communicator& communicator, const InfoRequest& request);
 
 }  // namespace aeroloom::pipeline

@@ -1,4 +1,4 @@
-/// Facts about files, for people and for programs.
+/// Formats the facts about a file, as text and as JSON.
 #pragma once
 
 #include "cad/read/cad_facts.hpp"
@@ -11,11 +11,11 @@
 
 namespace aeroloom::pipeline {
 
-/// A mesh as it was read, with what its parts do not tell.
+/// Facts about a mesh file besides those of the mesh.
 struct MeshFileFacts {
   std::string format;    ///< in words
-  int parts = 0;         ///< of the file; 0: a format of one part
-  geometry::Box bounds;  ///< of the points that cells use
+  int parts = 0;         ///< 0: a format without parts
+  geometry::Box bounds;  ///< of all points that cells use
 };
 
 nlohmann::ordered_json info_json(const io::Assembled& file, const MeshFileFacts& facts);

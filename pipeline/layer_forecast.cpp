@@ -9,7 +9,6 @@
 #include "sizing/features/ray_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <utility>

@@ -7,7 +7,6 @@
 #include "surface/plane_remesher.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -87,11 +86,10 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 
 }  // namespace
 
-LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record) {
-  const parallel::Communicator communicator = surface.communicator;
-  surface.patch_types = surface.patch_types;
+LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) {
+  surface.patch_types = surface.types;
   const layers::LayerOptions options =
-      cases::layer_options(input.layers, input.sizing, surface.patches, surface.patch_types);
+      cases::layer_options(input.layers, input.sizing, surface.patches, surface.types);
   const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
@@ -101,13 +99,14 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, 
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
-  record.layers.emplace(report::LayerRecord{options, std::move(made.report)});
-  log_layers(record);
+  log_layers(made.report);
   const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface, made.columns, surface.field);
-  sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
+  sizing::SizeField field = surface.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)
                                 : surface.field;
-  return {std::move(made.columns), {mesh::number_mesh(std::move(made.front)), std::move(field)}};
+  return {std::move(made.columns),
+          {mesh::number_mesh(std::move(made.front)), std::move(field)},
+          {options, std::move(made.report)}};
 }
 
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,

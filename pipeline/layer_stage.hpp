@@ -1,23 +1,25 @@
-/// Boundary layers in a run: between the surface and the volume, which fills what is behind their front.
+/// The stage of boundary layers, between surface and volume. The volume fills the space inside the layer cap,
+/// the outer surface of the layers.
 #pragma once
 
 #include "layers/layer_cells.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/finished_surface.hpp"
-#include "pipeline/run.hpp"
 
 namespace aeroloom::pipeline {
 
-/// The layers on a surface, and what the volume starts from: their front, and sizes that go with it.
+/// The layers on a surface, and the layer cap with its sizes, from which the volume starts.
 struct LayeredSurface {
   layers::Columns columns;
   sizing::SizedSurface front;
+  report::LayerRecord record;
 };
 
-/// Columns on the walls of the surface; planes that layers end on are meshed again. Collective. Throws
-/// std::invalid_argument for layers of patches that there are not.
-LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record);
+/// Builds layers on the walls of the surface. Planes where layers end are meshed again. Collective. Throws
+/// std::invalid_argument for layers on a patch that does not exist.
+LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface);
 
-/// Puts the layers before the tetrahedra behind their front. Collective.
+/// Adds the cells of the layers to the volume. Collective.
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
                    mesh::DistributedMesh& volume);
 

@@ -1,4 +1,4 @@
-/// The cost of a case at the other levels of the prediction workshops.
+/// Predicts the cost of a case at the other levels of the prediction workshops.
 #pragma once
 
 #include "pipeline/case/case.hpp"
@@ -20,9 +20,9 @@ struct LevelForecast {
   double bytes = 0;    ///< of memory, all ranks together
 };
 
-/// Of all levels of one kind, from what was counted at one of them: triangles go with the square of the
-/// levels' factors, tetrahedra with the cube. Sizes of the user's own, which do not follow the level, make
-/// this an overestimate of finer levels.
+/// Forecasts for all levels of the kind, from the counts at one: triangles scale with the square of the
+/// levels' factors, tetrahedra with the cube. Sizes given by the user do not scale, so costs of finer levels
+/// are overestimated.
 std::vector<LevelForecast> forecast_levels(sizing::Level level, const sizing::PredictedCounts& counted,
                                            const cases::SizingRequest& request, int ranks);
 
@@ -30,7 +30,7 @@ std::vector<LevelForecast> forecast_levels(sizing::Level level, const sizing::Pr
 std::string describe(const domain::LevelFindings& found);
 nlohmann::ordered_json to_json(const domain::LevelFindings& found);
 
-/// A table; empty where there are no levels.
+/// A table; empty without levels.
 std::string describe(const std::vector<LevelForecast>& levels);
 nlohmann::ordered_json to_json(const std::vector<LevelForecast>& levels);
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
-#include <stdexcept>
 #include <system_error>
 
 #include <fcntl.h>
@@ -47,7 +46,7 @@ void write_holder(int file) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   const std::string holder = fmt::format("process {} on {}\n", getpid(), host.data());
-  // Who holds the folder is said for others to read; that it is held does not depend on it.
+  // The holder is written for people; the lock does not depend on it.
   if (ftruncate(file, 0) == 0 && pwrite(file, holder.data(), holder.size(), 0) < 0) return;
 }
 

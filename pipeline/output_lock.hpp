@@ -1,4 +1,4 @@
-/// One run at a time in a folder.
+/// Allows one run at a time in an output directory.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -8,12 +8,12 @@
 
 namespace aeroloom::pipeline {
 
-/// Keeps other runs out of an output directory as long as it lives: FOLDER/.lock, locked by rank 0 for its
-/// open file. The system gives that up with the process, however it ends, so what a killed run leaves is no
-/// hindrance; the file tells host and process. Where a file system has no locks there is none.
+/// Locks FOLDER/.lock on rank 0 during its lifetime (a lock of the open file). The system releases the lock
+/// when the process ends, so a killed run blocks nothing. The file names host and process. Does nothing on
+/// file systems without locks.
 class OutputLock {
 public:
-  /// Collective. Throws CollectiveError (files) on all ranks where another run has the folder.
+  /// Collective. Throws CollectiveError (files) on all ranks if another run holds the folder.
   OutputLock(const parallel::Communicator& communicator, const std::string& folder);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;

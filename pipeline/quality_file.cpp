@@ -1,6 +1,5 @@
 #include "pipeline/quality_file.hpp"
 
-#include "io/read_mesh.hpp"
 #include "mesh/quality/mixed_quality.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/report/mixed_quality_json.hpp"
@@ -83,13 +82,12 @@ std::string dump(const Json& json) {
 
 }  // namespace
 
-std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
+std::string show_quality(const io::Assembled& file, const QualityRequest& request,
                          const cases::QualityGate& gate) {
-  const io::Assembled file = io::read_mesh({communicator, request.file}, 0);
   const mesh::NumberedMesh& pieces = *file.mesh.pieces;
   const mesh::MixedQuality quality = mesh::measure_quality(pieces, mesh::link_faces(pieces));
   std::string missed = cases::missed_limits(gate, quality);
-  parallel::on_root(communicator, [&] {
+  parallel::on_root(pieces.communicator, [&] {
     const std::string json = dump(report_json(request.file, file, quality, missed));
     if (!request.json_file.empty()) report::write_text(request.json_file, json);
     if (request.print_json) {

@@ -1,7 +1,7 @@
 /// The quality of a mesh from a file.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
+#include "io/read_mesh.hpp"
 #include "pipeline/case/quality_gate.hpp"
 
 #include <string>
@@ -14,10 +14,10 @@ struct QualityRequest {
   std::string json_file;    ///< written where not empty
 };
 
-/// Reads a mesh (io/read_mesh.hpp), measures it (mesh/quality/mixed_quality.hpp), prints what it found,
-/// writes it where asked for. Returns the limits of the gate that the mesh misses, the same on every rank;
-/// empty: none. Collective. Throws CollectiveError.
-std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
+/// Measures the mesh of a file (mesh/quality/mixed_quality.hpp), prints the result, and writes it where asked
+/// for. Returns the limits of the gate that the mesh misses, the same on every rank; empty: none. Collective.
+/// Throws CollectiveError.
+std::string show_quality(const io::Assembled& file, const QualityRequest& request,
                          const cases::QualityGate& gate);
 
 }  // namespace aeroloom::pipeline

@@ -29,8 +29,6 @@
 namespace aeroloom::pipeline {
 namespace {
 
-using parallel::Communicator;
-
 /// Whether the model of the sizes is simpler than that of the domain.
 bool is_simplified(const domain::SizedDomain& sized) {
   return !sized.findings.joined.groups.empty() || domain::has_closed(sized.findings.edges);
@@ -51,16 +49,16 @@ std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
 
 /// The finished volume.
 struct InspectedVolume : mesh::NumberedMesh {
-  mesh::MeshCounts counts = {};
+  report::VolumeFigures figures = {};
 };
 
-/// The stages of one run. What a stage has made is taken from the checkpoint of an earlier run where there is
-/// one, else made and kept; later stages cannot tell which. The record is written, never read, but for the
-/// quality gate, which judges it.
+/// The stages of one run. A stage takes its result from the checkpoint of an earlier run where there is one;
+/// else it makes and keeps the result. Later stages cannot tell which. The results are copied into the
+/// record, which no stage reads.
 class CaseRun {
 public:
-  CaseRun(const Communicator& communicator, const cases::Case& input, report::RunRecord& record)
-      : _communicator(communicator), _input(input), _record(record) {}
+  CaseRun(parallel::Communicator communicator, const cases::Case& input, report::RunRecord& record)
+      : _communicator(std::move(communicator)), _input(input), _record(record), _clock(record.clock) {}
 
   void run() {
     using report::ExitCode;
@@ -68,37 +66,45 @@ public:
     domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return size(domain); });
     FinishedSurface surface =
         stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, std::move(sized)); });
-    const report::PictureSource pictured{surface, surface.patch_types, domain.model.unit_name()};
-    VolumeProduct volume =
-        report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures, [&] {
-          VolumeStages stages(_communicator, _input, _record, *_checkpoints);
-          std::optional<LayeredSurface> layered;
-          if (_input.layers.given)
-            layered =
-                stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface, _record); });
-          const sizing::SizedSurface& boundary = layered ? layered->front : surface;
-          VolumeStart start =
-              stage("decompose", ExitCode::volume, [&] { return stages.decompose(boundary); });
-          VolumeProduct filled =
-              stage("volume", ExitCode::volume, [&] { return stages.fill(boundary, start); });
-          VolumeProduct improved = stage("improve", ExitCode::volume, [&] {
-            return stages.improve(surface.model, boundary, start, std::move(filled));
-          });
-          if (layered)
-            stage("layers", ExitCode::volume,
-                  [&] { append_layers(_input, surface, *layered, improved.mesh); });
-          return improved;
-        });
+    const report::PictureSource pictured{surface, surface.types, domain.model.unit_name()};
+    std::optional<report::LayerRecord> layers;
+    VolumeProduct volume = report::with_pictures_of_failure(pictured, _input.output, _record.pictures, [&] {
+      VolumeStages stages(_input, *_checkpoints);
+      std::optional<LayeredSurface> layered;
+      if (_input.layers.given) {
+        layered = stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface); });
+        _record.layers = layers = layered->record;
+      }
+      const sizing::SizedSurface& boundary = layered ? layered->front : surface;
+      VolumeStart start =
+          stage("decompose", ExitCode::volume, [&] { return decompose(stages, boundary, surface); });
+      VolumeProduct filled =
+          stage("volume", ExitCode::volume, [&] { return stages.fill(boundary, start, _record.volume); });
+      note_volume(filled);
+      VolumeProduct improved = stage("improve", ExitCode::volume, [&] {
+        return stages.improve(surface.model, boundary, start, std::move(filled));
+      });
+      note_volume(improved);
+      if (layered)
+        stage("layers", ExitCode::volume, [&] { append_layers(_input, surface, *layered, improved.mesh); });
+      return improved;
+    });
     const InspectedVolume finished =
         stage("inspect", ExitCode::volume, [&] { return inspect(std::move(volume), surface); });
-    stage("output", ExitCode::files, [&] { write(finished, surface, pictured); });
-    require_quality(_input, _record);
+    const JudgedMesh judged{finished.figures, surface.figures.patches, layers ? &*layers : nullptr,
+                            surface.sizes, domain.model.unit_name()};
+    stage("output", ExitCode::files, [&] {
+      write(finished, surface);
+      if (_communicator.is_root()) warn(judged, domain.model.unit_in_metres());
+      if (_input.output.pictures) _record.pictures = report::pictures_or_warning(pictured, &finished);
+    });
+    require_quality(_input, judged);
   }
 
 private:
   template <class Work>
   std::invoke_result_t<Work> stage(const std::string& name, report::ExitCode code, Work work) {
-    return run_stage(_record, name, code, work);
+    return run_stage(_clock, name, code, work);
   }
 
   std::optional<io::CheckpointContent> find(SavedStage saved, const char* name) {
@@ -122,39 +128,42 @@ private:
                                      parts > 0 ? fmt::format(" and {} parts", parts) : "", _identity.bytes,
                                      _record.input_hash));
     }
-    cases::TypedPatches patches = domain::find_patches(_communicator, find_or_load_domain(), _input);
+    const cad::Domain domain = find_or_load_domain();
+    cases::TypedPatches patches = domain::find_patches(_communicator, domain.model, _input);
     if (_communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
-    describe(patches.model);
+    note_model(patches.model);
+    log_geometry(patches.model, domain.report);
     return patches;
   }
 
-  cad::Model find_or_load_domain() {
+  /// With the report on rank 0 alone.
+  cad::Domain find_or_load_domain() {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
       std::optional<cad::Domain> domain;
       parallel::collectively(_communicator, parallel::ScopedCpu::As::repeated,
-                             [&] { domain = unpack_domain_product(std::move(*found)); });
-      if (_communicator.is_root()) _record.domain = std::move(domain->report);
-      return std::move(domain->model);
+                             [&] { domain = domain::unpack_domain(found->common); });
+      if (!_communicator.is_root()) domain->report = {};
+      _record.domain = domain->report;
+      return std::move(*domain);
     }
-    cad::DomainReport found;
-    cad::Model model = domain::load_domain(_communicator, _input.domain, found);
-    _record.domain = found;
-    require_same_file(_communicator, _identity, _input);
+    cad::Domain domain = domain::load_domain(_communicator, _input.domain);
+    _record.domain = domain.report;
+    parallel::on_root(_communicator, [&] { require_same_file(_identity, _input); });
     _checkpoints->keep(SavedStage::geometry, [&] {
-      return _communicator.is_root() ? pack_domain_product({model, found}) : io::CheckpointDraft();
+      return _communicator.is_root() ? io::CheckpointDraft{domain::pack_domain(domain), {}}
+                                     : io::CheckpointDraft();
     });
-    return model;
+    return domain;
   }
 
-  void describe(const cad::Model& model) {
+  void note_model(const cad::Model& model) {
     _record.unit = model.unit_name();
     _record.unit_in_metres = model.unit_in_metres();
     _record.bounds = model.bounds();
     _record.regions = model.region_count();
     _record.faces = model.face_count();
     _record.edges = model.edge_count();
-    log_geometry(model, _record);
   }
 
   // --- sizes, and the model they are for
@@ -162,7 +171,7 @@ private:
   domain::SizedDomain size(const cases::TypedPatches& domain) {
     domain::SizedDomain sized = find_or_build_sizes(domain.model);
     domain::require_walls_apart(sized);
-    require_memory(_communicator, sized, types_of(sized.model.patches(), domain), _input);
+    require_memory(sized, types_of(sized.model.patches(), domain), _input);
     return sized;
   }
 
@@ -191,8 +200,8 @@ private:
     for (cad::FaceId f = 0; f < sized.model.face_count(); ++f)
       _record.face_names.push_back(sized.model.face(f).name);
     _record.findings = sized.findings;
-    log_sizing(_record);
-    if (_communicator.is_root()) warn_of_sizes(_record);
+    log_sizing(sized);
+    if (_communicator.is_root()) warn_of_sizes(sized);
   }
 
   // --- surface
@@ -203,12 +212,12 @@ private:
     if (std::optional<surface::SurfaceMesh> known = find_surface(domain.model, sized)) {
       if (is_simplified(sized) != simplified) note_sizes(sized);
       parallel::add_pieces(static_cast<std::int64_t>(known->pieces.size()));
-      return finish_surface(domain, sized.model, std::move(*known));
+      return finish_surface(domain, sized, std::move(*known));
     }
     surface::SurfaceMesh made = build_surface_or_advise(domain.model, sized);
-    FinishedSurface finished = finish_surface(domain, sized.model, std::move(made));
+    FinishedSurface finished = finish_surface(domain, sized, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
-      return pack_surface(_communicator, {finished, sized, is_simplified(sized) != simplified});
+      return pack_surface({finished, sized, is_simplified(sized) != simplified});
     });
     return finished;
   }
@@ -216,8 +225,7 @@ private:
   std::optional<surface::SurfaceMesh> find_surface(const cad::Model& domain, domain::SizedDomain& sized) {
     std::optional<io::CheckpointContent> found = _checkpoints->find(SavedStage::surface);
     if (!found) return std::nullopt;
-    std::optional<surface::SurfaceMesh> known =
-        unpack_surface(_communicator, std::move(*found), domain, sized);
+    std::optional<surface::SurfaceMesh> known = unpack_surface(std::move(*found), domain, sized);
     if (known)
       _record.resumed.emplace_back("surface");
     else
@@ -225,14 +233,16 @@ private:
     return known;
   }
 
-  /// Numbers it, checks it, tells of it.
-  FinishedSurface finish_surface(const cases::TypedPatches& domain, const cad::Model& model,
+  /// Numbers the surface, checks it, and logs the result.
+  FinishedSurface finish_surface(const cases::TypedPatches& domain, const domain::SizedDomain& sized,
                                  surface::SurfaceMesh surface) {
     _record.surface = surface.report;
-    FinishedSurface finished{std::move(surface), model, types_of(model.patches(), domain)};
-    inspect_surface("the surface mesh", finished, _record);
-    log_surface(_record);
-    if (_communicator.is_root()) log_needles(_record);
+    FinishedSurface finished{std::move(surface), sized.model, types_of(sized.model.patches(), domain),
+                             sized.sizes, sized.findings.counts.tetrahedra};
+    inspect_surface("the surface mesh", finished);
+    static_cast<report::SurfaceFigures&>(_record) = finished.figures;
+    log_surface(finished.report, finished.figures);
+    if (_communicator.is_root()) log_needles(finished.report, finished.figures.face_table);
     return finished;
   }
 
@@ -276,39 +286,63 @@ private:
     }
   }
 
+  // --- volume
+
+  VolumeStart decompose(VolumeStages& stages, const sizing::SizedSurface& boundary,
+                        const FinishedSurface& surface) {
+    VolumeStart start = stages.decompose(boundary);
+    if (start.zones) {
+      _record.decomposition = start.zones->report();
+      if (_communicator.is_root())
+        warn_of_count(_record.decomposition.expected_tetrahedra, surface.forecast_tetrahedra,
+                      surface.report.mending_rounds);
+    } else {
+      _record.resumed.emplace_back("volume");
+      if (start.improved) _record.resumed.emplace_back("improve");
+    }
+    return start;
+  }
+
+  void note_volume(const VolumeProduct& product) {
+    _record.decomposition = product.decomposition;
+    _record.volume = product.volume;
+    _record.improve = product.improve;
+  }
+
   // --- the finished mesh
 
   InspectedVolume inspect(VolumeProduct volume, FinishedSurface& surface) {
     InspectedVolume finished{mesh::number_mesh(std::move(volume.mesh))};
-    if (volume.improve.changed_triangles > 0) adopt_boundary(finished, surface, _record);
-    finished.counts = inspect_volume(_input, finished, surface.bounds_volume ? &surface : nullptr, _record);
-    add_cad_volumes(surface.model, _record.regions_filled);
+    if (volume.improve.changed_triangles > 0) adopt_boundary(finished, surface);
+    static_cast<report::SurfaceFigures&>(_record) = surface.figures;
+    finished.figures = inspect_volume(improve_options(_input), _input.gate, finished,
+                                      surface.bounds_volume ? &surface : nullptr);
+    add_cad_volumes(surface.model, finished.figures.regions_filled);
+    static_cast<report::VolumeFigures&>(_record) = finished.figures;
     const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
     _record.conformity = attribution::measure_conformity(finished, surface.field);
-    finished.patch_types = surface.patch_types;
+    finished.patch_types = surface.types;
     return finished;
   }
 
-  void write(const InspectedVolume& volume, const FinishedSurface& surface,
-             const report::PictureSource& pictured) {
+  void write(const InspectedVolume& volume, const FinishedSurface& surface) {
     {
       const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
       write_outputs(volume, surface.bounds_volume ? &surface : nullptr, _input.output);
     }
-    if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files(volume.counts.cells);
-    if (_communicator.is_root()) {
-      warn_of_units(_record, _input.output);
-      if (const std::string coarse = coarse_region(_input.gate, _record); !coarse.empty())
-        parallel::log_warning("quality gate: " + coarse);
-    }
-    if (_input.output.pictures)
-      _record.pictures = report::pictures_or_warning(_communicator, &volume, pictured);
+    if (_input.output.formats.size() == 1 && wants_vtk(_input.output))
+      note_files(volume.figures.counts.cells);
   }
 
-  /// Puts files on record as tasks that cost equally much, what all ranks have spent on them together.
-  /// Collective.
+  void warn(const JudgedMesh& judged, double metres) const {
+    warn_of_units(judged.unit, metres, _input.output);
+    if (const std::string coarse = coarse_region(_input.gate, judged); !coarse.empty())
+      parallel::log_warning("quality gate: " + coarse);
+  }
+
+  /// Notes the files as tasks of equal cost, together what all ranks have spent on them. Collective.
   void note_files(mesh::GlobalIndex cells) {
-    const double seconds = _communicator.sum(_record.clock.costs().back().task_cpu_seconds);
+    const double seconds = _communicator.sum(_clock.costs().back().task_cpu_seconds);
     const std::int64_t of_file = io::cells_per_vtk_file(cells);
     const std::int64_t files = (cells + of_file - 1) / of_file;
     for (std::int64_t i = 0; _communicator.is_root() && i < files; ++i)
@@ -318,20 +352,19 @@ private:
                            .cpu_seconds = seconds / static_cast<double>(files)});
   }
 
-  const Communicator& _communicator;
+  parallel::Communicator _communicator;
   const cases::Case& _input;
   report::RunRecord& _record;
+  parallel::StageClock& _clock;  // of the record
   RunIdentity _identity;
   std::optional<Checkpoints> _checkpoints;  // from the first stage on
 };
 
 }  // namespace
 
-void run_case(const Communicator& communicator, const cases::Case& input, report::RunRecord& record) {
-  if (!input.layers.given) return CaseRun(communicator, input, record).run();
-  cases::Case kept = input;
-  kept.improve.boundary_may_change = false;  // layers stand before it
-  CaseRun(communicator, kept, record).run();
+void run_case(const parallel::Communicator& communicator, const cases::Case& input,
+              report::RunRecord& record) {
+  CaseRun(communicator, input, record).run();
 }
 
 }  // namespace aeroloom::pipeline

@@ -1,4 +1,4 @@
-/// One run: from a case to a mesh on disk.
+/// Runs a case: from CAD to a mesh on disk.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -8,9 +8,8 @@
 
 namespace aeroloom::pipeline {
 
-/// Runs all stages of the case in order, with validity checks between them, and writes mesh.pvtu,
-/// surface.pvtp and, where regions share faces, interfaces.pvtp. Collective. Throws StageFailure on all
-/// ranks.
+/// Runs all stages of the case with checks between them and writes the mesh files. Results are copied into
+/// `record`, also of a run that fails. Collective. Throws StageFailure on all ranks.
 void run_case(const parallel::Communicator& communicator, const cases::Case& input,
               report::RunRecord& record);
 

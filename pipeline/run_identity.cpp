@@ -4,7 +4,6 @@
 #include "pipeline/report/library_versions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -87,18 +86,14 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
   return identity;
 }
 
-void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
-                       const cases::Case& input) {
-  parallel::agree(communicator, [&] {
-    const std::vector<std::string> files = files_of(input.domain);
-    if (!communicator.is_root() || files.empty() || !identity.is_known) return;
-    if (std::all_of(files.begin(), files.end(), is_readable) && digest_of_files(files) == identity.files)
-      return;
-    const char* const what =
-        files.size() == 1 ? "the file was changed while it was read" : "a file was changed while it was read";
-    throw std::filesystem::filesystem_error(what, files.front(),
-                                            std::make_error_code(std::errc::interrupted));
-  });
+void require_same_file(const RunIdentity& identity, const cases::Case& input) {
+  const std::vector<std::string> files = files_of(input.domain);
+  if (files.empty() || !identity.is_known) return;
+  if (std::all_of(files.begin(), files.end(), is_readable) && digest_of_files(files) == identity.files)
+    return;
+  const char* const what =
+      files.size() == 1 ? "the file was changed while it was read" : "a file was changed while it was read";
+  throw std::filesystem::filesystem_error(what, files.front(), std::make_error_code(std::errc::interrupted));
 }
 
 }  // namespace aeroloom::pipeline

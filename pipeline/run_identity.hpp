@@ -1,4 +1,4 @@
-/// The program and the geometry, on which the result of a run depends besides its configuration.
+/// Identifies the program and the geometry of a run by digests.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -11,21 +11,21 @@
 namespace aeroloom::pipeline {
 
 struct RunIdentity {
-  std::string version;      ///< of the program and its libraries
-  parallel::Digest build;   ///< of the program's file
-  std::string input;        ///< name of the geometry file, or of what is built in
-  bool is_known = true;     ///< whether the files of the geometry can be read
-  parallel::Digest digest;  ///< of the bytes of these files, or of the dimensions and these
-  parallel::Digest files;   ///< of the bytes alone
-  std::int64_t bytes = 0;   ///< of these files
+  std::string version;     ///< of the program and its libraries
+  parallel::Digest build;  ///< of the executable
+  std::string input;       ///< name of the geometry file, or of the built-in geometry
+  bool is_known = true;    ///< whether the geometry files are readable
+  parallel::Digest
+      digest;  ///< of the files' bytes; of a built-in geometry: of its dimensions and the parts' bytes
+  parallel::Digest files;  ///< of the files' bytes alone
+  std::int64_t bytes = 0;  ///< size of the files
 };
 
-/// Rank 0 reads the files. That a geometry file cannot be read is for the reader to tell. Collective.
+/// Rank 0 reads the files. An unreadable file is no error here; the CAD reader reports it. Collective.
 RunIdentity identify_run(const parallel::Communicator& communicator, const cases::Case& input);
 
-/// After the geometry was read: throws CollectiveError (files) where the file is no longer the one that was
-/// identified. Collective.
-void require_same_file(const parallel::Communicator& communicator, const RunIdentity& identity,
-                       const cases::Case& input);
+/// Throws std::filesystem::filesystem_error if the files have changed since identify_run(). Rank 0 calls it
+/// after the geometry was read.
+void require_same_file(const RunIdentity& identity, const cases::Case& input);
 
 }  // namespace aeroloom::pipeline

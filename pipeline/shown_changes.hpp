@@ -1,4 +1,4 @@
-/// Long lists of changes for people: those that moved most, and how many more there are.
+/// Shortens long lists of CAD changes for messages.
 #pragma once
 
 #include "cad/repair/change.hpp"
@@ -8,8 +8,8 @@
 
 namespace aeroloom::pipeline {
 
-/// A line for each change, or for the three that moved most; the last line then says how many more there are
-/// and that `all_of_them` lists them.
+/// One line for each change. Of long lists: the three with the largest displacement, and a line with the
+/// number of others and `all_of_them`, the place of the full list.
 std::vector<std::string> shown_changes(cad::Changes changes, const std::string& all_of_them);
 
 }  // namespace aeroloom::pipeline

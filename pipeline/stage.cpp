@@ -7,7 +7,6 @@
 #include <mutex>
 #include <new>
 #include <stdexcept>
-#include <string>
 
 namespace aeroloom::pipeline {
 namespace {

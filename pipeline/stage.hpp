@@ -1,21 +1,21 @@
-/// Stages of a run: their clocks, and how what goes wrong in them ends the program.
+/// Runs stages of a run: opens their clocks and turns exceptions into exit codes.
 #pragma once
 
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "pipeline/report/exit_code.hpp"
-#include "pipeline/run.hpp"
 
 #include <string>
 
 namespace aeroloom::pipeline {
 
-/// The exit code of a failure: that of the stage, unless its kind demands another.
+/// The exit code of an error: that of its kind, or else that of the stage.
 report::ExitCode code_of(const parallel::CollectiveError& error, report::ExitCode of_stage);
 
-/// The stage under way, for what is said when the program is asked to end; another thread may call it.
+/// The name of the current stage, for messages of a terminated run. Any thread may call it.
 std::string current_stage();
 
-/// The clock of a stage is open and its name the current one from here to the end of the scope.
+/// Opens the clock of a stage and makes it the current stage, until the end of the scope.
 class OpenStage {
 public:
   OpenStage(parallel::StageClock& clock, const std::string& name);
@@ -27,16 +27,14 @@ private:
   parallel::StageClock& _clock;
 };
 
-/// Throws the exception that is being handled as a StageFailure with `code`, or with the code that its kind
-/// demands.
+/// Rethrows the current exception as a StageFailure, with `code` or the code of its kind.
 [[noreturn]] void fail_stage(const std::string& name, report::ExitCode code);
 
-/// Runs `work` as stage `name`: opens and closes its clock, and turns what it throws into a StageFailure as
-/// fail_stage() does. What is thrown here has been agreed on by all ranks or follows from data that all ranks
-/// share.
+/// Runs `work` as the stage `name` and returns its result. Throws StageFailure as fail_stage(). All ranks
+/// must throw alike: errors are agreed on, or follow from data that all ranks have.
 template <class Work>
-auto run_stage(report::RunRecord& record, const std::string& name, report::ExitCode code, Work work) {
-  const OpenStage open(record.clock, name);
+auto run_stage(parallel::StageClock& clock, const std::string& name, report::ExitCode code, Work work) {
+  const OpenStage open(clock, name);
   try {
     return work();
   } catch (...) {

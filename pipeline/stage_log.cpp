@@ -15,89 +15,86 @@ namespace aeroloom::pipeline {
 
 using parallel::log_info;
 
-void log_geometry(const cad::Model& model, const report::RunRecord& record) {
+void log_geometry(const cad::Model& model, const cad::DomainReport& report) {
   const geometry::Vec3 size = model.body_bounds().size();
   log_info(fmt::format("geometry: {} region(s), {} faces, {} edges; body {:.6g} x {:.6g} x {:.6g} {}",
-                       record.regions, record.faces, record.edges, size.x, size.y, size.z,
-                       record.unit.empty() ? "(no unit declared)" : record.unit));
-  if (!record.domain.reason.empty()) log_info("geometry: " + record.domain.reason);
-  for (const cad::Change& change : record.domain.changes) {
+                       model.region_count(), model.face_count(), model.edge_count(), size.x, size.y, size.z,
+                       model.unit_name().empty() ? "(no unit declared)" : model.unit_name()));
+  if (!report.reason.empty()) log_info("geometry: " + report.reason);
+  for (const cad::Change& change : report.changes) {
     const std::string text = "geometry: " + cad::describe(change);
     change.is_warning ? parallel::log_warning(text) : log_info(text);
   }
 }
 
-void log_sizing(const report::RunRecord& record) {
-  const domain::SizingFindings& findings = record.findings;
+void log_sizing(const domain::SizedDomain& sized) {
+  const domain::SizingFindings& findings = sized.findings;
   for (const domain::JudgedEdge& edge : findings.edges)
     if (edge.fate != domain::EdgeFate::kept) log_info("sizing: " + edge.what);
   for (const std::string& line : shown_changes(findings.joined.changes, "report.json: sizing.joined_faces"))
     log_info("sizing: " + line);
   log_info(
       fmt::format("sizing: {:.4g} to {:.4g}, {:.3g} degrees per element, growth {:.3g}; {} octree leaves",
-                  record.sizes.minimum, record.sizes.maximum, record.sizes.curvature_angle,
-                  record.sizes.growth, record.size_field_leaves));
+                  sized.sizes.minimum, sized.sizes.maximum, sized.sizes.curvature_angle, sized.sizes.growth,
+                  sized.field.leaf_count()));
   if (findings.features) {
-    if (const std::string text = domain::describe_share(*findings.features); !text.empty())
+    if (const std::string text = domain::describe_added(*findings.features); !text.empty())
       log_info("sizing: " + text);
   }
-  const std::string bounds = describe(findings.bounded, record.sizes);
+  const std::string bounds = describe(findings.bounded, sized.sizes);
   if (!bounds.empty() && !domain::is_much_of_body(findings.bounded)) log_info("sizing: " + bounds);
 }
 
-void warn_of_sizes(const report::RunRecord& record) {
-  const domain::SizingFindings& findings = record.findings;
+void warn_of_sizes(const domain::SizedDomain& sized) {
+  const domain::SizingFindings& findings = sized.findings;
   if (const std::string text = describe(findings.walls.unseen); !text.empty())
     parallel::log_warning("sizing: " + text);
   if (const std::string text = findings.features ? describe(*findings.features) : std::string();
       !text.empty())
     parallel::log_warning("sizing: " + text);
   if (domain::is_much_of_body(findings.bounded))
-    parallel::log_warning("sizing: " + describe(findings.bounded, record.sizes));
+    parallel::log_warning("sizing: " + describe(findings.bounded, sized.sizes));
 }
 
-void warn_of_units(const report::RunRecord& record, const cases::OutputOptions& output) {
-  if (record.unit.empty() || record.unit_in_metres == 1) return;
+void warn_of_units(const std::string& unit, double metres, const cases::OutputOptions& output) {
+  if (unit.empty() || metres == 1) return;
   for (const io::FileFormat format : output.formats) {
     const io::FormatRow& row = io::row_of(format);
-    if (row.unit_warning != nullptr)
-      parallel::log_warning("output: " + row.unit_warning(record.unit, record.unit_in_metres));
+    if (row.unit_warning != nullptr) parallel::log_warning("output: " + row.unit_warning(unit, metres));
   }
 }
 
 namespace {
 
-void log_closed_cusps(const report::RunRecord& record) {
-  const std::vector<surface::ClosedCusp>& cusps = record.surface.closed_cusps;
+void log_closed_cusps(const std::vector<surface::ClosedCusp>& cusps,
+                      const std::vector<report::FaceRow>& faces) {
   if (cusps.empty()) return;
   const auto farthest = std::max_element(
       cusps.begin(), cusps.end(),
       [](const surface::ClosedCusp& a, const surface::ClosedCusp& b) { return a.moved < b.moved; });
   log_info(fmt::format(
       "surface: {} cusp(s) of faces between tangent curves closed, by at most {:.3g} (face '{}' at {})",
-      cusps.size(), farthest->moved, record.face_names.at(farthest->face),
-      geometry::place_text(farthest->point)));
+      cusps.size(), farthest->moved, faces.at(farthest->face).name, geometry::place_text(farthest->point)));
 }
 
 }  // namespace
 
-void log_surface(const report::RunRecord& record) {
+void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigures& figures) {
   log_info(
       fmt::format("surface: {} triangles in {} pieces, smallest angle {:.3g} degrees, mean ratio {:.3f} on "
                   "average",
-                  record.surface.triangles, record.surface.pieces,
-                  record.surface_quality->min_dihedral.minimum, record.surface_quality->mean_ratio.mean));
-  log_closed_cusps(record);
+                  report.triangles, report.pieces, figures.surface_quality->min_dihedral.minimum,
+                  figures.surface_quality->mean_ratio.mean));
+  log_closed_cusps(report.closed_cusps, figures.face_table);
 }
 
-/// Triangles below ten degrees: how many the CAD forces, and where the others are.
-void log_needles(const report::RunRecord& record) {
+void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces) {
   constexpr int shown = 5;  // lines of the log; the report has all
   std::int64_t forced = 0, forced_groups = 0, others = 0;
   double least = surface::needle_degrees;
   int listed = 0;
   std::string places;
-  for (const surface::NeedleGroup& group : record.surface.needles) {
+  for (const surface::NeedleGroup& group : report.needles) {
     if (group.cause != surface::NeedleCause::mesh) {
       forced += group.needles, ++forced_groups;
       least = std::min(least, group.degrees);
@@ -105,14 +102,14 @@ void log_needles(const report::RunRecord& record) {
     }
     others += group.needles;
     if (++listed > shown) continue;
-    places += fmt::format("; {} on '{}', {:.3g} degrees at {}", group.needles,
-                          record.face_names.at(group.face), group.degrees, geometry::place_text(group.at));
+    places += fmt::format("; {} on '{}', {:.3g} degrees at {}", group.needles, faces.at(group.face).name,
+                          group.degrees, geometry::place_text(group.at));
   }
   if (forced > 0) {
-    log_info(
-        fmt::format("surface: {} triangles below {:g} degrees that corners of the CAD and strips between its "
-                    "curves force, in {} places, from {:.3g} degrees",
-                    forced, surface::needle_degrees, forced_groups, least));
+    log_info(fmt::format(
+        "surface: {} triangles below {:g} degrees that corners of the CAD and narrow regions between its "
+        "curves force, in {} places, from {:.3g} degrees",
+        forced, surface::needle_degrees, forced_groups, least));
   }
   if (others > 0) {
     parallel::log_warning(fmt::format(
@@ -127,9 +124,9 @@ void log_surface_again(const std::string& reason) {
                        cases::with_keys(reason)));
 }
 
-void log_layers(const report::RunRecord& record) {
+void log_layers(const layers::LayerReport& report) {
   layers::PatchLayers all;
-  for (const layers::PatchLayers& patch : record.layers->report.patches) {
+  for (const layers::PatchLayers& patch : report.patches) {
     all.area += patch.area, all.full_area += patch.full_area, all.empty_area += patch.empty_area;
     all.prisms += patch.prisms, all.pyramids += patch.pyramids, all.tetrahedra += patch.tetrahedra;
   }
@@ -141,45 +138,39 @@ void log_layers(const report::RunRecord& record) {
       all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area));
 }
 
-void log_decompose(const report::RunRecord& record) {
-  const volume::DecompositionReport& report = record.decomposition;
+void log_decompose(const volume::DecompositionReport& report) {
   log_info(fmt::format(
       "decompose: {} zone(s) for {} of {} lattice points, about {} tetrahedra from a table; heaviest "
       "zone {:.2f} of the mean",
       report.zones, report.shell_points, report.lattice_points, report.core_tetrahedra, report.imbalance));
 }
 
-void warn_of_count(const report::RunRecord& record) {
-  constexpr double telling = 1.5;  // more than forecasts err by (docs/bounds.md)
-  const double expected = record.decomposition.expected_tetrahedra,
-               forecast = record.findings.counts.tetrahedra;
-  if (expected < telling * forecast) return;
+void warn_of_count(double expected, double forecast, int resize_rounds) {
+  constexpr double least_warned_ratio = 1.5;  // more than forecasts err by (docs/bounds.md)
+  if (expected < least_warned_ratio * forecast) return;
   parallel::log_warning(fmt::format(
       "decompose: about {:.2g} tetrahedra are to be made, {:.2g} times the {:.2g} that the sizes forecast{}. "
       "Remedy: larger sizes (sizing.minimum, sizing.feature_minimum)",
       expected, expected / forecast, forecast,
-      record.surface.mending_rounds > 0
+      resize_rounds > 0
           ? fmt::format(": sizes fell in {} round(s) where faces or curves came too close to each other",
-                        record.surface.mending_rounds)
+                        resize_rounds)
           : ": faces have more triangles than sizes ask for"));
 }
 
-void log_volume(const report::RunRecord& record) {
-  const volume::VolumeReport& report = record.volume;
+void log_volume(const volume::VolumeReport& report) {
   log_info(fmt::format(
       "volume: {} tetrahedra; zones knew {:.2f} times the points there are; {} round(s), {} retries, "
       "{} places where zones disagreed",
       report.tetrahedra, report.overlap, report.rounds, report.retries.size(), report.disagreements.size()));
 }
 
-void log_improve(const report::RunRecord& record) {
-  const improve::ImproveReport& report = record.improve;
+void log_improve(const improve::ImproveReport& report) {
   log_info(fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
                        report.min_angle_before, report.min_angle_after, report.bad_before, report.bad_after));
 }
 
-void log_pinned(const report::RunRecord& record) {
-  const attribution::PinnedReport& report = record.pinned;
+void log_pinned(const attribution::PinnedReport& report) {
   if (report.tetrahedra + report.others == 0) return;
   const auto part = [](const attribution::MissedTarget& kind) {
     if (kind.tetrahedra == 0) return std::string("0");
@@ -187,7 +178,7 @@ void log_pinned(const report::RunRecord& record) {
   };
   log_info(fmt::format(
       "improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
-      "are at {} strips and gaps that are finer than their elements, {}{} are neither",
+      "are at {} narrow regions and gaps that are finer than their elements, {}{} are neither",
       part(report.pinned), report.entities.size(), part(report.at_features), report.features.size(),
       report.held.tetrahedra == 0
           ? ""

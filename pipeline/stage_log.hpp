@@ -1,33 +1,36 @@
-/// The wording of all that the stages of a run say when they end. What a stage says while it works
-/// (retries, searches) stands in its driver.
+/// The messages in which the stages of a run say what they have found. Messages during a stage (retries,
+/// searches) are worded where they arise.
 #pragma once
 
-#include "cad/model/model.hpp"
-#include "pipeline/run.hpp"
+#include "pipeline/case/case.hpp"
+#include "pipeline/domain/size_domain.hpp"
+#include "pipeline/report/run_record.hpp"
 
 #include <string>
+#include <vector>
 
 namespace aeroloom::pipeline {
 
-// Each logs what its stage has put into the record. On every rank; rank 0 prints.
+// Every rank calls these; rank 0 prints.
 
-void log_geometry(const cad::Model& model, const report::RunRecord& record);
-void log_sizing(const report::RunRecord& record);
-/// Strips that are not resolved, sizes that lose the shape of the body. By one rank.
-void warn_of_sizes(const report::RunRecord& record);
-/// Formats that know one unit alone, where the model has another. By one rank.
-void warn_of_units(const report::RunRecord& record, const cases::OutputOptions& output);
-void log_surface(const report::RunRecord& record);
-void log_needles(const report::RunRecord& record);
-/// Joined faces could not be meshed: it is done again without.
+void log_geometry(const cad::Model& model, const cad::DomainReport& report);
+void log_sizing(const domain::SizedDomain& sized);
+/// Warns of narrow regions that stay unresolved and of sizes that lose the shape of the body. One rank calls.
+void warn_of_sizes(const domain::SizedDomain& sized);
+/// Warns of formats that assume metres where the model's `unit` is another. One rank calls.
+void warn_of_units(const std::string& unit, double metres, const cases::OutputOptions& output);
+void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigures& figures);
+/// Triangles below ten degrees: how many the CAD forces, and where the others are. `faces` by face id.
+void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces);
+/// Joined faces could not be meshed: the surface is meshed again without joining.
 void log_surface_again(const std::string& reason);
-void log_layers(const report::RunRecord& record);
-void log_decompose(const report::RunRecord& record);
-/// Where more tetrahedra are to be made than sizes have led to expect.
-void warn_of_count(const report::RunRecord& record);
-void log_volume(const report::RunRecord& record);
-void log_improve(const report::RunRecord& record);
-/// Nothing where nothing is pinned.
-void log_pinned(const report::RunRecord& record);
+void log_layers(const layers::LayerReport& report);
+void log_decompose(const volume::DecompositionReport& report);
+/// Warns where many more tetrahedra are expected than were forecast. `resize_rounds`: of the surface.
+void warn_of_count(double expected, double forecast, int resize_rounds);
+void log_volume(const volume::VolumeReport& report);
+void log_improve(const improve::ImproveReport& report);
+/// Prints nothing where no tetrahedron is below its target.
+void log_pinned(const attribution::PinnedReport& report);
 
 }  // namespace aeroloom::pipeline

@@ -1,7 +1,6 @@
 #include "pipeline/stage_products.hpp"
 
 #include "cad/model/topology/joined_faces.hpp"
-#include "pipeline/domain/domain_bytes.hpp"
 
 #include <tuple>
 #include <utility>
@@ -22,10 +21,8 @@ std::vector<CheckpointDraft::Item> draft_pieces(const mesh::DistributedMesh& mes
   return items;
 }
 
-/// Items go as their pieces come.
-mesh::DistributedMesh make_mesh(const parallel::Communicator& communicator, mesh::MeshFacts facts,
-                                std::vector<CheckpointContent::Item> items) {
-  mesh::DistributedMesh mesh(communicator, std::move(facts));
+/// Frees the bytes of each item once its piece is made.
+mesh::DistributedMesh add_pieces(mesh::DistributedMesh mesh, std::vector<CheckpointContent::Item> items) {
   for (CheckpointContent::Item& item : items)
     mesh.pieces.push_back(from_wire<mesh::Piece>(std::exchange(item.bytes, Bytes())));
   return mesh;
@@ -83,14 +80,6 @@ parallel::Digest digest_of(const domain::SizedDomain& sized) {
 
 }  // namespace
 
-CheckpointDraft pack_domain_product(const cad::Domain& domain) {
-  return {domain::pack_domain(domain), {}};
-}
-
-cad::Domain unpack_domain_product(CheckpointContent content) {
-  return domain::unpack_domain(content.common);
-}
-
 CheckpointDraft pack_sizes(const domain::SizedDomain& sized) {
   return {to_wire(SizesRecord{sized.sizes, sized.field.pack(), sized.findings}), {}};
 }
@@ -106,9 +95,9 @@ domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, Che
 }
 
 // The common part of rank 0 counts: others pack none of what each node holds once.
-CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product) {
+CheckpointDraft pack_surface(const SurfaceProduct& product) {
   SurfaceRecord record{digest_of(product.sized), {}, product.surface.report, {}, product.surface};
-  if (communicator.is_root()) {
+  if (product.surface.communicator.is_root()) {
     if (product.sizes_are_other) record.sizes = pack_sizes(product.sized).common;
     const sizing::SizeField& field = product.surface.field;
     if (field.digest() != product.sized.field.digest()) record.field = field.pack();
@@ -116,13 +105,14 @@ CheckpointDraft pack_surface(const parallel::Communicator& communicator, const S
   return {to_wire(record), draft_pieces(product.surface)};
 }
 
-std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
-                                                   CheckpointContent content, const cad::Model& domain,
+std::optional<surface::SurfaceMesh> unpack_surface(CheckpointContent content, const cad::Model& domain,
                                                    domain::SizedDomain& sized) {
+  const parallel::Communicator communicator = sized.field.communicator();
   auto record = from_wire<SurfaceRecord>(content.common);
   if (!record.sizes.empty()) sized = unpack_sizes(communicator, {std::move(record.sizes), {}}, domain);
   if (record.sized != digest_of(sized)) return std::nullopt;
-  mesh::DistributedMesh mesh = make_mesh(communicator, std::move(record.mesh), std::move(content.items));
+  mesh::DistributedMesh mesh =
+      add_pieces(mesh::DistributedMesh(communicator, std::move(record.mesh)), std::move(content.items));
   return surface::SurfaceMesh{
       {mesh::number_mesh(std::move(mesh)),
        record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)},
@@ -136,8 +126,8 @@ CheckpointDraft pack_volume(const VolumeProduct& product) {
 
 VolumeProduct unpack_volume(const parallel::Communicator& communicator, CheckpointContent content) {
   auto record = from_wire<VolumeRecord>(content.common);
-  return {make_mesh(communicator, std::move(record.mesh), std::move(content.items)), record.decomposition,
-          std::move(record.volume), record.improve};
+  return {add_pieces(mesh::DistributedMesh(communicator, std::move(record.mesh)), std::move(content.items)),
+          record.decomposition, std::move(record.volume), record.improve};
 }
 
 }  // namespace aeroloom::pipeline

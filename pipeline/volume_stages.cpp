@@ -3,10 +3,8 @@
 #include "io/vtk/vtk_writer.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/finished_volume.hpp"
-#include "pipeline/forecast.hpp"
 #include "pipeline/stage_log.hpp"
 
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,12 +14,12 @@ namespace aeroloom::pipeline {
 
 namespace {
 
-/// Leaves the triangles at fault in a file and throws the failure with the file's name. Collective.
-[[noreturn]] void point_at_offenders(const parallel::Communicator& communicator,
+/// Writes the triangles at fault and throws the failure with the name of their file. Collective.
+[[noreturn]] void point_at_offenders(const mesh::DistributedMesh& surface,
                                      const volume::VolumeFailure& failure, const std::string& file) {
   std::string outcome = "the triangles are in " + file;
   try {
-    parallel::on_root(communicator,
+    parallel::on_root(surface.communicator,
                       [&] { io::write_triangles(failure.points(), failure.triangles(), file); });
   } catch (const parallel::CollectiveError& error) {
     outcome = fmt::format("the triangles cannot be written: {}", error.what());
@@ -37,28 +35,23 @@ VolumeStart VolumeStages::decompose(const sizing::SizedSurface& boundary) {
   if (!start.improved) start.filled = _checkpoints.find(SavedStage::volume);
   if (start.improved || start.filled) return start;
   start.zones = volume::decompose(input_of(boundary));
-  _record.decomposition = start.zones->report();
-  log_decompose(_record);
-  if (_communicator.is_root()) warn_of_count(_record);
+  log_decompose(start.zones->report());
   return start;
 }
 
-VolumeProduct VolumeStages::fill(const sizing::SizedSurface& boundary, VolumeStart& start) {
-  if (start.improved) {
-    _record.resumed.emplace_back("volume");
-    return {};
-  }
-  if (start.filled) return adopt(*std::exchange(start.filled, std::nullopt), "volume");
+VolumeProduct VolumeStages::fill(const sizing::SizedSurface& boundary, VolumeStart& start,
+                                 volume::VolumeReport& tried) {
+  if (start.improved) return {};
+  if (start.filled) return adopt(boundary, *std::exchange(start.filled, std::nullopt));
   VolumeProduct product;
   product.decomposition = start.zones->report();
   try {
     product.mesh = fill_zones(boundary, *std::exchange(start.zones, std::nullopt), product.volume);
   } catch (...) {
-    _record.volume = std::move(product.volume);  // what was tried is told of a run that fails, too
+    tried = std::move(product.volume);
     throw;
   }
-  _record.volume = product.volume;
-  log_volume(_record);
+  log_volume(product.volume);
   keep(SavedStage::volume, product);
   return product;
 }
@@ -66,28 +59,25 @@ VolumeProduct VolumeStages::fill(const sizing::SizedSurface& boundary, VolumeSta
 VolumeProduct VolumeStages::improve(const cad::Model& model, const sizing::SizedSurface& boundary,
                                     VolumeStart& start, VolumeProduct filled) {
   if (start.improved) {
-    VolumeProduct improved = adopt(*std::exchange(start.improved, std::nullopt), "improve");
-    log_improve(_record);
+    VolumeProduct improved = adopt(boundary, *std::exchange(start.improved, std::nullopt));
+    log_improve(improved.improve);
     return improved;
   }
   if (!_input.improve.enabled) return filled;
   cad::PointLocator locator(model);
-  filled.improve = improve_volume(_input, {&locator, &boundary.field}, filled.mesh, _record,
+  filled.improve = improve_volume(improve_options(_input), {&locator, &boundary.field}, filled.mesh,
                                   _checkpoints.tasks(SavedStage::improve));
   keep(SavedStage::improve, filled);
   return filled;
 }
 
-VolumeProduct VolumeStages::adopt(io::CheckpointContent content, const char* stage) {
-  _record.resumed.emplace_back(stage);
+VolumeProduct VolumeStages::adopt(const sizing::SizedSurface& boundary, io::CheckpointContent content) {
+  const parallel::Communicator& communicator = boundary.communicator;
   VolumeProduct product;
-  parallel::agree(_communicator, [&] { product = unpack_volume(_communicator, std::move(content)); });
-  _record.decomposition = product.decomposition;
-  _record.volume = product.volume;
-  _record.improve = product.improve;
+  parallel::agree(communicator, [&] { product = unpack_volume(communicator, std::move(content)); });
   parallel::add_pieces(static_cast<std::int64_t>(product.mesh.pieces.size()));
-  log_decompose(_record);
-  log_volume(_record);
+  log_decompose(product.decomposition);
+  log_volume(product.volume);
   return product;
 }
 
@@ -104,7 +94,7 @@ mesh::DistributedMesh VolumeStages::fill_zones(const sizing::SizedSurface& bound
   try {
     return volume::fill_zones(input_of(boundary), std::move(zones), report);
   } catch (const volume::VolumeFailure& failure) {
-    point_at_offenders(_communicator, failure, _input.output.directory + "/offending_triangles.vtp");
+    point_at_offenders(boundary, failure, _input.output.directory + "/offending_triangles.vtp");
   }
 }
 

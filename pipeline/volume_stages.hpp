@@ -1,10 +1,9 @@
-/// The stages of a run from a finished surface to an improved volume.
+/// The stages from a finished surface to an improved volume.
 #pragma once
 
 #include "cad/model/model.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/finished_surface.hpp"
-#include "pipeline/run.hpp"
 #include "pipeline/stage_products.hpp"
 #include "volume/volume_mesher.hpp"
 
@@ -12,38 +11,35 @@
 
 namespace aeroloom::pipeline {
 
-/// What the stages of the volume begin with: zones to fill, or what an earlier run has made of them. One of
-/// the three is there; the stage that takes it leaves it empty.
+/// The start of the volume stages: zones to fill, or the result of an earlier run. One of the three is given;
+/// the stage that uses it empties it.
 struct VolumeStart {
   std::optional<volume::Decomposition> zones = {};
   std::optional<io::CheckpointContent> filled = {}, improved = {};
 };
 
-/// Decomposition, filling and improvement of one run, in this order: each taken from the checkpoint of an
-/// earlier run where there is one, else made and kept. All of it is collective.
+/// Decomposition, filling and improvement, in this order. Each takes its result from a checkpoint of an
+/// earlier run, if there is one, else makes and keeps it. Collective.
 class VolumeStages {
 public:
-  VolumeStages(const parallel::Communicator& communicator, const cases::Case& input,
-               report::RunRecord& record, Checkpoints& checkpoints)
-      : _communicator(communicator), _input(input), _record(record), _checkpoints(checkpoints) {}
+  VolumeStages(const cases::Case& input, Checkpoints& checkpoints)
+      : _input(input), _checkpoints(checkpoints) {}
 
   VolumeStart decompose(const sizing::SizedSurface& boundary);
-  /// Nothing where an earlier run has the improved volume.
-  VolumeProduct fill(const sizing::SizedSurface& boundary, VolumeStart& start);
-  /// Improved, where the case asks for that.
+  /// Empty if an earlier run has the improved volume. `tried`: receives the report if filling fails.
+  VolumeProduct fill(const sizing::SizedSurface& boundary, VolumeStart& start, volume::VolumeReport& tried);
+  /// Improves if the case asks for it.
   VolumeProduct improve(const cad::Model& model, const sizing::SizedSurface& boundary, VolumeStart& start,
                         VolumeProduct filled);
 
 private:
-  VolumeProduct adopt(io::CheckpointContent content, const char* stage);
+  VolumeProduct adopt(const sizing::SizedSurface& boundary, io::CheckpointContent content);
   void keep(SavedStage saved, const VolumeProduct& product);
   volume::VolumeInput input_of(const sizing::SizedSurface& boundary);
   mesh::DistributedMesh fill_zones(const sizing::SizedSurface& boundary, volume::Decomposition zones,
                                    volume::VolumeReport& report);
 
-  const parallel::Communicator& _communicator;
   const cases::Case& _input;
-  report::RunRecord& _record;
   Checkpoints& _checkpoints;
 };
 

@@ -35,10 +35,10 @@ EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
     if (!ignored) _files.emplace_back(place, written);
   }
   std::ifstream report(output.directory + "/report.json");
-  const auto told = nlohmann::json::parse(report, nullptr, false);
-  if (!told.is_object() || !told.contains("mesh") || !told["mesh"].is_object()) return;
-  _hash = told["mesh"].value("hash", "");
-  for (const auto& name : told.value("older_files", nlohmann::json::array()))
+  const auto earlier = nlohmann::json::parse(report, nullptr, false);
+  if (!earlier.is_object() || !earlier.contains("mesh") || !earlier["mesh"].is_object()) return;
+  _hash = earlier["mesh"].value("hash", "");
+  for (const auto& name : earlier.value("older_files", nlohmann::json::array()))
     if (name.is_string()) _of_others.insert(name.get<std::string>());
 }
 

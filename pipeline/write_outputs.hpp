@@ -1,8 +1,7 @@
-/// The files that a run leaves.
+/// Writes the mesh files of a run.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "pipeline/case/case.hpp"
 
 #include <filesystem>
@@ -13,30 +12,29 @@
 
 namespace aeroloom::pipeline {
 
-/// Writes the volume as `mesh` with its extension to the output directory, in all formats of the case one
-/// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. With VTK files:
-/// surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions where there
-/// is any, of `surface`, or else of the volume. All appear together, or none does. Collective; throws
-/// CollectiveError.
+/// Writes `mesh` with its extension in each format of the case, streamed from the pieces. OpenFOAM has a
+/// folder `openfoam`. With VTK files also surface.pvtp (boundary of the domain) and, if regions share faces,
+/// interfaces.pvtp; both from `surface`, or from the volume if that is null. Either all files appear or none.
+/// Collective; throws CollectiveError.
 void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* surface,
                    const cases::OutputOptions& output);
 
-/// Files of meshes as runs name them, of any format, that are in the output directory now. Rank 0 calls it.
+/// Mesh files of any format in the output directory before the run. Used on rank 0.
 class EarlierFiles {
 public:
   explicit EarlierFiles(const cases::OutputOptions& output);
-  /// Files that are still as they were, and not of a mesh with this hash as far as the report beside them
-  /// tells: not of this run.
+  /// Files unchanged since then and not part of a mesh with this hash according to the report beside them:
+  /// files of other runs.
   std::vector<std::string> left(const std::string& hash = {}) const;
 
 private:
-  std::string _hash;                 // of the mesh that the report beside them tells of
-  std::set<std::string> _of_others;  // that it names as older
+  std::string _hash;                 // of the mesh in the earlier report
+  std::set<std::string> _of_others;  // files that the earlier report lists as older
   std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> _files;
 };
 
 bool wants_vtk(const cases::OutputOptions& output);
-/// Where the mesh is in this format.
+/// Path of the mesh in this format.
 std::string path_of(const cases::OutputOptions& output, io::FileFormat format);
 
 }  // namespace aeroloom::pipeline

@@ -25,8 +25,7 @@ cad::Model load(const parallel::Communicator& ranks, const std::string& file) {
   cad::DomainOptions options;
   options.file = file;
   if (file.empty()) options.transport.emplace();
-  cad::DomainReport report;
-  return domain::load_domain(ranks, options, report);
+  return domain::load_domain(ranks, options).model;
 }
 
 /// From CAD to improved tetrahedra, stage by stage.

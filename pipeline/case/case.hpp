@@ -1,4 +1,4 @@
-/// A case: everything a run depends on, as plain options of the stages. Keys: docs/configuration/.
+/// A case: all that a run depends on, as plain options of the stages. Keys: docs/configuration/.
 #pragma once
 
 #include "cad/domain/domain.hpp"
@@ -32,78 +32,78 @@ struct EdgeSize;
 
 namespace aeroloom::cases {
 
-/// A source of sizes as it is written, or in the model's unit.
+/// A region with a size of its own, in the lengths of the case or in the model's unit.
 struct SourceRule {
   std::string name;
   sizing::SizeShape shape;
-  double size = 0;  ///< largest size within; of a wake where it begins
+  double size = 0;  ///< largest size in the region; of a wake, where it begins
 };
 
-/// A band of small elements off walls as it is written.
+/// A band of small elements along walls, as the case file has it.
 struct WallRule {
   std::string name;
-  std::vector<std::string> faces;  ///< patterns; none: all walls
+  std::vector<std::string> faces;  ///< name patterns; none: all walls
   std::optional<double> size, distance;
 };
 
-/// Sizes along CAD edges as they are written.
+/// A size along CAD edges, as the case file has it.
 struct EdgeRule {
   std::string name;
-  std::vector<std::string> between;         ///< patterns of faces
+  std::vector<std::string> between;         ///< name patterns of faces
   std::optional<geometry::Vec3> low, high;  ///< corners of a box
   std::optional<double> size;
 };
 
-/// What rules ask for that have all they need.
+/// What a checked rule asks the size field for.
 sizing::WallSize wall_of(const WallRule& rule);
 sizing::EdgeSize edge_of(const EdgeRule& rule);
 
-/// The sizes that the user gave; others are chosen from the model.
+/// The sizes that the user gave. All others are chosen from the model.
 struct SizingRequest : sizing::GivenSizes {
-  /// The number of tetrahedra that chosen sizes aim at; left out: default_target, or any where minimum and
-  /// maximum are given.
+  /// Number of tetrahedra to aim at. Left out: default_target, or no target where `minimum` and `maximum` are
+  /// given.
   std::optional<double> target_tetrahedra;
-  /// With sizes chosen from the model: tetrahedra over those aimed at, at most, where features finer than the
-  /// minimum come on top.
+  /// Chosen sizes may resolve features finer than `minimum` up to this factor times the target count.
   double feature_budget = sizing::default_feature_budget;
-  /// What one unit of the lengths here and of their places is, in the model's unit; left out: 1.
+  /// Length of the case's unit for sizes and places, in the model's unit; left out: 1.
   std::optional<double> reference_length;
-  std::string expression;                                      ///< a formula of the place; empty: none
-  std::optional<sizing::Level> level;                          ///< takes what is not given from guidelines
-  std::optional<double> budget;                                ///< of tetrahedra: takes a coarser level
+  std::string expression;              ///< size as a formula of the place; empty: none
+  std::optional<sizing::Level> level;  ///< guidelines of this level supply what is not given
+  std::optional<double> budget;  ///< most tetrahedra; a level that needs more is replaced by a coarser one
   std::optional<sizing::LevelFamily> family;                   ///< of the level; left out: hlpw
-  sizing::SolverPoints solver = sizing::SolverPoints::vertex;  ///< what spacings of a level mean
-  std::optional<geometry::Vec3> flow;  ///< its direction, for levels; of any length; left out: default_flow
-  std::vector<std::string> lifting;    ///< patterns of faces with trailing edges, for levels; none: all faces
-  std::vector<SourceRule> sources;     ///< regions with sizes of their own
-  std::vector<WallRule> walls;         ///< bands off walls
-  std::vector<EdgeRule> edges;         ///< sizes along CAD edges
-  std::vector<sizing::PatchSize> patch_sizes;  ///< of patches and groups that have any
+  sizing::SolverPoints solver = sizing::SolverPoints::vertex;  ///< where a level's spacings are measured
+  std::optional<geometry::Vec3> flow;  ///< flow direction for levels, of any length; left out: default_flow
+  std::vector<std::string>
+      lifting;  ///< name patterns of faces with trailing edges, for levels; none: all faces
+  std::vector<SourceRule> sources;             ///< regions with sizes of their own
+  std::vector<WallRule> walls;                 ///< bands along walls
+  std::vector<EdgeRule> edges;                 ///< sizes along CAD edges
+  std::vector<sizing::PatchSize> patch_sizes;  ///< of patches and groups that have a size
 };
 
-/// The request with all lengths and places but those of the expression in the model's unit.
+/// The request with lengths and places in the model's unit. The expression stays as it is.
 SizingRequest in_model_units(const SizingRequest& request);
 
 inline constexpr geometry::Vec3 default_flow{1, 0, 0};
 inline constexpr double default_target = 1'000'000;
 
-/// The treatment of faces narrower than the smallest size that go on smoothly in a neighbour.
+/// What happens to a face narrower than the smallest size that continues smoothly into a neighbour.
 enum class NarrowFaces { join, keep };
 
-/// Whether what stages have made is kept for a later run.
+/// Whether results of stages are kept for a later run.
 enum class CheckpointUse {
   none,
-  write,  ///< anew, whatever is there
-  resume  ///< goes on from what is there, and writes the rest
+  write,  ///< keeps results, ignores those of earlier runs
+  resume  ///< takes results of an earlier run, keeps the others
 };
 
 struct OutputOptions {
   std::string directory = "out";                                ///< relative to the working directory
-  std::vector<io::FileFormat> formats = {io::FileFormat::vtu};  ///< that are written, each once
-  std::int64_t parts = 0;  ///< of formats that come in parts; 0: what suits the size
-  parallel::LogLevel log = parallel::LogLevel::normal;  ///< what is printed
+  std::vector<io::FileFormat> formats = {io::FileFormat::vtu};  ///< each is written once
+  std::int64_t parts = 0;  ///< number of parts in formats that have parts; 0: chosen by the size of the mesh
+  parallel::LogLevel log = parallel::LogLevel::normal;  ///< how much is printed
   bool tasks = true;                                    ///< writes tasks.csv, a row for each task
-  io::Compression compression = io::Compression::none;  ///< of mesh.pvtu and its like
+  io::Compression compression = io::Compression::none;  ///< of the VTK files
   CheckpointUse checkpoints = CheckpointUse::none;      ///< in DIRECTORY/checkpoint
   bool pictures = true;                                 ///< in report.html
 };
@@ -118,26 +118,26 @@ struct Case {
   improve::ImproveOptions improve;
   QualityGate gate;
   FaceGroups groups;
-  std::vector<PatchRule> patches;  ///< the first that a face in no group matches holds
+  std::vector<PatchRule> patches;  ///< the first matching rule holds, for faces in no group
   OutputOptions output;
-  parallel::Sandbox sandbox = parallel::Sandbox::process;  ///< changes no result
-  /// Bytes that all ranks of this node may take together; 0: any. Not a key: it changes no result.
+  parallel::Sandbox sandbox = parallel::Sandbox::process;  ///< does not change results
+  /// Most bytes for all ranks of this node; 0: no limit. Not a key: it does not change results.
   std::int64_t memory_limit = 0;
 };
 
-/// Reads a case and overrides of the form "section.key=value" (the value is YAML; a later one wins). A
-/// relative geometry.file is sought in the case file's folder, then in the working directory; one found in
-/// neither, or given by an override, stays as it is. Throws CaseError: unknown keys (with the nearest one),
-/// duplicates, wrong types, values out of range or at odds with each other, no geometry or two.
+/// Reads a case and overrides "section.key=value"; the value is YAML, a later override wins. A relative
+/// geometry.file is looked up beside the case file, then in the working directory. A file found in neither
+/// place, or given by an override, keeps its path. Throws CaseError: unknown key (with the nearest one),
+/// duplicate, wrong type, value out of range, contradiction, no geometry or two.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides);
 
-/// The case that resolved_yaml() has written, on a rank that does not look at the file itself.
+/// Reads the output of resolved_yaml(), on ranks that do not read the file.
 Case case_of_resolved(const std::string& yaml);
 
-/// A case from overrides alone, for commands that need no geometry. Throws CaseError as read_case.
+/// A case from overrides alone, for commands without geometry. Throws CaseError as read_case().
 Case case_of_overrides(const std::vector<std::string>& overrides);
 
-/// The case as YAML with every value spelled out, which read_case reads back to the same case.
+/// The case as YAML with every value written out. read_case() reads it back to the same case.
 std::string resolved_yaml(const Case& input);
 
 }  // namespace aeroloom::cases

@@ -5,7 +5,7 @@
 
 namespace aeroloom::cases {
 
-/// The text starts with where: "file:line:column: " or "--set key=value: ".
+/// The message starts with the place: "file:line:column: " or "--set key=value: ".
 class CaseError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

@@ -2,11 +2,8 @@
 
 #include "pipeline/case/layer_keys.hpp"
 #include "pipeline/case/level_keys.hpp"
-#include "pipeline/case/source_keys.hpp"
 #include "pipeline/case/wall_keys.hpp"
 #include "sizing/field/size_field.hpp"
-
-#include <string>
 
 namespace aeroloom::cases {
 
@@ -61,10 +58,11 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
                       "Given sizes stay; the others are chosen around them.",
                       shortest(default_target) + "; any where `minimum` and `maximum` are given",
                       shortest(default_target)}));
-  keys.number("feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
-              "Features finer than the minimum, then gaps between walls, come on top of the target, up to "
-              "this many times it in all. Beyond it, strips get long triangles; the log, the report and "
-              "`check` name them and what they would take.");
+  keys.number(
+      "feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
+      "Features finer than the minimum, then gaps between walls, come on top of the target, up to "
+      "this many times it in all. Beyond it, narrow regions get long triangles; the log, the report and "
+      "`check` name them and what they would take.");
   declare_levels(keys, sizing);
   declare_expression(keys, sizing.expression);
   declare_sources(keys, draft.sources);

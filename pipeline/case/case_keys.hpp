@@ -1,4 +1,4 @@
-/// The keys of a case: what each accepts, which option of a stage it sets, and what users are told of it.
+/// All keys of a case: accepted values, the option that each key sets, and its documentation.
 #pragma once
 
 #include "pipeline/case/case.hpp"
@@ -11,10 +11,10 @@
 
 namespace aeroloom::cases {
 
-/// What is built in. The empty name is not among the choices of the key: it stands for a file.
+/// Names of built-in geometries. The empty name means that a file is given; it is not a choice of the key.
 enum class Builtin { none, transport };
 
-/// A case while it is read or written: what is optional in a Case is a value here, with a flag beside it.
+/// A case while it is read or written. Optional members of Case are plain values with flags here.
 struct CaseDraft {
   Case result;
   Builtin builtin = Builtin::none;
@@ -25,7 +25,7 @@ struct CaseDraft {
   std::optional<cad::ExtentUnit> extent_unit;
   bool far_field_given = false;
   std::optional<double> sharpen_width;
-  // They stay where they are while others are added.
+  // Deques: addresses stay valid while items are added.
   std::deque<cad::FacetedBody> parts;
   std::deque<PatchRule> patches;
   std::deque<GroupRule> groups;
@@ -35,13 +35,13 @@ struct CaseDraft {
   std::deque<LayerRule> layer_rules;
 };
 
-/// The unit of lengths in the geometry's own unit.
+/// The unit of lengths: that of the geometry.
 inline constexpr const char* length_unit = "(length unit of the geometry)";
 
-/// Declares all keys of a case, bound to the draft, which must outlive the table.
+/// Declares all keys of a case, bound to `draft`. The draft must outlive the table.
 void declare_case_keys(KeyTable& root, CaseDraft& draft);
 
-/// Its parts: what is meshed (geometry, far field, patches); how it is improved, judged and written.
+/// The two halves of declare_case_keys(): geometry, far field, patches; then improvement, gate, output.
 void declare_geometry_keys(KeyTable& root, CaseDraft& draft);
 void declare_result_keys(KeyTable& root, Case& result);
 

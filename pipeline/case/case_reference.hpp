@@ -1,4 +1,4 @@
-/// The reference of the keys of a case: the pages of docs/configuration/.
+/// Writes the reference of all keys: the pages of docs/configuration/.
 #pragma once
 
 #include "pipeline/case/key_info.hpp"
@@ -10,20 +10,19 @@ namespace aeroloom::cases {
 
 /// A page of the reference.
 struct ReferencePage {
-  std::string file;  ///< its name in the folder of the pages
+  std::string file;  ///< file name in docs/configuration/
   std::string title;
-  std::string keys;  ///< Markdown; begins and ends with comments that mark it
+  std::string keys;  ///< Markdown between two marking comments
 };
 
-/// The list of sections, README.md, and a page for each section of the first level, SECTION.md: texts, and a
-/// table of the keys of each section. Links are relative to the folder of the pages, docs/configuration/.
+/// README.md with the list of sections, and SECTION.md for each top section, with texts and tables of its
+/// keys. Links are relative to docs/configuration/.
 std::vector<ReferencePage> case_reference(const std::vector<KeyInfo>& keys);
 
-/// A page with nothing but its title and its keys.
+/// A page with only its title and keys.
 std::string new_page(const ReferencePage& page);
 
-/// The text of a page with the marked part replaced by the keys. Throws std::invalid_argument where the text
-/// has no such part.
+/// `text` with the marked part replaced by the keys. Throws std::invalid_argument if it has no marked part.
 std::string with_reference(const std::string& text, const std::string& keys);
 
 }  // namespace aeroloom::cases

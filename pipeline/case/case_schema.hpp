@@ -1,4 +1,4 @@
-/// The keys of a case as a JSON Schema, with which editors complete and check cases.
+/// Writes the keys of a case as a JSON Schema. Editors complete and check case files with it.
 #pragma once
 
 #include "pipeline/case/key_info.hpp"
@@ -10,9 +10,9 @@ namespace aeroloom::cases {
 
 inline constexpr const char* schema_title = "Aeroloom case";
 
-/// Draft 7, which YAML language servers know best. It refuses the keys, types and ranges that read_case
-/// refuses; what keys have to do with each other is left to read_case. Numbers and flags in quotes, and words
-/// such as `yes`, are refused though read_case takes them.
+/// A schema of draft 7, which YAML language servers support best. It refuses the same keys, types and ranges
+/// as read_case(), but knows no conditions between keys. It also refuses quoted numbers and flags and words
+/// such as `yes`, which read_case() accepts.
 std::string case_schema(const std::vector<KeyInfo>& keys);
 
 }  // namespace aeroloom::cases

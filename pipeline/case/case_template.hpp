@@ -1,4 +1,4 @@
-/// A commented case to start from.
+/// Writes a commented case file to start from.
 #pragma once
 
 #include "pipeline/case/key_info.hpp"
@@ -9,13 +9,13 @@
 namespace aeroloom::cases {
 
 struct TemplateRequest {
-  std::string geometry;  ///< the CAD file; empty: the user fills it in
+  std::string geometry;  ///< the CAD file; empty: left to the user
   bool every_key = false;
-  std::string schema;  ///< where editors find the schema, seen from the case; empty: not told
+  std::string schema;  ///< path of the schema, relative to the case; empty: no reference to a schema
 };
 
-/// YAML that read_case accepts once `geometry.file` is set. Each key has its text, what it accepts and what
-/// it is when left out, and stands there commented out: at its default, or else with an example that says so.
+/// YAML that read_case() accepts once `geometry.file` is set. Each key is commented out at its default or an
+/// example. Its text, accepted values and default stand beside it.
 std::string case_template(const std::vector<KeyInfo>& keys, const TemplateRequest& request);
 
 }  // namespace aeroloom::cases

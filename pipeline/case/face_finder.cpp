@@ -219,10 +219,10 @@ std::vector<char> FaceFinder::with_numbers(const std::vector<std::string>& ids, 
 }
 
 std::vector<char> FaceFinder::within_box(const geometry::Box& box) const {
-  // What lies on its border lies within, as far as a file tells the two apart.
+  // What lies on its border lies within, as far as a file separates the two.
   const geometry::Box around = box.dilated(cad::tolerances::same_place * _model.body_bounds().diagonal());
   return where([&](cad::FaceId f) {
-    // The box of a face takes long; its corners tell mostly that it is not within.
+    // The box of a face takes long; its corners mostly decide that it is not within.
     for (const auto& loop : _model.face(f).loops)
       for (const cad::Coedge& use : loop)
         if (!around.contains(_model.vertex(_model.edge(use.edge).first))) return false;

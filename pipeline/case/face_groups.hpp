@@ -1,4 +1,5 @@
-/// Groups of faces: which faces of the CAD they select, and what they are to mesh and solver.
+/// Groups of CAD faces: selected by name, layer, colour, place and so on, with a boundary condition and a
+/// size.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -14,19 +15,20 @@
 
 namespace aeroloom::cases {
 
-/// Conditions for a face; those that are there must all hold, of the texts in one condition one.
+/// Conditions on a face. All given conditions must hold; of several texts in one condition, one must match.
 struct FaceConditions {
-  std::vector<std::string> faces = {};   ///< patterns (cad::NamePattern) of its name or that of its patch
-  std::vector<std::string> parts = {};   ///< patterns of the name of its part
-  std::vector<std::string> layers = {};  ///< patterns of its layer
-  std::vector<std::string> colors = {};  ///< "#rrggbb" or "#rgb", with or without #
-  std::vector<std::string> ids = {};     ///< its number in the file, or two of them with - between
-  /// It lies within, the border included; opposite corners, in the model's unit.
+  std::vector<std::string> faces = {};   ///< name patterns (cad::NamePattern) of the face or its patch
+  std::vector<std::string> parts = {};   ///< name patterns of its part
+  std::vector<std::string> layers = {};  ///< name patterns of its layer
+  std::vector<std::string> colors = {};  ///< "#rrggbb" or "#rgb", the # may be missing
+  std::vector<std::string> ids = {};     ///< face numbers in the file: "7" or "17-20"
+  /// The face lies inside this box or on its border. Opposite corners, in the model's unit.
   std::optional<std::pair<geometry::Vec3, geometry::Vec3>> box = {};
-  std::optional<geometry::Vec3> normal = {};  ///< direction of its area vector, out of the solid of the CAD
-  std::optional<double> within = {};          ///< degrees between the two, at most; left out: default_within
-  std::optional<std::pair<double, double>> area = {};  ///< from, to; in the square of the model's unit
-  /// Groups, or patterns of faces: it has an edge in common with one of theirs.
+  std::optional<geometry::Vec3> normal = {};  ///< direction of its area vector, out of the CAD solid
+  std::optional<double> within = {};  ///< largest angle to `normal` in degrees; left out: default_within
+  std::optional<std::pair<double, double>> area =
+      {};  ///< smallest and largest, in the square of the model's unit
+  /// Groups or name patterns of faces: the face shares an edge with one of these faces.
   std::vector<std::string> adjacent_to = {};
 
   bool empty() const;
@@ -37,30 +39,30 @@ inline constexpr double default_within = 10;  // degrees
 /// A group of the case.
 struct GroupRule {
   std::string name;
-  FaceConditions all;                   ///< must hold; with nothing in the whole rule: the faces of this name
-  std::deque<FaceConditions> any;       ///< one of them must hold, where there are any
+  FaceConditions all;              ///< must hold; a rule without any condition selects faces of its own name
+  std::deque<FaceConditions> any;  ///< if not empty, one of them must hold
   std::deque<FaceConditions> except;    ///< none of them may hold
-  bool optional = false;                ///< it may select nothing
-  std::optional<mesh::PatchType> type;  ///< empty: what suits it by default
-  std::optional<double> size;           ///< largest size of elements on it, in the model's unit
-  std::string where;                    ///< in the case, for messages: "case.yaml:7:3"
+  bool optional = false;                ///< the group may be empty
+  std::optional<mesh::PatchType> type;  ///< boundary condition; empty: the default one
+  std::optional<double> size;           ///< largest element size on it, in the model's unit
+  std::string where;                    ///< place in the case, for messages: "case.yaml:7:3"
 };
 
 struct FaceGroups {
-  std::vector<GroupRule> rules;  ///< the first that selects a face has it
-  bool strict = false;  ///< a face of the CAD in none of them, nor in a patch of the case, is an error
-  std::string where;    ///< of `strict` in the case, for messages
+  std::vector<GroupRule> rules;  ///< a face belongs to the first that selects it
+  bool strict = false;           ///< every CAD face must be in a group or in a patch of the case
+  std::string where;             ///< place of `strict` in the case, for messages
 };
 
 inline constexpr std::int32_t no_group = -1;
 
-/// The group of each face; no_group where none selects it. Throws std::invalid_argument with the place in the
-/// case for a group that selects nothing (what each condition finds by itself, and the nearest names), whose
-/// faces are all taken by groups before it, or that is next to itself round a circle of groups.
+/// The group of each face; no_group if none selects it. Throws std::invalid_argument, with the place in the
+/// case, for a group that selects nothing (with what each condition selects alone, and the nearest names),
+/// that loses all faces to earlier groups, or that is defined as its own neighbour.
 std::vector<std::int32_t> find_groups(const cad::Model& model, const std::vector<GroupRule>& rules);
 
-/// Throws std::invalid_argument for texts that are no colour, no number, no expression; `path` is the key
-/// that has the conditions.
+/// Checks that the texts are valid colours, numbers and patterns. Throws std::invalid_argument. `path`: key
+/// of the conditions.
 void check_conditions(const FaceConditions& conditions, const std::string& path);
 
 }  // namespace aeroloom::cases

@@ -1,4 +1,4 @@
-/// Texts that stand for colours and for numbers of faces.
+/// Parses colours and face numbers from texts of a case.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace aeroloom::cases {
 
-/// Numbers of faces, both included.
+/// First and last face number.
 struct NumberRange {
   std::int32_t first = 0, last = -1;
 };
 
-/// "#rrggbb" in small letters of "#RRGGBB" or "#RGB", with or without #; none of anything else.
+/// "#rrggbb" in lower case from "#RRGGBB" or "#RGB", with or without #. Empty if `text` is neither.
 std::optional<std::string> plain_color(const std::string& text);
-/// Of "3" or "17-20"; none of anything else.
+/// From "3" or "17-20". Empty if `text` is neither.
 std::optional<NumberRange> number_range(const std::string& text);
 
 }  // namespace aeroloom::cases

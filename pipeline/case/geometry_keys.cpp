@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <string>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace aeroloom::cases {
 

@@ -1,4 +1,4 @@
-/// The keys below `groups`.
+/// The keys of the section `groups`.
 #pragma once
 
 #include "pipeline/case/face_groups.hpp"
@@ -11,18 +11,18 @@
 
 namespace aeroloom::cases {
 
-/// Declares `groups`; rules that are read are added to `rules`, which must outlive the table as `strict`
-/// must.
+/// Declares `groups`. Rules that are read are appended to `rules`; `rules` and `strict` must outlive the
+/// table.
 void declare_groups(KeyTable& root, std::deque<GroupRule>& rules, bool& strict);
 
-/// Throws CaseError where a rule has texts that stand for nothing, or shares its name with a patch.
+/// Throws CaseError for invalid texts in a rule, and for a group named as a patch of the case.
 void check_groups(const KeyTable& keys, const std::deque<GroupRule>& rules,
                   const std::deque<PatchRule>& patches);
 
-/// Throws CaseError for a pattern of faces' names with an expression that is none; `path` is its key.
+/// Throws CaseError for an invalid name pattern; `path` is its key.
 void check_patterns(const KeyTable& keys, const std::string& path, const std::vector<std::string>& patterns);
 
-/// Declares the choice of a boundary condition for patches and groups.
+/// Declares the key for the boundary condition of a patch or group.
 void declare_patch_type(KeyTable& keys, std::optional<mesh::PatchType>& type);
 
 }  // namespace aeroloom::cases

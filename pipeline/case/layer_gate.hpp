@@ -1,4 +1,4 @@
-/// Whether the layers of a mesh are what the case asks for.
+/// Compares the layers of a mesh with the limits of the case.
 #pragma once
 
 #include "pipeline/case/layer_rules.hpp"
@@ -9,12 +9,12 @@
 
 namespace aeroloom::cases {
 
-/// The limits that are asked for, and what the layers have.
+/// Each limit that is set, with the value of the mesh.
 std::vector<GateLimit> compare_with_gate(const LayerGate& gate, const layers::LayerOptions& asked,
                                          const layers::LayerReport& report);
 
-/// The limits that layers miss, with the patches that lack most and what keeps layers from them; empty: none.
-/// `patches` are the names.
+/// A message about missed limits: the patches that miss most, and what limits their layers. Empty if none is
+/// missed. `patches`: names by patch.
 std::string missed_limits(const LayerGate& gate, const layers::LayerOptions& asked,
                           const layers::LayerReport& report, const std::vector<std::string>& patches);
 

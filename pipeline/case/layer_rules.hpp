@@ -1,4 +1,4 @@
-/// What the case says of boundary layers.
+/// The boundary layers that a case asks for.
 #pragma once
 
 #include "layers/columns.hpp"
@@ -12,31 +12,31 @@
 
 namespace aeroloom::cases {
 
-/// The layers of a patch that has other ones than the rest; what is left out is as for all.
+/// Layers of one patch that differ from the others. Members left out are as for all patches.
 struct LayerRule {
   std::string name;  ///< of the patch
   std::optional<double> first, growth, total;
   std::optional<std::int64_t> constant, count;  ///< count 0: no layers
 };
 
-/// The patches that get layers without being named.
+/// The patches that get layers by default.
 enum class LayeredWalls : std::uint8_t { all, none };
-/// What stops columns that no count and no total stops.
+/// What ends columns that neither a count nor a total height ends.
 enum class LayerEnd : std::uint8_t { isotropic };
 
-/// What layers have to attain for the run to count as a success; what is empty is not asked for.
+/// Limits that layers must meet for the run to succeed. Empty members are not checked.
 struct LayerGate {
   bool given = false;
-  std::optional<double> full_area;  ///< the part of the walls that has all layers asked for, at least
+  std::optional<double> full_area;  ///< smallest fraction of the wall area with all layers
 };
 
 /// The layers asked for; lengths in the model's unit.
 struct LayerRequest {
-  bool given = false;  ///< whether any are asked for: a height, or a patch
+  bool given = false;  ///< whether the case asks for layers
   LayeredWalls walls = LayeredWalls::all;
   std::optional<double> first;   ///< height of the first layer
-  bool first_of_level = false;   ///< or it comes from the level of sizes, by its y+
-  std::optional<double> y_plus;  ///< or what it is computed from; left out: that of the level of sizes
+  bool first_of_level = false;   ///< the first height comes from the y+ of the level of sizes
+  std::optional<double> y_plus;  ///< the first height is computed from it; left out: that of the level
   std::optional<double> reynolds, length;
   std::optional<std::int64_t> constant;  ///< left out: that of the level, or 2
   std::optional<double> growth;          ///< left out: that of the level, or 1.2
@@ -48,18 +48,18 @@ struct LayerRequest {
   std::vector<LayerRule> patches;
 };
 
-/// The height of the first layer from y+ at a Reynolds number of a length: 0.80 y+ L / (Re sqrt(cf / 2)) with
-/// cf = 0.026 / Re^(1/7), which meets the tables of the prediction workshops. Solvers with their unknowns in
-/// cells mean its centre: twice as high.
+/// Height of the first layer for a given y+ at the Reynolds number Re of the length L: 0.80 y+ L / (Re
+/// sqrt(cf / 2)), cf = 0.026 / Re^(1/7). It agrees with the tables of the prediction workshops. For
+/// cell-centred solvers y+ is that of the cell's centre: the height is doubled.
 double first_height(double y_plus, double reynolds, double length, sizing::SolverPoints points);
 
-/// Flow units (y+) of a height of the first layer: the inverse, for a solver with its unknowns at vertices.
+/// The inverse: y+ of a first height, for a vertex-centred solver.
 double y_plus_of(double first, double reynolds, double length);
 
 struct SizingRequest;
 
-/// The layers of each patch. Throws std::invalid_argument for a rule of a patch that there is not, with the
-/// nearest name, or that is no wall.
+/// The layers of each patch. Throws std::invalid_argument for a rule whose patch does not exist (with the
+/// nearest name) or is no wall.
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,
                                    const std::vector<std::string>& patches,
                                    const std::vector<mesh::PatchType>& types);

@@ -27,7 +27,7 @@ void declare_levels(KeyTable& keys, SizingRequest& request) {
                       "none", "B"}));
   keys.number("budget", request.budget, Range::between(100, 1e11, "tetrahedra"),
               {"Takes the finest level up to `level` whose forecast has at most this many tetrahedra. If the "
-               "coarsest has more, an error tells how many.",
+               "coarsest has more, an error states the number.",
                "none", "5e7"});
   keys.choice<std::optional<LevelFamily>>("family", request.family,
                                           {{"hlpw", std::nullopt}, {"dpw", LevelFamily::dpw}},

@@ -1,12 +1,12 @@
-/// From the options of the stages, as their messages name them, to the keys of a case.
+/// Replaces names of options by keys of the case in messages.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::cases {
 
-/// The message with `VolumeOptions::piece_tets` and the like replaced by the key that is declared to set the
-/// option: `volume.piece_tets`. Others stay as they are.
+/// The message with names such as `VolumeOptions::piece_tets` replaced by the key that sets the option:
+/// `volume.piece_tets`. Unknown names stay.
 std::string with_keys(std::string message);
 
 }  // namespace aeroloom::cases

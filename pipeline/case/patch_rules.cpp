@@ -4,11 +4,8 @@
 #include "pipeline/case/nearest_name.hpp"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <stdexcept>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,14 +15,14 @@ namespace {
 
 using mesh::PatchType;
 
-/// What is said of a patch, by a group or by a rule of `patches`.
-struct SaidOfPatch {
+/// The type that a group or a rule of `patches` gives to a patch.
+struct PatchSetting {
   std::string key, name;
   std::optional<PatchType> type;
 };
 
-std::vector<SaidOfPatch> all_said(const FaceGroups& groups, const std::vector<PatchRule>& rules) {
-  std::vector<SaidOfPatch> all;
+std::vector<PatchSetting> patch_settings(const FaceGroups& groups, const std::vector<PatchRule>& rules) {
+  std::vector<PatchSetting> all;
   for (const GroupRule& rule : groups.rules) all.push_back({"groups." + rule.name, rule.name, rule.type});
   for (const PatchRule& rule : rules) all.push_back({"patches." + rule.name, rule.name, rule.type});
   return all;
@@ -123,7 +120,7 @@ PatchType default_type(const cad::Model& model, std::int32_t patch) {
 }
 
 /// Says of a rule what it does not get, and what it gets besides.
-void warn(TypedPatches& patches, const SaidOfPatch& rule, const std::vector<char>& taken) {
+void warn(TypedPatches& patches, const PatchSetting& rule, const std::vector<char>& taken) {
   const cad::Model& model = patches.model;
   int inner = 0, left = 0;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
@@ -163,17 +160,17 @@ FacePatches choose_patches(const cad::Model& model, const FaceGroups& groups,
 
 TypedPatches apply_patches(const cad::Model& model, const FacePatches& chosen, const FaceGroups& groups,
                            const std::vector<PatchRule>& rules) {
-  const std::vector<SaidOfPatch> said = all_said(groups, rules);
-  TypedPatches result{said.empty() ? model : cad::with_patches(model, chosen.patch_of_face), {}, {}};
+  const std::vector<PatchSetting> settings = patch_settings(groups, rules);
+  TypedPatches result{settings.empty() ? model : cad::with_patches(model, chosen.patch_of_face), {}, {}};
   const std::vector<std::string>& patches = result.model.patches();
   for (std::size_t p = 0; p < patches.size(); ++p) {
     PatchType type = default_type(result.model, static_cast<std::int32_t>(p));
-    for (const SaidOfPatch& rule : said) {
+    for (const PatchSetting& rule : settings) {
       if (rule.name == patches[p] && rule.type && type != PatchType::interior) type = *rule.type;
     }
     result.types.push_back(type);
   }
-  for (const SaidOfPatch& rule : said) warn(result, rule, chosen.taken);
+  for (const PatchSetting& rule : settings) warn(result, rule, chosen.taken);
   return result;
 }
 

@@ -1,4 +1,4 @@
-/// Rules of the case for patches: names, which faces they join, and what they are to a solver.
+/// Rules of the case for patches: names, the faces they join, and their boundary conditions.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -14,40 +14,39 @@ namespace aeroloom::cases {
 /// A patch of the case.
 struct PatchRule {
   std::string name;
-  /// Patterns (cad::NamePattern) of faces' or patches' names; none: the patch of this name.
+  /// Name patterns (cad::NamePattern) of faces or patches; none: the patch of this name.
   std::vector<std::string> faces;
-  std::optional<mesh::PatchType> type;  ///< empty: what suits it by default
-  std::optional<double> size = {};      ///< largest size of elements on it, in the model's unit
+  std::optional<mesh::PatchType> type;  ///< boundary condition; empty: the default one
+  std::optional<double> size = {};      ///< largest element size on it, in the model's unit
 };
 
-/// Which patch each face belongs to.
+/// The patch of each face.
 struct FacePatches {
   std::vector<std::string> patch_of_face;
-  std::vector<char> taken;  ///< by face: whether the case says so, and not the model alone
+  std::vector<char> taken;  ///< by face: 1 if the case assigns the patch, 0 if the model does
 };
 
-/// A model with the patches of the case, and what each of them is.
+/// A model with the patches of the case and their boundary conditions.
 struct TypedPatches {
   cad::Model model;
   std::vector<mesh::PatchType> types;  ///< by patch of the model
-  std::vector<std::string> warnings;   ///< what the rules ask for and do not get, or get and may not expect
+  std::vector<std::string> warnings;   ///< rules without effect, and unexpected effects
 };
 
-/// Joins faces into patches: by the first group that selects them, else by the first rule that one of their
-/// names matches; others keep their patch. Throws std::invalid_argument as find_groups(); with the nearest
-/// names for a pattern that matches no face, and for a rule whose faces others have all taken; for faces that
-/// strict groups leave out.
+/// Assigns faces to patches: by the first group that selects them, else by the first rule that matches a
+/// name; others keep their patch. Throws std::invalid_argument as find_groups(), for a pattern that matches
+/// no face (with the nearest names), for a rule that loses all faces to others, and for faces that strict
+/// groups leave out.
 FacePatches choose_patches(const cad::Model& model, const FaceGroups& groups,
                            const std::vector<PatchRule>& rules);
 
-/// The model with these patches, and what each of them is: what groups and rules say. By
-/// default a patch called as its type or one of its usual other names ("symmetry_plane", "inflow") is that,
-/// what the program added around a body is `farfield`, all others are walls; a patch with faces between
-/// regions alone is `interior`.
+/// Applies the patches to the model. Groups and rules give boundary conditions. Defaults: a patch named as a
+/// type, or as one of its usual synonyms ("symmetry_plane", "inflow"), has that type; far-field faces added
+/// by the program are `farfield`; a patch of only inner faces is `interior`; others are walls.
 TypedPatches apply_patches(const cad::Model& model, const FacePatches& chosen, const FaceGroups& groups,
                            const std::vector<PatchRule>& rules);
 
-/// Both, one after the other.
+/// choose_patches(), then apply_patches().
 TypedPatches apply_patch_rules(const cad::Model& model, const std::vector<PatchRule>& rules,
                                const FaceGroups& groups = {});
 

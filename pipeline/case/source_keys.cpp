@@ -12,7 +12,6 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-/// The keys of sizes at places: sizing.sources, sizing.expression.
+/// The keys of sizes in space: sizing.sources, sizing.expression.
 #pragma once
 
 #include "pipeline/case/case.hpp"
@@ -12,16 +12,16 @@
 
 namespace aeroloom::cases {
 
-/// Declares `reference_length` in the section of sizes.
+/// Declares `reference_length` in the section `sizing`.
 void declare_reference_length(KeyTable& sizing, std::optional<double>& length);
 
-/// Declares `expression` in the section of sizes.
+/// Declares `expression` in the section `sizing`.
 void declare_expression(KeyTable& sizing, std::string& expression);
 
-/// Throws CaseError, with place and what is wrong, for what is no formula.
+/// Throws CaseError with the place for an invalid formula.
 void check_expression(const KeyTable& keys, const std::string& expression);
 
-/// Values of the keys of a source by key. Keys are read one by one, so that only all of them make a shape.
+/// The keys of one source while they are read. A shape is made once all are known.
 struct SourceDraft {
   std::string name;
   std::string shape;  ///< name of the shape; empty: not given
@@ -31,14 +31,14 @@ struct SourceDraft {
   std::map<std::string, std::vector<std::string>> patterns = {};
 };
 
-/// Declares `sources` in the section of sizes; those that are read are added to `sources`, which must outlive
-/// the table.
+/// Declares `sources` in the section `sizing`. Sources that are read are appended to `sources`, which must
+/// outlive the table.
 void declare_sources(KeyTable& sizing, std::deque<SourceDraft>& sources);
 
-/// Throws CaseError where a source lacks what its shape needs, or has what it has no place for.
+/// Throws CaseError if a source lacks a key of its shape or has one that its shape does not know.
 void check_sources(const KeyTable& keys, const std::deque<SourceDraft>& sources);
 
-/// The rules that checked sources make, and back.
+/// Converts checked sources to rules, and back.
 std::vector<SourceRule> rules_of(const std::deque<SourceDraft>& sources);
 std::deque<SourceDraft> drafts_of(const std::vector<SourceRule>& rules);
 

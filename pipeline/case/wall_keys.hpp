@@ -1,4 +1,4 @@
-/// The keys of sizes at walls and along CAD edges: sizing.walls, sizing.edges.
+/// The keys of sizes along walls and CAD edges: sizing.walls, sizing.edges.
 #pragma once
 
 #include "pipeline/case/case.hpp"
@@ -12,7 +12,7 @@ namespace aeroloom::cases {
 void declare_walls(KeyTable& sizing, std::deque<WallRule>& rules);
 void declare_edges(KeyTable& sizing, std::deque<EdgeRule>& rules);
 
-/// Throw CaseError where a rule lacks what it needs.
+/// Throw CaseError if a rule lacks a key that it needs.
 void check_walls(const KeyTable& keys, const std::deque<WallRule>& rules);
 void check_edges(const KeyTable& keys, const std::deque<EdgeRule>& rules);
 

@@ -1,7 +1,6 @@
 // Keys whose values are lists of numbers, of points or of maps.
 #include "pipeline/case/yaml_reader.hpp"
 
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>

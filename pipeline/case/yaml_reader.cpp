@@ -39,7 +39,7 @@ YAML::Node parse(const std::string& text, const std::string& name, bool position
   return documents.empty() ? YAML::Node() : documents[0];
 }
 
-/// Whoever gives a geometry where a case is expected is told how to get a case.
+/// Advice for users who give a geometry where a case is expected.
 void require_no_geometry(const std::string& file) {
   const std::string known = " .step .stp .iges .igs .brep .stl .obj .off .ply .poly .smesh ";
   std::string end = std::filesystem::path(file).extension().string();

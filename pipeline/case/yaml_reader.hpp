@@ -1,5 +1,5 @@
-/// Strict reading of YAML into variables: every key is declared once, with what it accepts and where its
-/// value goes; reading, writing, documentation and the search for the nearest key follow from that.
+/// Strict reading of YAML into variables. Each key is declared once, with its accepted values and its
+/// variable. Reading, writing, documentation and the search for the nearest key follow from the declaration.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -22,20 +22,20 @@ class Emitter;
 
 namespace aeroloom::cases {
 
-/// The keys of a YAML map and what is below them. Variables must outlive the table.
+/// The keys of a YAML map, with nested maps. The variables must outlive the table.
 class KeyTable {
 public:
   KeyTable() = default;
   KeyTable(const KeyTable&) = delete;
   KeyTable& operator=(const KeyTable&) = delete;
 
-  /// Declares a key with keys below it. `given`, if any, becomes true when something is given there; while it
-  /// is false the section is not written. Every declaration brings its documentation.
+  /// Declares a nested map. `given` (may be null) becomes true if anything is given in it; while it is false
+  /// the section is not written.
   KeyTable& section(const std::string& name, const KeyDoc& doc, bool* given = nullptr);
   void number(const std::string& name, double& target, const Range& range, const KeyDoc& doc);
   /// An empty optional is not written.
   void number(const std::string& name, std::optional<double>& target, const Range& range, const KeyDoc& doc);
-  /// A number, or a word in its place: `is_word` tells, and the number is empty then.
+  /// A number or a word; for the word `is_word` is true and the number empty.
   void number_or(const std::string& word, bool& is_word, const std::string& name,
                  std::optional<double>& target, const Range& range, const KeyDoc& doc);
   void integer(const std::string& name, std::int64_t& target, const Range& range, const KeyDoc& doc);
@@ -43,55 +43,54 @@ public:
                const KeyDoc& doc);
   void integer(const std::string& name, int& target, const Range& range, const KeyDoc& doc);
   void flag(const std::string& name, bool& target, const KeyDoc& doc);
-  /// Empty text is not accepted, and not written.
+  /// Empty text is refused, and not written.
   void text(const std::string& name, std::string& target, const KeyDoc& doc);
-  /// The same, of a file or folder: `${NAME}` in it is the value of that environment variable.
+  /// A file or folder; `${NAME}` is replaced by the environment variable NAME.
   void path(const std::string& name, std::string& target, const KeyDoc& doc);
-  /// A list; the empty one is not written.
+  /// A list; an empty list is not written.
   void texts(const std::string& name, std::vector<std::string>& target, const KeyDoc& doc);
   /// A list of three numbers, in the length unit of the geometry. An empty optional is not written.
   void point(const std::string& name, std::optional<geometry::Vec3>& target, const KeyDoc& doc);
-  /// The same, without a unit.
+  /// The same without a unit.
   void direction(const std::string& name, std::optional<geometry::Vec3>& target, const KeyDoc& doc);
-  /// A list of two numbers, the smaller one first; as messages tell, in `unit`.
+  /// A list of two numbers, smaller one first; `unit` is for messages.
   void interval(const std::string& name, std::optional<std::pair<double, double>>& target,
                 const std::string& unit, const KeyDoc& doc);
   /// A list of two points, in the length unit of the geometry.
   void box(const std::string& name, std::optional<std::pair<geometry::Vec3, geometry::Vec3>>& target,
            const KeyDoc& doc);
-  /// A list of maps of keys; the empty one is not written. `declare(i, table)` declares those of the i-th
-  /// map, of which there are `count` now; `of_each` tells of them. Before a list is read `forget()` is
-  /// called.
+  /// A list of maps; an empty list is not written. `declare(i, table)` declares the keys of the i-th map.
+  /// `count`: maps at present; `of_each` documents one map. `forget()` is called before a list is read.
   void sections(const std::string& name, std::size_t count, std::vector<KeyInfo> of_each,
                 std::function<void(std::size_t, KeyTable&)> declare, std::function<void()> forget,
                 const KeyDoc& doc);
-  /// One of the names, each standing for a value of the enumeration.
+  /// One of several names; each stands for a value of the enumeration.
   template <class Enum>
   void choice(const std::string& name, Enum& target, const std::vector<std::pair<std::string, Enum>>& values,
               const KeyDoc& doc);
-  /// A list of such names; the empty one is not written.
+  /// A list of such names; an empty list is not written.
   template <class Enum>
   void choices(const std::string& name, std::vector<Enum>& target,
                const std::vector<std::pair<std::string, Enum>>& values, const KeyDoc& doc);
-  /// Declares a key whose keys below are names that the user makes up, `doc_of_each` documenting them. Each
-  /// gets a table, which `declare(name, table)` fills, when it is read, or by add_named(). Nothing is written
-  /// while there is none. Returns the table of the names, for keys beside them.
+  /// Declares a map whose keys are names chosen by the user; `doc_of_each` documents one. Each name gets a
+  /// table, filled by `declare(name, table)`, when it is read or by add_named(). An empty map is not written.
+  /// Returns the table of the map, for further fixed keys.
   KeyTable& named_sections(const std::string& name, const KeyDoc& doc, const KeyDoc& doc_of_each,
                            std::function<void(const std::string&, KeyTable&)> declare);
-  /// Below the key of named_sections(), of which `name` is the path ("sizing.sources").
+  /// Adds a name below the key `name` of named_sections() ("sizing.sources").
   void add_named(const std::string& name, const std::string& made_up);
 
-  /// Reads a file, later "a.b=value" overrides. Only what is given is assigned. Throws CaseError.
+  /// Reads a file, then overrides "a.b=value". Assigns only what is given. Throws CaseError.
   void read_file(const std::string& file);
-  /// As read_file, of a text; `name` is told in messages.
+  /// The same for a text; `name` is its name in messages.
   void read_text(const std::string& text, const std::string& name);
   void read_override(const std::string& assignment);
-  /// Where the key of this path ("sizing.minimum") was given last; empty when it was not.
+  /// The place where the key ("sizing.minimum") was last given; empty if it was not.
   std::string where(const std::string& path) const;
-  /// All values in the order of declaration, as YAML that read_file accepts.
+  /// All values in order of declaration, as YAML that read_file() accepts.
   std::string write() const;
-  /// Everything declared, in that order, a section before what is below it; values there are now count as
-  /// defaults. Below named_sections() only names that were added.
+  /// All declared keys in order; a section comes before its keys. Present values count as defaults. Below
+  /// named_sections(): only names that were added.
   std::vector<KeyInfo> infos() const;
 
 private:
@@ -117,7 +116,7 @@ private:
   KeyEntry& add(const std::string& name, KeyKind kind, const KeyDoc& doc);
   void add(const std::string& name, KeyKind kind, const KeyDoc& doc, const Range& range,
            std::function<void(const YamlValue&)> read, std::function<std::optional<std::string>()> written);
-  // Whether something is given: an empty section among others is as if it were not there.
+  // An empty section counts as not given.
   bool read(const YAML::Node& node, const Source& source);
   static KeyTable& add_item(KeyEntry& entry);
   static void read_items(KeyEntry& entry, const YAML::Node& node, const Source& source);
@@ -133,8 +132,8 @@ private:
 
   std::string _path;  // of the section; empty at the top
   std::vector<KeyEntry> _entries;
-  std::unordered_map<std::string, std::size_t> _places;  // of the entries, by name: the first of each
-  std::function<void(const std::string&, KeyTable&)> _declare_named;  // where keys are names made up
+  std::unordered_map<std::string, std::size_t> _places;               // index of the first entry by name
+  std::function<void(const std::string&, KeyTable&)> _declare_named;  // for maps whose keys the user names
   KeyDoc _doc_of_named = "";
 };
 

@@ -1,4 +1,4 @@
-/// Values of a YAML file, and what keys accept.
+/// Values of a YAML file, and the ranges that keys accept.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -16,7 +16,7 @@ class Node;
 
 namespace aeroloom::cases {
 
-/// The numbers a key accepts.
+/// The numbers that a key accepts.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -28,36 +28,35 @@ struct Range {
   static Range above(double low, double up_to, const std::string& unit = "");
   static Range between(double low, double high, const std::string& unit = "");
   bool contains(double value) const { return (low_allowed ? value >= low : value > low) && value <= high; }
-  /// As in "above 1 and at most 3 degrees".
+  /// In words: "above 1 and at most 3 degrees".
   std::string description() const;
 };
 
-/// A value in a file or on the command line, as the readers of single keys see it.
+/// A value from a file or the command line.
 class YamlValue {
 public:
   YamlValue(const YAML::Node& node, std::string path, std::string where)
       : _node(node), _path(std::move(path)), _where(std::move(where)) {}
-  /// Each throws CaseError when the value is something else.
+  /// Each function throws CaseError if the value has another form.
   double number(const Range& range) const;
-  /// Nothing where the word is there instead.
+  /// Empty for the word.
   std::optional<double> number_or(const Range& range, const std::string& word) const;
   std::int64_t integer(const Range& range) const;
   bool flag() const;
   std::string text() const;
-  /// A text in which `${NAME}` is replaced by the environment variable NAME. Throws CaseError, too, when no
-  /// such variable is set.
+  /// A text with `${NAME}` replaced by the environment variable NAME. Also throws CaseError if it is not set.
   std::string path() const;
-  /// A list of texts, or one text alone.
+  /// A list of texts, or a single text.
   std::vector<std::string> texts() const;
   /// A list of three finite numbers.
   geometry::Vec3 point() const;
-  /// A list of two of them.
+  /// A list of two points.
   std::pair<geometry::Vec3, geometry::Vec3> points() const;
-  /// A list of two finite numbers, the smaller one first.
+  /// A list of two finite numbers, smaller one first.
   std::pair<double, double> interval() const;
-  /// The position among `names`.
+  /// The index in `names`.
   std::size_t choice(const std::vector<std::string>& names) const;
-  /// The positions of a list, or of one alone, each once.
+  /// The indices of a list or a single name, each once.
   std::vector<std::size_t> choices(const std::vector<std::string>& names) const;
 
 private:
@@ -68,13 +67,13 @@ private:
   std::string _path, _where;
 };
 
-/// What a node is, in the words of a message.
+/// The kind of a node, for messages.
 std::string describe(const YAML::Node& node);
-/// A text for a message: its beginning, without control characters.
+/// The beginning of a text without control characters, for messages.
 std::string shortened(const std::string& text);
-/// A short text that reads back as the same number, such as 0.1, 1000000 or 1e9.
+/// The shortest text that reads back as the same number: 0.1, 1000000, 1e9.
 std::string shortest(double value);
-/// Names with commas between them.
+/// The names, separated by commas.
 std::string joined(const std::vector<std::string>& names);
 
 }  // namespace aeroloom::cases

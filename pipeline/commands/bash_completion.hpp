@@ -1,4 +1,4 @@
-/// Completion of the command line in bash.
+/// Completion of command lines in bash.
 #pragma once
 
 #include "pipeline/case/key_info.hpp"
@@ -12,8 +12,8 @@ class App;
 
 namespace aeroloom::pipeline {
 
-/// A script for bash to source, made from the commands and options of the program and the keys of a case. It
-/// needs no package beside bash.
+/// A bash script made from the program's commands and options and the keys of a case. It needs no other
+/// package.
 std::string bash_completion(const CLI::App& program, const std::vector<cases::KeyInfo>& keys);
 
 }  // namespace aeroloom::pipeline

@@ -25,11 +25,11 @@ Command add_check(CLI::App& program) {
                    {"aeroloom check case.yaml --set sizing.target_tetrahedra=200000", "of another size"}},
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
                    report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
-              return within_memory(communicator, arguments->memory, [&] {
-                return guarded(communicator, report::ExitCode::cad,
-                               [&] { return check_case(communicator, input); });
+  return {app, [arguments](const Invocation& invocation) {
+            return with_case(invocation, *arguments, [&](const cases::Case& input) {
+              return within_memory(invocation, arguments->memory, [&] {
+                return guarded(invocation, report::ExitCode::cad,
+                               [&] { return check_case(invocation.communicator, input); });
               });
             });
           }};

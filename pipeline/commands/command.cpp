@@ -1,7 +1,6 @@
 #include "pipeline/commands/command.hpp"
 
 #include "parallel/communication/collective_error.hpp"
-#include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 #include "pipeline/case/option_keys.hpp"
@@ -15,11 +14,9 @@
 
 namespace aeroloom::pipeline {
 
-using parallel::Communicator;
-
-parallel::LogLevel Loudness::level(parallel::LogLevel otherwise) const {
-  if (quiet) return parallel::LogLevel::quiet;
-  return verbose ? parallel::LogLevel::verbose : otherwise;
+void Invocation::configure_log(parallel::LogLevel otherwise) const {
+  const parallel::LogLevel talkative = loudness.verbose ? parallel::LogLevel::verbose : otherwise;
+  parallel::configure_log(communicator, loudness.quiet ? parallel::LogLevel::quiet : talkative);
 }
 
 namespace {
@@ -56,10 +53,11 @@ void add_overrides(CLI::App& command, CaseArguments& arguments) {
 
 namespace {
 
-/// Collective: throws CollectiveError where a rank has no child processes and nobody said that it need not.
-void choose_sandbox(const Communicator& communicator, parallel::Sandbox sandbox) {
-  if (sandbox == parallel::Sandbox::none) parallel::run_without_sandbox(communicator);
-  parallel::agree(communicator, [&] {
+/// Collective: throws CollectiveError where a rank has no child processes although the case asks for a
+/// sandbox.
+void choose_sandbox(const Invocation& invocation, parallel::Sandbox sandbox) {
+  if (sandbox == parallel::Sandbox::none) parallel::run_without_sandbox(invocation.communicator);
+  parallel::agree(invocation.communicator, [&] {
     if (sandbox == parallel::Sandbox::none || parallel::sandbox_refusal().empty()) return;
     throw std::runtime_error(
         fmt::format("this machine allows no child processes ({}), which keep crashes of the CAD library and "
@@ -71,9 +69,10 @@ void choose_sandbox(const Communicator& communicator, parallel::Sandbox sandbox)
 
 }  // namespace
 
-int with_case(const Communicator& communicator, const CaseArguments& arguments, const Loudness& loudness,
+int with_case(const Invocation& invocation, const CaseArguments& arguments,
               const std::function<int(const cases::Case&)>& work) {
-  parallel::configure_log(communicator, loudness.level());
+  const parallel::Communicator& communicator = invocation.communicator;
+  invocation.configure_log();
   cases::Case input;
   try {
     // Rank 0 alone looks at the file; all learn of an error together.
@@ -91,42 +90,42 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
     });
   } catch (const parallel::CollectiveError& error) {
     const bool memory = error.kind() == parallel::FailureKind::resources;
-    return fail(communicator, memory ? report::ExitCode::resources : report::ExitCode::usage, error.what());
+    return fail(invocation, memory ? report::ExitCode::resources : report::ExitCode::usage, error.what());
   }
-  parallel::configure_log(communicator, loudness.level(input.output.log));
+  invocation.configure_log(input.output.log);
   try {
-    choose_sandbox(communicator, input.sandbox);
+    choose_sandbox(invocation, input.sandbox);
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, report::ExitCode::resources, error.what());
+    return fail(invocation, report::ExitCode::resources, error.what());
   }
   return work(input);
 }
 
-void print(const Communicator& communicator, const std::string& text) {
-  parallel::on_root(communicator, [&] { report::print_text(parallel::printable(text)); });
+void print(const Invocation& invocation, const std::string& text) {
+  parallel::on_root(invocation.communicator, [&] { report::print_text(parallel::printable(text)); });
 }
 
-int fail(const Communicator& communicator, report::ExitCode code, const std::string& message) {
-  if (communicator.is_root()) parallel::log_error(cases::with_keys(plain_words(message)));
-  communicator.barrier();
+int fail(const Invocation& invocation, report::ExitCode code, const std::string& message) {
+  if (invocation.communicator.is_root()) parallel::log_error(cases::with_keys(plain_words(message)));
+  invocation.communicator.barrier();
   return static_cast<int>(code);
 }
 
-int guarded(const Communicator& communicator, report::ExitCode otherwise,
+int guarded(const Invocation& invocation, report::ExitCode otherwise,
             const std::function<report::ExitCode()>& work) {
   try {
     const report::ExitCode code = work();
-    communicator.barrier();
+    invocation.communicator.barrier();
     return static_cast<int>(code);
   } catch (const std::invalid_argument& error) {
-    return fail(communicator, report::ExitCode::usage, error.what());
+    return fail(invocation, report::ExitCode::usage, error.what());
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, code_of(error, otherwise), error.what());
+    return fail(invocation, code_of(error, otherwise), error.what());
   } catch (const parallel::SandboxInterrupted& error) {
-    return fail(communicator, report::ExitCode::resources, error.what());
+    return fail(invocation, report::ExitCode::resources, error.what());
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();
-    return fail(communicator, report::ExitCode::resources, parallel::out_of_memory_text());
+    return fail(invocation, report::ExitCode::resources, parallel::out_of_memory_text());
   }
 }
 

@@ -1,7 +1,6 @@
-/// How a command is added to the command line, and how it ends: the same for all commands.
+/// Common parts of all commands: their place in the command line, arguments, errors and exit codes.
 #pragma once
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/log.hpp"
 #include "pipeline/case/case.hpp"
@@ -17,43 +16,51 @@ class App;
 
 namespace aeroloom::pipeline {
 
-/// How much is printed, as given before or after the name of the command.
+/// How much is printed; the flags may stand before or after the command's name.
 struct Loudness {
   bool verbose = false, quiet = false;
-  parallel::LogLevel level(parallel::LogLevel otherwise = parallel::LogLevel::normal) const;
 };
 
-/// A command in the command line. `run` is collective, called after the line was read; it returns the exit
-/// code of the program, the same on every rank, and throws nothing.
+/// One call of the program: its ranks, and how much it is to print.
+struct Invocation {
+  parallel::Communicator communicator;
+  Loudness loudness = {};
+
+  /// Prints as much as the command line asks for, or else as `otherwise` says. Collective.
+  void configure_log(parallel::LogLevel otherwise = parallel::LogLevel::normal) const;
+};
+
+/// A command. `run` is called after the command line was parsed. It returns the exit code, equal on every
+/// rank, and throws nothing. Collective.
 struct Command {
   CLI::App* app = nullptr;
-  std::function<int(const parallel::Communicator&, const Loudness&)> run;
+  std::function<int(const Invocation&)> run;
 };
 
-/// The case as it is given in the command line.
+/// The case file and overrides in a command line.
 struct CaseArguments {
-  std::string file;  ///< empty for commands that need no geometry
+  std::string file;  ///< empty: a command without geometry
   std::vector<std::string> overrides;
 };
 void add_case_file(CLI::App& command, CaseArguments& arguments);
-/// A file with a mesh that is read.
+/// Adds the argument for a mesh file.
 void add_mesh_file(CLI::App& command, const std::string& name, std::string& file);
-/// `--set`.
+/// Adds `--set`.
 void add_overrides(CLI::App& command, CaseArguments& arguments);
 
-/// Reads the case, by rank 0, lets the log speak as the line or else the case asks for, and does the
-/// work, which returns the exit code; a case that cannot be read is a usage error. Collective.
-int with_case(const parallel::Communicator& communicator, const CaseArguments& arguments,
-              const Loudness& loudness, const std::function<int(const cases::Case&)>& work);
+/// Rank 0 reads the case; then `work` gets it on every rank and returns the exit code. The command line or
+/// else the case sets how much is printed. An invalid case is a usage error. Collective.
+int with_case(const Invocation& invocation, const CaseArguments& arguments,
+              const std::function<int(const cases::Case&)>& work);
 
-/// Printed by rank 0 at once. Collective; throws CollectiveError where it cannot be.
-void print(const parallel::Communicator& communicator, const std::string& text);
-/// Prints the message on rank 0; the exit code. Collective.
-int fail(const parallel::Communicator& communicator, report::ExitCode code, const std::string& message);
+/// Rank 0 prints the text at once. Collective; throws CollectiveError if that fails.
+void print(const Invocation& invocation, const std::string& text);
+/// Rank 0 prints the error message. Returns the exit code. Collective.
+int fail(const Invocation& invocation, report::ExitCode code, const std::string& message);
 
-/// Does the work of a command that has no stages: the exit code for what it throws is `otherwise`, unless the
-/// kind of failure demands another. Collective.
-int guarded(const parallel::Communicator& communicator, report::ExitCode otherwise,
+/// Runs a command without stages. Returns `otherwise` for an exception, unless its kind has its own exit
+/// code. Collective.
+int guarded(const Invocation& invocation, report::ExitCode otherwise,
             const std::function<report::ExitCode()>& work);
 
 }  // namespace aeroloom::pipeline

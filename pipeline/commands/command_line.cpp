@@ -49,28 +49,28 @@ void describe_program(CLI::App& program) {
 int run_command_line(const parallel::Communicator& communicator, int argc, char** argv) {
   CLI::App program(program_description, "aeroloom");
   describe_program(program);
-  Loudness loudness;
-  add_loudness(program, loudness);
+  Invocation invocation{communicator};
+  add_loudness(program, invocation.loudness);
   std::vector<Command> commands;
   for (const auto add : {add_run, add_check, add_info, add_improve, add_quality, add_convert, add_export_cad,
                          add_completion, add_init, add_schema, add_scaling}) {
     commands.push_back(add(program));
     commands.back().app->group("Commands");
-    add_loudness(*commands.back().app, loudness);
+    add_loudness(*commands.back().app, invocation.loudness);
   }
-  parallel::configure_log(communicator, parallel::LogLevel::normal);
+  invocation.configure_log();
   parallel::watch_node_memory(communicator);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& asked) {
     return communicator.is_root() ? program.exit(asked) : 0;
   } catch (const CLI::ParseError& error) {
-    return fail(communicator, report::ExitCode::usage, explain_usage_error(program, error));
+    return fail(invocation, report::ExitCode::usage, explain_usage_error(program, error));
   }
-  if (loudness.verbose && loudness.quiet)
-    return fail(communicator, report::ExitCode::usage, "--verbose and --quiet exclude each other");
+  if (invocation.loudness.verbose && invocation.loudness.quiet)
+    return fail(invocation, report::ExitCode::usage, "--verbose and --quiet exclude each other");
   for (const Command& command : commands) {
-    if (command.app->parsed()) return command.run(communicator, loudness);
+    if (command.app->parsed()) return command.run(invocation);
   }
   return static_cast<int>(report::ExitCode::bug);
 }

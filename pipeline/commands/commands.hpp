@@ -1,4 +1,4 @@
-/// The commands of the program. Each adds itself to the command line.
+/// The commands of the program. Each function adds its command to the command line.
 #pragma once
 
 #include "pipeline/commands/command.hpp"
@@ -12,7 +12,7 @@ Command add_improve(CLI::App& program);
 Command add_quality(CLI::App& program);
 Command add_convert(CLI::App& program);
 Command add_export_cad(CLI::App& program);
-/// Knows the commands that the program has when it runs.
+/// Completes the commands that the program has when the command runs.
 Command add_completion(CLI::App& program);
 Command add_init(CLI::App& program);
 Command add_schema(CLI::App& program);

@@ -20,9 +20,9 @@ Command add_completion(CLI::App& program) {
                     "then `source aeroloom.bash`, or put it where "
                     "bash looks (docs/usage.md)"}},
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files});
-  return {app, [&program](const parallel::Communicator& communicator, const Loudness&) {
-            return guarded(communicator, report::ExitCode::files, [&] {
-              print(communicator, bash_completion(program, cases::case_keys()));
+  return {app, [&program](const Invocation& invocation) {
+            return guarded(invocation, report::ExitCode::files, [&] {
+              print(invocation, bash_completion(program, cases::case_keys()));
               return report::ExitCode::ok;
             });
           }};

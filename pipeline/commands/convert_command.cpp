@@ -64,11 +64,11 @@ Command add_convert(CLI::App& program) {
                    {"aeroloom convert out/mesh.pvtu wing.foam --parts 4", "OpenFOAM, for four processors"}},
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files,
                    report::ExitCode::resources, report::ExitCode::bug});
-  return {app, [conversion](const parallel::Communicator& communicator, const Loudness& loudness) {
-            parallel::configure_log(communicator, loudness.level());
-            return within_memory(communicator, conversion->memory, [&] {
-              return guarded(communicator, report::ExitCode::files, [&] {
-                convert_file(communicator, *conversion);
+  return {app, [conversion](const Invocation& invocation) {
+            invocation.configure_log();
+            return within_memory(invocation, conversion->memory, [&] {
+              return guarded(invocation, report::ExitCode::files, [&] {
+                convert_file(invocation.communicator, *conversion);
                 return report::ExitCode::ok;
               });
             });

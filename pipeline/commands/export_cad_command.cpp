@@ -25,13 +25,14 @@ Command add_export_cad(CLI::App& program) {
                    {"aeroloom export-cad case.yaml domain.step --domain", "with the far field around it"}},
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
                    report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
-              return guarded(communicator, report::ExitCode::cad, [&] {
-                parallel::agree(communicator, [&] {
+  return {app, [arguments](const Invocation& invocation) {
+            return with_case(invocation, *arguments, [&](const cases::Case& input) {
+              return guarded(invocation, report::ExitCode::cad, [&] {
+                parallel::agree(invocation.communicator, [&] {
                   const cad::ExportedShape part =
                       arguments->domain ? cad::ExportedShape::domain : cad::ExportedShape::geometry;
-                  if (communicator.is_root()) cad::export_step(input.domain, part, arguments->step);
+                  if (invocation.communicator.is_root())
+                    cad::export_step(input.domain, part, arguments->step);
                 });
                 parallel::log_info(fmt::format("wrote {}", arguments->step));
                 return report::ExitCode::ok;

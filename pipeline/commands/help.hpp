@@ -1,4 +1,4 @@
-/// Examples and exit codes, which `--help` tells beside the options.
+/// Examples, exit codes and headings in the output of `--help`.
 #pragma once
 
 #include "pipeline/report/exit_code.hpp"
@@ -12,7 +12,7 @@ class App;
 
 namespace aeroloom::pipeline {
 
-/// Headings under which `--help` lists options.
+/// Headings for groups of options.
 namespace option_group {
 inline constexpr const char* of_case = "Case";
 inline constexpr const char* checkpoints = "Checkpoints";
@@ -22,7 +22,7 @@ inline constexpr const char* resources = "Resources";
 inline constexpr const char* printing = "Printing";
 }  // namespace option_group
 
-/// Kinds of files, as `--help` names them after an option; completion goes by them (bash_completion.cpp).
+/// Kinds of files in `--help`. Completion depends on them (bash_completion.cpp).
 namespace file_kind {
 inline constexpr const char* of_case = "CASE.yaml";
 inline constexpr const char* mesh = "MESH";
@@ -31,15 +31,15 @@ inline constexpr const char* json = "FILE.json";
 inline constexpr const char* any = "FILE";
 }  // namespace file_kind
 
-/// Of a key of the case, as `--help` names it.
+/// A key of the case in `--help`.
 inline constexpr const char* assignment = "KEY=VALUE";
 
-/// A line that can be typed as it stands, and what it does.
+/// A command line that works as it stands, and its purpose.
 struct Example {
   std::string line, what;
 };
 
-/// Puts the examples and the meaning of the exit codes under the help of a command.
+/// Adds examples and exit codes to the help of a command.
 void add_help_footer(CLI::App& command, std::initializer_list<Example> examples,
                      std::initializer_list<report::ExitCode> codes);
 

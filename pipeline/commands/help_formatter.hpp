@@ -1,4 +1,4 @@
-/// How `--help` looks.
+/// The layout of `--help`.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace aeroloom::pipeline {
 
-/// Lines of use as in docs/usage.md, one empty line between groups, what excludes what in words.
+/// Usage lines as in docs/usage.md, an empty line between groups, exclusions in words.
 class HelpFormatter : public CLI::Formatter {
 public:
   HelpFormatter();

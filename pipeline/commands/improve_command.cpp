@@ -59,25 +59,25 @@ Command add_improve(CLI::App& program) {
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::volume,
                    report::ExitCode::quality_gate, report::ExitCode::files, report::ExitCode::resources,
                    report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
+  return {app, [arguments](const Invocation& invocation) {
+            return with_case(invocation, *arguments, [&](const cases::Case& input) {
               const std::string idle = setting_without_effect(arguments->overrides);
               if (!idle.empty()) {
                 return fail(
-                    communicator, report::ExitCode::usage,
+                    invocation, report::ExitCode::usage,
                     fmt::format("'{}' says nothing to improve, which takes a mesh as it is: improve.*, "
                                 "output.* and volume.piece_tets do",
                                 idle));
               }
               const std::string lost = what_would_be_lost(arguments->mesh, input.output);
               if (!lost.empty()) {
-                return fail(communicator, report::ExitCode::usage,
+                return fail(invocation, report::ExitCode::usage,
                             fmt::format("'{}' is not overwritten: {}. Remedy: --set output.directory=FOLDER",
                                         input.output.directory, lost));
               }
-              return within_memory(communicator, arguments->memory, [&] {
-                return run_stages(communicator, input, {"", arguments->mesh}, [&](report::RunRecord& record) {
-                  improve_file(communicator, arguments->mesh, input, record);
+              return within_memory(invocation, arguments->memory, [&] {
+                return run_stages(invocation, input, {"", arguments->mesh}, [&](report::RunRecord& record) {
+                  improve_file(invocation.communicator, arguments->mesh, input, record);
                 });
               });
             });

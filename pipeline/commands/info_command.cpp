@@ -9,7 +9,7 @@
 namespace aeroloom::pipeline {
 
 Command add_info(CLI::App& program) {
-  CLI::App* app = program.add_subcommand("info", "tell what a file holds: a mesh, CAD, triangles, or a case");
+  CLI::App* app = program.add_subcommand("info", "describe a file: a mesh, CAD, triangles, or a case");
   const auto request = std::make_shared<InfoRequest>();
   app->add_option("file", request->file,
                   "a mesh in any format that is read (docs/formats.md), CAD, triangles, or a case")
@@ -23,11 +23,11 @@ Command add_info(CLI::App& program) {
                    {"aeroloom info out/mesh.pvtu --json", "for programs"}},
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad,
                    report::ExitCode::files, report::ExitCode::resources, report::ExitCode::bug});
-  return {app, [request](const parallel::Communicator& communicator, const Loudness& loudness) {
-            parallel::configure_log(communicator, loudness.level());
+  return {app, [request](const Invocation& invocation) {
+            invocation.configure_log();
             const bool is_case = request->file.ends_with(".yaml") || request->file.ends_with(".yml");
-            return guarded(communicator, is_case ? report::ExitCode::usage : report::ExitCode::cad, [&] {
-              show_info(communicator, *request);
+            return guarded(invocation, is_case ? report::ExitCode::usage : report::ExitCode::cad, [&] {
+              show_info(invocation.communicator, *request);
               return report::ExitCode::ok;
             });
           }};

@@ -94,10 +94,10 @@ Command add_init(CLI::App& program) {
       {{"aeroloom init case.yaml --geometry wing.step", "a case of all defaults"},
        {"aeroloom init every.yaml --full", "with every key"}},
       {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            parallel::configure_log(communicator, loudness.level());
-            return guarded(communicator, report::ExitCode::usage, [&] {
-              parallel::on_root(communicator, [&] { write_template(*arguments); });
+  return {app, [arguments](const Invocation& invocation) {
+            invocation.configure_log();
+            return guarded(invocation, report::ExitCode::usage, [&] {
+              parallel::on_root(invocation.communicator, [&] { write_template(*arguments); });
               return report::ExitCode::ok;
             });
           }};

@@ -54,12 +54,12 @@ void add_memory_option(CLI::App& command, std::int64_t& bytes_of_node) {
       ->group(option_group::resources);
 }
 
-int within_memory(const parallel::Communicator& communicator, std::int64_t bytes_of_node,
+int within_memory(const Invocation& invocation, std::int64_t bytes_of_node,
                   const std::function<int()>& work) {
   try {
-    if (bytes_of_node > 0) parallel::limit_memory(communicator, bytes_of_node);
+    if (bytes_of_node > 0) parallel::limit_memory(invocation.communicator, bytes_of_node);
   } catch (const parallel::CollectiveError& error) {
-    return fail(communicator, report::ExitCode::resources, error.what());
+    return fail(invocation, report::ExitCode::resources, error.what());
   }
   return work();
 }

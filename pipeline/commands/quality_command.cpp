@@ -40,16 +40,18 @@ Command add_quality(CLI::App& program) {
        {"aeroloom quality mesh.meshb --json --output quality.json", "the same for programs"}},
       {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::quality_gate, report::ExitCode::files,
        report::ExitCode::resources, report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
+  return {app, [arguments](const Invocation& invocation) {
+            return with_case(invocation, *arguments, [&](const cases::Case& input) {
               std::string missed;
-              const int code = guarded(communicator, report::ExitCode::files, [&] {
-                missed = show_quality(communicator, arguments->request, input.gate);
+              const int code = guarded(invocation, report::ExitCode::files, [&] {
+                const QualityRequest& request = arguments->request;
+                missed = show_quality(io::read_mesh({invocation.communicator, request.file}, 0), request,
+                                      input.gate);
                 return report::ExitCode::ok;
               });
-              if (!missed.empty()) return fail(communicator, report::ExitCode::quality_gate, missed);
+              if (!missed.empty()) return fail(invocation, report::ExitCode::quality_gate, missed);
               if (code == 0 && !arguments->overrides.empty() && !arguments->request.print_json)
-                print(communicator, "limits: every one is met\n");
+                print(invocation, "limits: every one is met\n");
               return code;
             });
           }};

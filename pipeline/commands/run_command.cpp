@@ -2,6 +2,7 @@
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/memory_option.hpp"
 #include "pipeline/commands/staged_run.hpp"
+#include "pipeline/run.hpp"
 
 #include <memory>
 
@@ -44,16 +45,17 @@ Command add_run(CLI::App& program) {
       {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::cad, report::ExitCode::surface,
        report::ExitCode::volume, report::ExitCode::quality_gate, report::ExitCode::files,
        report::ExitCode::resources, report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
+  return {app, [arguments](const Invocation& invocation) {
             CaseArguments given = *arguments;
             if (arguments->resume) given.overrides.push_back("output.checkpoints=resume");
             if (arguments->checkpoints) given.overrides.push_back("output.checkpoints=write");
-            return with_case(communicator, given, loudness, [&](const cases::Case& read) {
+            return with_case(invocation, given, [&](const cases::Case& read) {
               cases::Case input = read;
               input.memory_limit = arguments->memory;
-              return within_memory(communicator, arguments->memory, [&] {
-                return run_stages(communicator, input, {given.file, ""},
-                                  [&](report::RunRecord& record) { run_case(communicator, input, record); });
+              return within_memory(invocation, arguments->memory, [&] {
+                return run_stages(invocation, input, {given.file, ""}, [&](report::RunRecord& record) {
+                  run_case(invocation.communicator, input, record);
+                });
               });
             });
           }};

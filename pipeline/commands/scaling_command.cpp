@@ -79,7 +79,7 @@ study::CaseSize size_of(const cases::SizingRequest& request) {
   return size;
 }
 
-void tell_progress(const std::string& text) {
+void log_progress(const std::string& text) {
   parallel::log_info("scaling: " + text);
 }
 
@@ -120,15 +120,15 @@ void add_earlier_runs(study::StudyRecord& record) {
 /// ranks.
 void add_prediction(study::Json& study, const study::StudyRecord& record,
                     const std::vector<study::RunResult>& runs, const study::Network& network) {
-  const study::RunResult* from = study::telling_run(runs);
+  const study::RunResult* from = study::recorded_run(runs);
   if (from == nullptr) return;
   try {
-    const std::vector<int> ranks = study::ranks_to_foretell(runs);
+    const std::vector<int> ranks = study::ranks_to_predict(runs);
     const fs::path folder = study::folder_of(record.options.directory, from->spec);
     study["prediction"] = study::prediction_json(
         study::forecast_ranks(study::read_costs(folder), from->spec.name(), ranks, network));
   } catch (const std::runtime_error& error) {
-    tell_progress(fmt::format("other numbers of ranks are not foretold: {}", error.what()));
+    log_progress(fmt::format("other numbers of ranks are not predicted: {}", error.what()));
   }
 }
 
@@ -146,7 +146,7 @@ report::ExitCode write_study(const study::StudyRecord& record, const std::vector
   report::write_text((folder / "scaling.csv").string(), study::study_csv(runs));
   report::write_text((folder / "scaling.html").string(), study::study_page(json));
   report::print_text(study::study_text(rows));
-  tell_progress((folder / "scaling.html").string());
+  log_progress((folder / "scaling.html").string());
   for (const study::RunResult& run : runs)
     if (run.marks.state == study::RunState::failed)
       return static_cast<report::ExitCode>(std::max(1, run.marks.code));
@@ -157,19 +157,19 @@ report::ExitCode carry_out_study(const ScalingArguments& arguments, const cases:
   study::StudyRecord record = make_record(arguments, input);
   const study::Launcher launcher = study::make_launcher(arguments.launcher);
   std::vector<study::WeakScale> weak;
-  if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), tell_progress);
+  if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), log_progress);
   record.runs = study::plan_runs(record.options, weak);
   add_earlier_runs(record);
   study::save(record);
   const parallel::LastWords last_words([](int) { study::end_line(); });
-  study::carry_out(record, launcher, arguments.keep, tell_progress);
+  study::carry_out(record, launcher, arguments.keep, log_progress);
   return write_study(record, study::collect_runs(record), network_of(arguments.prediction));
 }
 
 report::ExitCode write_study_jobs(const ScalingArguments& arguments, const cases::Case& input) {
   study::StudyRecord record = make_record(arguments, input);
   std::vector<study::WeakScale> weak;
-  if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), tell_progress);
+  if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), log_progress);
   record.runs = study::plan_runs(record.options, weak);
   add_earlier_runs(record);
   study::save(record);
@@ -179,15 +179,15 @@ report::ExitCode write_study_jobs(const ScalingArguments& arguments, const cases
   study::write_jobs(record, jobs, [&](const std::vector<std::string>& settings) {
     return study::forecast_case(record.options, settings);
   });
-  tell_progress(fmt::format("{} jobs are in {}: submit.sh there submits them", record.runs.size(),
-                            jobs.folder.string()));
+  log_progress(fmt::format("{} jobs are in {}: submit.sh there submits them", record.runs.size(),
+                           jobs.folder.string()));
   return report::ExitCode::ok;
 }
 
 report::ExitCode collect_study(const ScalingArguments& arguments) {
   const fs::path jobs = fs::absolute(arguments.collected).lexically_normal();
   const study::StudyRecord record = study::load_study(study::results_of_jobs(jobs));
-  const std::vector<study::RunResult> runs = study::collect_runs(record, study::ask_queue(jobs));
+  const std::vector<study::RunResult> runs = study::collect_runs(record, study::query_queue(jobs));
   for (const study::RunResult& run : runs)
     if (run.figures && !arguments.keep)
       study::remove_meshes(study::folder_of(record.options.directory, run.spec));
@@ -245,14 +245,13 @@ void add_options(CLI::App& app, ScalingArguments& arguments) {
     other->excludes(jobs)->excludes(collect)->excludes(compare);
 }
 
-int run_scaling(const parallel::Communicator& communicator, const ScalingArguments& arguments,
-                const Loudness& loudness) {
+int run_scaling(const Invocation& invocation, const ScalingArguments& arguments) {
   const bool measures = !arguments.prediction.measured.empty();
-  if (communicator.size() > 1 && !measures)
-    return fail(communicator, report::ExitCode::usage,
+  if (invocation.communicator.size() > 1 && !measures)
+    return fail(invocation, report::ExitCode::usage,
                 "scaling starts the ranks of its runs itself. Remedy: call it without a launcher");
   const auto guard = [&](const std::function<report::ExitCode()>& work) {
-    return guarded(communicator, report::ExitCode::files, [&] {
+    return guarded(invocation, report::ExitCode::files, [&] {
       try {
         return work();
       } catch (const std::ios_base::failure&) {
@@ -262,18 +261,18 @@ int run_scaling(const parallel::Communicator& communicator, const ScalingArgumen
       }
     });
   };
-  parallel::configure_log(communicator, loudness.level());
-  if (measures) return guard([&] { return measure_network(communicator, arguments.prediction.measured); });
+  invocation.configure_log();
+  if (measures) return guard([&] { return measure_network(invocation, arguments.prediction.measured); });
   if (!arguments.prediction.run.empty())
     return guard([&] { return predict_run(arguments.prediction, arguments.ranks); });
   if (!arguments.compared.empty()) return guard([&] { return compare_studies(arguments); });
   if (!arguments.collected.empty()) return guard([&] { return collect_study(arguments); });
   if (arguments.file.empty())
-    return fail(communicator, report::ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
-  return with_case(communicator, arguments, loudness, [&](const cases::Case& input) {
+    return fail(invocation, report::ExitCode::usage, "scaling needs a case: aeroloom scaling case.yaml");
+  return with_case(invocation, arguments, [&](const cases::Case& input) {
     return guard([&] {
       fs::create_directories(input.output.directory);
-      const OutputLock lock(communicator, input.output.directory);
+      const OutputLock lock(invocation.communicator, input.output.directory);
       return arguments.jobs.empty() ? carry_out_study(arguments, input) : write_study_jobs(arguments, input);
     });
   });
@@ -300,9 +299,7 @@ Command add_scaling(CLI::App& program) {
         "latency and bandwidth, for --predict out --network network.json"}},
       {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::resources,
        report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            return run_scaling(communicator, *arguments, loudness);
-          }};
+  return {app, [arguments](const Invocation& invocation) { return run_scaling(invocation, *arguments); }};
 }
 
 }  // namespace aeroloom::pipeline

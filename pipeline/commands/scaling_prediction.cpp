@@ -109,11 +109,12 @@ report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<i
   return report::ExitCode::ok;
 }
 
-report::ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file) {
+report::ExitCode measure_network(const Invocation& invocation, const std::string& file) {
+  const parallel::Communicator& communicator = invocation.communicator;
   const parallel::NetworkProbe probe = parallel::probe_network(communicator);
   parallel::on_root(communicator,
                     [&] { report::write_text(file, to_json(probe, communicator.size()).dump(1) + "\n"); });
-  print(communicator, describe(probe, communicator.size(), file));
+  print(invocation, describe(probe, communicator.size(), file));
   return report::ExitCode::ok;
 }
 

@@ -1,11 +1,9 @@
-/// `aeroloom scaling --predict` and `--measure-network`.
+/// The options `--predict` and `--measure-network` of `aeroloom scaling`.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "pipeline/report/exit_code.hpp"
 #include "pipeline/study/replay.hpp"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,26 +15,28 @@ class Option;
 
 namespace aeroloom::pipeline {
 
-/// Files and figures that a prediction goes by. Empty: not asked for.
+struct Invocation;
+
+/// Files and figures for a prediction; empty: not given.
 struct PredictionArguments {
   std::string run;       ///< the folder of a run
-  std::string measured;  ///< the file that the network's measures are written to
-  std::string network;   ///< the file that they are read from
+  std::string measured;  ///< the file for measurements of the network
+  std::string network;   ///< a file with such measurements
   std::optional<double> latency, bandwidth;
 };
 
-/// Adds the options; returns those that stand for commands of their own.
+/// Adds the options. Returns those that act as commands of their own.
 std::vector<CLI::Option*> add_prediction_options(CLI::App& app, PredictionArguments& arguments);
 
-/// As given, or as a file has it, or a cluster's usual one. Throws std::invalid_argument,
-/// std::runtime_error for a file that is none.
+/// The given network, or that of the file, or a typical cluster's. Throws std::invalid_argument;
+/// std::runtime_error for an invalid file.
 study::Network network_of(const PredictionArguments& arguments);
 
-/// Prints where time goes, writes prediction.json and prediction.csv beside the run's report. Of no ranks:
-/// the powers of two up to 10,000. Throws as read_costs() and predict().
+/// Prints where the time goes and writes prediction.json and prediction.csv beside the report of the run.
+/// Without ranks: powers of two up to 10,000. Throws as read_costs() and predict().
 report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<int> ranks);
 
-/// Measures between the ranks, prints, and writes the file. Collective.
-report::ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file);
+/// Measures the network between the ranks, prints the result and writes the file. Collective.
+report::ExitCode measure_network(const Invocation& invocation, const std::string& file);
 
 }  // namespace aeroloom::pipeline

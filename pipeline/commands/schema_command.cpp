@@ -79,10 +79,10 @@ Command add_schema(CLI::App& program) {
       {{"aeroloom schema --output aeroloom.schema.json", "for editors (docs/usage.md)"},
        {"aeroloom schema --markdown --output keys", "pages of the keys, with texts, ranges and defaults"}},
       {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files, report::ExitCode::bug});
-  return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
-            parallel::configure_log(communicator, loudness.level());
-            return guarded(communicator, report::ExitCode::usage, [&] {
-              parallel::on_root(communicator, [&] { write_or_print(*arguments); });
+  return {app, [arguments](const Invocation& invocation) {
+            invocation.configure_log();
+            return guarded(invocation, report::ExitCode::usage, [&] {
+              parallel::on_root(invocation.communicator, [&] { write_or_print(*arguments); });
               if (!arguments->output.empty()) parallel::log_info("wrote " + arguments->output);
               return report::ExitCode::ok;
             });

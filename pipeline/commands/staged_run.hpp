@@ -1,17 +1,16 @@
-/// The record of a run, its report and its end, the same for all commands with stages.
+/// Common parts of commands with stages: record, report, exit code.
 #pragma once
 
 #include "pipeline/commands/command.hpp"
 #include "pipeline/report/report.hpp"
-#include "pipeline/run.hpp"
 
 #include <functional>
 
 namespace aeroloom::pipeline {
 
-/// Does the stages (run_case, improve_file) and reports, a failure too as far as the output directory can be
-/// written. Returns the exit code. Collective.
-int run_stages(const parallel::Communicator& communicator, const cases::Case& input,
-               const report::ReportSubject& subject, const std::function<void(report::RunRecord&)>& stages);
+/// Calls `stages` (run_case, improve_file) and writes the report, also of a failed run if the output
+/// directory is writable. Returns the exit code. Collective.
+int run_stages(const Invocation& invocation, const cases::Case& input, const report::ReportSubject& subject,
+               const std::function<void(report::RunRecord&)>& stages);
 
 }  // namespace aeroloom::pipeline

@@ -55,7 +55,7 @@ std::string explain_usage_error(const CLI::App& program, const CLI::ParseError& 
   const CLI::App& command = *parsed.front();
   std::vector<std::string> extra = command.remaining();
   if (extra.empty()) extra = program.remaining();
-  // An unknown word explains why something else is missing, so that it is told first.
+  // An unknown word explains why something else is missing, so it is reported first.
   const std::string what = extra.empty() ? std::string(error.what()) : unknown_in(command, extra.front());
   return fmt::format("aeroloom {}: {}\nsee aeroloom {} --help", command.get_name(), what, command.get_name());
 }

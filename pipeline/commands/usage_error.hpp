@@ -1,4 +1,4 @@
-/// Command lines that cannot be read.
+/// Messages about command lines that cannot be parsed.
 #pragma once
 
 #include <string>
@@ -10,8 +10,7 @@ class ParseError;
 
 namespace aeroloom::pipeline {
 
-/// The mistake in the line that `program` has tried to read, the command or option that was probably
-/// meant, and where to read on.
+/// Describes the mistake, the command or option that was probably meant, and where to read more.
 std::string explain_usage_error(const CLI::App& program, const CLI::ParseError& error);
 
 }  // namespace aeroloom::pipeline

@@ -11,9 +11,9 @@ namespace aeroloom::domain {
 namespace {
 
 constexpr std::size_t shown_faces = 4;   // in a line of the log; the report has all
-constexpr double least_fraction = 0.01;  // of a face's area, to be told in a line
+constexpr double least_fraction = 0.01;  // of a face's area, to be named in a line
 constexpr double half_turn = 180;        // degrees: an element that turns by it follows no curvature at all
-constexpr double few_degrees = 10;       // told with a digit more
+constexpr double few_degrees = 10;       // below this, printed with a digit more
 
 std::string degrees_text(double degrees) {
   if (degrees >= half_turn) return "180 degrees and more";
@@ -21,10 +21,10 @@ std::string degrees_text(double degrees) {
                                : fmt::format("up to {:.0f} degrees", degrees);
 }
 
-double share_of_body(const std::vector<NamedBound>& faces) {
-  double share = 0;
-  for (const NamedBound& each : faces) share += each.share_of_body;
-  return share;
+double body_fraction(const std::vector<NamedBound>& faces) {
+  double sum = 0;
+  for (const NamedBound& each : faces) sum += each.body_fraction;
+  return sum;
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
   std::map<std::string, NamedBound> by_name;
   for (const sizing::BoundedFace& each : factory.faces_bounded_by_minimum(sizes)) {
     NamedBound& bound = by_name[model.face(each.face).name];
-    bound.share_of_body += each.fraction * factory.sampled().area(each.face);
+    bound.body_fraction += each.fraction * factory.sampled().area(each.face);
     bound.degrees = std::max(bound.degrees, std::min(each.degrees, half_turn));
   }
   std::map<std::string, double> areas;
@@ -48,8 +48,8 @@ std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
   std::vector<NamedBound> faces;
   for (auto& [name, bound] : by_name) {
     bound.face = name;
-    bound.fraction = std::min(1.0, bound.share_of_body / areas[name]);
-    bound.share_of_body /= body;
+    bound.fraction = std::min(1.0, bound.body_fraction / areas[name]);
+    bound.body_fraction /= body;
     faces.push_back(bound);
   }
   std::stable_sort(faces.begin(), faces.end(),
@@ -59,14 +59,14 @@ std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
 
 std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes) {
   std::string text;
-  std::size_t told = 0, left_out = 0;
+  std::size_t named = 0, left_out = 0;
   for (const NamedBound& each : faces) {
     if (each.fraction < least_fraction) break;
-    if (told == shown_faces) {
+    if (named == shown_faces) {
       ++left_out;
       continue;
     }
-    text += fmt::format("{} on {:.0f} % of '{}' elements turn by {}", told++ > 0 ? "," : "",
+    text += fmt::format("{} on {:.0f} % of '{}' elements turn by {}", named++ > 0 ? "," : "",
                         100 * each.fraction, each.face, degrees_text(each.degrees));
   }
   if (text.empty()) return text;
@@ -79,13 +79,13 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
         ". That is {:.0f} % of the body. Remedy: sizes in the unit of the model; a smaller "
         "sizing.minimum, or a larger sizing.target_tetrahedra where it was chosen; or a larger "
         "sizing.curvature_angle, which takes fewer elements elsewhere",
-        100 * share_of_body(faces));
+        100 * body_fraction(faces));
   return text;
 }
 
 bool is_much_of_body(const std::vector<NamedBound>& faces) {
   constexpr double much = 0.1;  // of its area; chosen, not measured
-  return share_of_body(faces) > much;
+  return body_fraction(faces) > much;
 }
 
 }  // namespace aeroloom::domain

@@ -1,4 +1,4 @@
-/// Where the smallest size wins over what curvature asks for.
+/// Reports faces where the smallest size prevents elements as small as curvature needs.
 #pragma once
 
 #include "sizing/field/size_field.hpp"
@@ -13,27 +13,27 @@ class FieldFactory;
 
 namespace aeroloom::domain {
 
-/// Faces of one name on which elements turn further, or lie farther off, than was asked for.
+/// Faces of one name whose elements exceed the wanted curvature angle or chordal deviation.
 struct NamedBound {
   std::string face;
-  double fraction;       ///< of their area
-  double degrees;        ///< that an element turns there, at most; 180 where it would turn further
-  double share_of_body;  ///< the area in question over that of the whole body
+  double fraction;       ///< of the area of these faces
+  double degrees;        ///< largest angle between normals across an element; 180 at most
+  double body_fraction;  ///< the bounded area over the area of the body
 
   static constexpr auto fields() {
     return std::tuple(&NamedBound::face, &NamedBound::fraction, &NamedBound::degrees,
-                      &NamedBound::share_of_body);
+                      &NamedBound::body_fraction);
   }
 };
 
-/// The bounded faces of a model, the largest fractions first. Collective.
+/// The bounded faces of a model, largest fractions first. Collective.
 std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
                                              const sizing::SizingOptions& sizes);
 
-/// One line of a few of them; empty where there are none of any extent.
+/// One line about the first few; empty if they cover little area.
 std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes);
 
-/// Whether that is so on much of the body: its shape is lost, or what was asked for has little effect.
+/// Whether much of the body is bounded: then its shape is lost, or the curvature keys have little effect.
 bool is_much_of_body(const std::vector<NamedBound>& faces);
 
 }  // namespace aeroloom::domain

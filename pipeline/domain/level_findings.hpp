@@ -1,4 +1,4 @@
-/// What a level of sizes was based on: the lifting bodies of a model, as `check` tells of them.
+/// The lifting bodies from which a level took its sizes, for `aeroloom check`.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -15,18 +15,18 @@ namespace aeroloom::domain {
 
 /// A trailing edge. Lengths are in the model's unit.
 struct FoundTrailingEdge {
-  std::string faces;  ///< the strip of a blunt one, the faces that meet in a sharp one
+  std::string faces;  ///< the narrow face of a blunt edge; the two faces of a sharp edge
   bool is_blunt = false;
   double length = 0;
-  double width = 0;  ///< of the strip where it is widest; 0: sharp
+  double width = 0;  ///< largest width of the narrow face; 0: sharp
   double shortest_chord = 0, longest_chord = 0;
-  double smallest_size = 0;  ///< asked for along it
+  double smallest_size = 0;  ///< wanted along the edge
 };
 
 struct LevelFindings {
   double reference_chord = 0, semispan = 0;
-  double wall_size = 0;  ///< at most, on walls
-  double far_field = 0;  ///< how far it is from the middle, in semispans
+  double wall_size = 0;  ///< largest size on walls
+  double far_field = 0;  ///< distance from the centre, in semispans
   std::vector<FoundTrailingEdge> edges;
 };
 

@@ -70,7 +70,7 @@ public:
     return with_bounds(_request, sizing::level_bounds(_factory.model(), _bodies, sizes(level)));
   }
   /// The finest one up to that asked for which the budget holds. Counts of a family go with the cube of its
-  /// factors, so the coarsest tells where to look; what is found is counted itself.
+  /// factors, so the coarsest decides where to look; the level found is counted itself.
   Level finest_within(double budget) {
     const std::span<const Level> all = sizing::levels_like(*_request.level);
     const double coarsest = count(all.front());

@@ -1,4 +1,4 @@
-/// From a level that a case asks for to sizes.
+/// Turns the level of a case into sizes.
 #pragma once
 
 #include "pipeline/case/case.hpp"
@@ -8,13 +8,13 @@
 namespace aeroloom::domain {
 
 struct LevelRequest {
-  cases::SizingRequest request;  ///< with the level's bounds in place of the level; those given stay
-  sizing::Level level;           ///< the one asked for, or a coarser one that the budget holds
+  cases::SizingRequest request;  ///< without level: its bounds fill what the case leaves open
+  sizing::Level level;           ///< that of the case, or a coarser one within the budget
   LevelFindings found;
 };
 
-/// Makes the factory's fields ask for what the level does. Collective. Throws CollectiveError where the model
-/// has no lifting body, and where even the coarsest level takes more tetrahedra than the budget.
+/// Adds the sizes of the level to the fields of the factory. Collective. Throws CollectiveError if the model
+/// has no lifting body, or if even the coarsest level exceeds the budget.
 LevelRequest apply_level(sizing::FieldFactory& factory, const cases::SizingRequest& request);
 
 }  // namespace aeroloom::domain

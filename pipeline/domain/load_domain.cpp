@@ -2,14 +2,13 @@
 
 #include "cad/model/step_trace.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/communication/packer.hpp"
 #include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "parallel/sandbox/sandbox.hpp"
-#include "pipeline/domain/domain_bytes.hpp"
 #include "pipeline/domain/sandboxed_cad.hpp"
 
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <ios>
@@ -66,7 +65,7 @@ cad::Diagnosis unpack_diagnosis(std::span<const std::byte> bytes) {
 }
 
 /// The step at hand, for the message about a crash: a child prints it to standard error.
-void tell_step(const std::string& step) {
+void note_step(const std::string& step) {
   if (!parallel::is_sandbox_child()) return parallel::set_crash_note("stage geometry, " + step);
   fmt::print(stderr, "\n{}", step);
   std::fflush(stderr);
@@ -76,7 +75,7 @@ void tell_step(const std::string& step) {
 template <class Work>
 Bytes answer(std::span<const std::byte> input, Work work) {
   const auto [fault, options] = parallel::from_wire<std::tuple<Fault, DomainOptions>>(input);
-  cad::listen_to_steps(tell_step);
+  cad::listen_to_steps(note_step);
   Answer answer;
   try {
     parallel::inject_fault(fault);
@@ -174,6 +173,15 @@ Bytes run_task(const parallel::NamedTask& task, const DomainOptions& options, Fa
 
 }  // namespace
 
+Bytes pack_domain(const cad::Domain& domain) {
+  return parallel::to_wire(std::forward_as_tuple(domain.report, domain.model.serialise()));
+}
+
+cad::Domain unpack_domain(std::span<const std::byte> bytes) {
+  auto [report, model] = parallel::from_wire<std::tuple<cad::DomainReport, Bytes>>(bytes);
+  return {cad::Model::from_bytes(model), std::move(report)};
+}
+
 cad::Domain prepare_sandboxed(const DomainOptions& options) {
   return unpack_domain(run_task(prepare_task, options, parallel::requested_fault("domain").fault));
 }
@@ -188,8 +196,8 @@ cad::CadFacts look_sandboxed(const std::string& file) {
   return parallel::from_wire<cad::CadFacts>(run_task(look_task, options, Fault::none));
 }
 
-cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
-                       cad::DomainReport& report) {
+cad::Domain load_domain(const parallel::Communicator& communicator, const DomainOptions& options) {
+  cad::DomainReport report;
   Bytes bytes;
   parallel::on_root(communicator, [&] {
     cad::Domain domain = prepare_sandboxed(options);
@@ -197,10 +205,10 @@ cad::Model load_domain(const parallel::Communicator& communicator, const DomainO
     report = std::move(domain.report);
     bytes = domain.model.serialise();
   });
-  return share_model(communicator, std::move(bytes));
+  return {broadcast_model(communicator, std::move(bytes)), std::move(report)};
 }
 
-cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
+cad::Model broadcast_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
   communicator.broadcast(bytes);
   std::optional<cad::Model> model;
   parallel::collectively(communicator, parallel::ScopedCpu::As::repeated,

@@ -1,5 +1,5 @@
-/// CAD read in a sandboxed run: the CAD library may throw, crash, hang or exhaust memory on a damaged file
-/// without taking a rank down.
+/// Reads CAD in a child process. The CAD library may throw, crash, hang or exhaust memory there; the rank
+/// lives on.
 #pragma once
 
 #include "cad/domain/domain.hpp"
@@ -10,16 +10,16 @@
 
 namespace aeroloom::domain {
 
-/// Prepares the domain in a child of this rank. Not collective. Throws what cad::prepare_domain throws;
-/// cad::CadError saying what was being done when the CAD library crashed, hung or ran out of memory.
+/// Prepares the domain in a child of this rank. Not collective. Throws as cad::prepare_domain(), and
+/// cad::CadError with the current step if the library crashed, hung or ran out of memory.
 cad::Domain prepare_sandboxed(const cad::DomainOptions& options);
 
-/// Looks at the geometry in a child of this rank; as above, but a domain that cannot be made is part of the
-/// diagnosis. Not collective.
+/// Diagnoses the geometry in a child of this rank. A domain that cannot be made is part of the diagnosis. Not
+/// collective. Throws as prepare_sandboxed() otherwise.
 cad::Diagnosis diagnose_sandboxed(const cad::DomainOptions& options);
 
-/// Looks at a file in a child of this rank. Not collective. Throws what cad::look_at_cad_file throws, and as
-/// above.
+/// Inspects a file in a child of this rank. Not collective. Throws as cad::look_at_cad_file() and
+/// prepare_sandboxed().
 cad::CadFacts look_sandboxed(const std::string& file);
 
 }  // namespace aeroloom::domain

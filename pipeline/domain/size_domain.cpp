@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -31,7 +30,7 @@ constexpr double join_tolerance = 0.05;
 constexpr double missed_target = 1.25;
 /// Logarithm of what a key does to the count, from which on it is named: about the logarithm of
 /// missed_target.
-constexpr double telling_cost = 0.2;
+constexpr double least_named_cost = 0.2;
 /// Share of features over one, below which there are none to speak of.
 constexpr double some_features = 1.01;
 
@@ -88,15 +87,15 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
                    [&](const auto& a, const auto& b) { return weight(a) > weight(b); });
   std::string text;
   for (const sizing::BoundCost& cost : costs) {
-    if (weight(cost) < telling_cost) break;
+    if (weight(cost) < least_named_cost) break;
     text += (text.empty() ? "" : ", ") + text_of_cost(cost);
   }
   return text.empty() ? describe_all(costs) : text;
 }
 
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
-void tell_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
-                        const cases::SizingRequest& request, double target) {
+void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
+                           const cases::SizingRequest& request, double target) {
   const double ratio = chosen.counts.tetrahedra / chosen.features.ratio / target;
   if (ratio < missed_target && ratio > 1 / missed_target) return;
   const std::string costs = describe_costs(sizing::costs_of_given(factory, chosen, request));
@@ -121,7 +120,7 @@ struct Trial {
 };
 
 /// The sizes that trailing edges are judged by. Its functions refer to the factory.
-TrialSizes tell(sizing::FieldFactory& factory, const Trial& trial) {
+TrialSizes trial_sizes(sizing::FieldFactory& factory, const Trial& trial) {
   const sizing::SizingOptions options = trial.options();
   return {[=](double width) { return sizing::narrow_size(width, options) / width; }, options.minimum,
           [&factory, options](const std::vector<geometry::Vec3>& places) {
@@ -147,7 +146,7 @@ SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& re
   }
   const double target = *target_of(request);
   sizing::ChosenSizes chosen = sizing::choose_sizes(factory, target, *trial.preliminary, request, purpose);
-  tell_missed_target(factory, chosen, request, target);
+  warn_of_missed_target(factory, chosen, request, target);
   SizingFindings findings{std::move(joined), chosen.counts};
   if (!request.holds_features())
     findings.features = report_features(factory.sampled(), chosen.features, chosen.counts.tetrahedra);
@@ -198,7 +197,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
   // A level resolves trailing edges, however thin.
   const bool automatic = !asked.level && simplification.trailing_edges == cad::TrailingEdges::automatic;
-  // An estimate tells which faces are narrow; sizes are chosen for the model without them.
+  // An estimate decides which faces are narrow; sizes are chosen for the model without them.
   if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*factory, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);
   std::vector<sizing::TrailingEdge> edges;
@@ -211,7 +210,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
     }
   }
   const Trial trial = try_sizes(*factory, request, near);
-  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*factory, trial));
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, trial_sizes(*factory, trial));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
   if (closed && trial.preliminary) near = trial.preliminary->options;

@@ -1,4 +1,4 @@
-/// From a domain and what a case says about sizes to the model and the sizes of a run.
+/// Chooses sizes for a domain as the case asks, and simplifies the model for them.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -14,10 +14,10 @@
 
 namespace aeroloom::domain {
 
-/// Simplifications that a model may undergo so that it needs no small elements.
+/// Allowed changes to the model that avoid very small elements.
 struct Simplification {
   cases::NarrowFaces narrow_faces = cases::NarrowFaces::join;
-  cad::TrailingEdges trailing_edges = cad::TrailingEdges::keep;  ///< `sharpen` was done to the model before
+  cad::TrailingEdges trailing_edges = cad::TrailingEdges::keep;  ///< `sharpen` happens earlier, in the CAD
 
   static Simplification of(const cases::Case& input) {
     return {input.narrow_faces, input.domain.trailing_edges.treatment};
@@ -25,26 +25,23 @@ struct Simplification {
 };
 
 struct SizedDomain {
-  cad::Model model;  ///< trailing edges closed, then faces narrower than the smallest size joined with
-                     ///< neighbours, if wanted
+  cad::Model model;  ///< after closing trailing edges and joining narrow faces
   sizing::SizingOptions sizes;
   sizing::SizeField field;
   SizingFindings findings;
-  std::optional<sizing::Level> level = {};  ///< whose sizes these are
-  std::optional<LevelFindings> found = {};  ///< by that level
+  std::optional<sizing::Level> level = {};  ///< the level of these sizes
+  std::optional<LevelFindings> found = {};  ///< by the level
 };
 
-/// Resolves sizes, closes trailing edges that trial sizes do not resolve where that moves little, joins
-/// narrow faces, as the simplification allows, and builds the field. What the user did not
-/// ask for is chosen from the model; bounds that the user gave bind the choice. The same on every rank.
-/// Collective. Throws std::invalid_argument where what was asked for contradicts what was chosen.
-/// Field and counts may be rough where the purpose is a forecast.
+/// Chooses all sizes that the user left open, within the bounds that the user gave. Closes blunt trailing
+/// edges that trial sizes do not resolve if that moves little, joins narrow faces, and builds the size field.
+/// Field and counts may be approximate for a forecast. Equal on every rank. Collective. Throws
+/// std::invalid_argument for contradicting requests.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const cases::SizingRequest& request, const Simplification& simplification,
                         sizing::FieldFor purpose = sizing::FieldFor::mesh);
 
-/// Ends a run whose faces lie on one another: CollectiveError (input), with the faces. The same on every
-/// rank.
+/// Throws CollectiveError (input), with the faces, if faces lie on one another. Equal on every rank.
 void require_walls_apart(const SizedDomain& sized);
 
 }  // namespace aeroloom::domain

@@ -1,4 +1,4 @@
-/// Findings of the sizing stage, besides the sizes: what a run, its report, its checkpoint and `check` tell.
+/// Findings of the sizing stage besides the sizes. Report, checkpoint and `aeroloom check` contain them.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -17,20 +17,21 @@ namespace aeroloom::domain {
 
 /// Narrow faces that were joined with neighbours.
 struct JoinedFaces {
-  std::vector<std::vector<cad::FaceId>> groups;  ///< for cad::join_faces
-  cad::Changes changes;                          ///< one for each face that vanished
+  std::vector<std::vector<cad::FaceId>> groups;  ///< argument of cad::join_faces()
+  cad::Changes changes;                          ///< one for each face that was joined
 
   static constexpr auto fields() { return std::tuple(&JoinedFaces::groups, &JoinedFaces::changes); }
 };
 
-/// The same on every rank. A checkpoint of sizes has the fields in this order.
+/// Equal on every rank. Checkpoints have the fields in this order.
 struct SizingFindings {
   JoinedFaces joined;
-  sizing::PredictedCounts counts;              ///< that the size field predicts
-  std::optional<FeatureReport> features = {};  ///< where sizes at features were chosen
-  std::vector<NamedBound> bounded = {};        ///< faces on which the smallest size wins over curvature
-  TrailingEdgeReport edges = {};  ///< what becomes of blunt trailing edges, where that was looked at
-  WallFindings walls = {};        ///< what was found of walls close to each other
+  sizing::PredictedCounts counts;              ///< predicted from the size field
+  std::optional<FeatureReport> features = {};  ///< if sizes of features were chosen
+  std::vector<NamedBound> bounded =
+      {};                         ///< faces where the smallest size prevents the wanted curvature angle
+  TrailingEdgeReport edges = {};  ///< blunt trailing edges, if they were examined
+  WallFindings walls = {};        ///< walls close to each other
 
   static constexpr auto fields() {
     return std::tuple(&SizingFindings::joined, &SizingFindings::counts, &SizingFindings::features,

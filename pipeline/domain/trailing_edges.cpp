@@ -32,7 +32,7 @@ namespace {
 
 std::string borders_move(const JudgedEdge& edge) {
   return fmt::format("by {:.3g}, at most {:.2g} % of the local chord ({:.3g} where it is shortest)",
-                     moved(edge), 50 * edge.share, edge.chord);
+                     moved(edge), 50 * edge.width_over_chord, edge.chord);
 }
 
 std::string unresolved(const JudgedEdge& edge) {
@@ -53,34 +53,35 @@ void keep(JudgedEdge& edge) {
 
 /// Whether nowhere along the strip its borders would move by more than a part of the size there.
 bool moves_little(const cad::BluntEdge& strip, const TrialSizes& trial) {
-  if (0.5 * strip.widest <= closing_share_of_size * trial.minimum) return true;
+  if (0.5 * strip.widest <= closing_fraction_of_size * trial.minimum) return true;
   std::vector<geometry::Vec3> places;
   for (const cad::BluntStation& station : strip.stations) places.push_back(station.place);
   const std::vector<double> sizes = trial.sizes_without_strips(places);
   for (std::size_t i = 0; i < sizes.size(); ++i)
-    if (0.5 * strip.stations[i].width > closing_share_of_size * sizes[i]) return false;
+    if (0.5 * strip.stations[i].width > closing_fraction_of_size * sizes[i]) return false;
   return true;
 }
 
 void judge(JudgedEdge& edge, const cad::BluntEdge& strip, const TrialSizes& trial) {
   if (edge.aspect <= largest_kept_aspect) return keep(edge);
-  if (0.5 * edge.share > closing_share_of_chord) {
+  if (0.5 * edge.width_over_chord > closing_fraction_of_chord) {
     return grade(edge, fmt::format("closing it would move its borders {}, more than {:g} %",
-                                   borders_move(edge), 100 * closing_share_of_chord));
+                                   borders_move(edge), 100 * closing_fraction_of_chord));
   }
   if (!moves_little(strip, trial)) {
     return grade(edge, fmt::format("closing it would move its borders {}, more than {:g} of the local size",
-                                   borders_move(edge), closing_share_of_size));
+                                   borders_move(edge), closing_fraction_of_size));
   }
   edge.fate = EdgeFate::closed;
 }
 
-void tell_closed(JudgedEdge& edge, const cad::Change& change) {
+void describe_closure(JudgedEdge& edge, const cad::Change& change) {
   edge.what = fmt::format(
       "{}: {}. Its borders move {}. A blunt end of {:.2g} % of the chord has a base drag of about "
       "{:.1g} drag counts (Hoerner), which the mesh will not show; geometry.trailing_edges: keep leaves it "
       "blunt",
-      change.what, unresolved(edge), borders_move(edge), 100 * edge.share, base_drag_counts(edge.share));
+      change.what, unresolved(edge), borders_move(edge), 100 * edge.width_over_chord,
+      base_drag_counts(edge.width_over_chord));
 }
 
 JudgedEdge* find(TrailingEdgeReport& report, cad::FaceId face) {
@@ -96,7 +97,7 @@ namespace {
 /// Of elements along the strip at its narrowest. One that ends in a point and is nowhere wider than corners
 /// are closed by asks for nothing (sizing/field/closed_corners.hpp).
 double aspect_along(const cad::BluntEdge& strip, const TrialSizes& trial) {
-  if (!(strip.narrowest > 0)) return 1 / closing_share_of_chord;
+  if (!(strip.narrowest > 0)) return 1 / closing_fraction_of_chord;
   const bool is_pointed = strip.ends[0].empty() || strip.ends[1].empty();
   sizing::SizingOptions options;
   options.minimum = trial.minimum;
@@ -133,7 +134,7 @@ std::optional<cad::Model> close_trailing_edges(const cad::Model& domain,
   if (strips.empty()) return std::nullopt;
   cad::ClosedStrips result = cad::close_strips(domain, std::move(strips));
   for (const cad::BluntEdge& strip : result.closed)
-    tell_closed(*find(report, strip.face), cad::describe_closed(domain, strip));
+    describe_closure(*find(report, strip.face), cad::describe_closed(domain, strip));
   for (const auto& [strip, reason] : result.left)
     grade(*find(report, strip.face), fmt::format("it cannot be closed: {}", reason));
   if (result.closed.empty()) return std::nullopt;

@@ -14,43 +14,45 @@ namespace {
 
 constexpr std::size_t shown_strips = 5;  // in a line of the log; the report has all
 /// Triangles that are longer than wide by less have angles above the 28 degrees that improvement aims at.
-constexpr double telling_aspect = 1.9;
+constexpr double least_listed_aspect = 1.9;
 
 }  // namespace
 
-FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureResolution& share,
-                              double tetrahedra) {
-  FeatureReport report{share, tetrahedra, {}};
-  if (!share.limited || share.aspect < telling_aspect) return report;
-  const double widest = share.minimum / telling_aspect;
-  for (const sizing::NarrowRegion& strip : sizing::narrow_regions_below(sampled, widest, share.minimum)) {
+FeatureReport report_features(const sizing::SampledModel& sampled,
+                              const sizing::FeatureResolution& resolution, double tetrahedra) {
+  FeatureReport report{resolution, tetrahedra, {}};
+  if (!resolution.limited || resolution.aspect < least_listed_aspect) return report;
+  const double widest = resolution.minimum / least_listed_aspect;
+  for (const sizing::NarrowRegion& strip :
+       sizing::narrow_regions_below(sampled, widest, resolution.minimum)) {
     report.strips.push_back({sampled.model().face(strip.face).name, strip.width, strip.place,
-                             std::atan(1 / share.aspect_at(strip.width)) * 180 / std::numbers::pi});
+                             std::atan(1 / resolution.aspect_at(strip.width)) * 180 / std::numbers::pi});
   }
   return report;
 }
 
 double FeatureReport::wanted_tetrahedra() const {
   if (strips.empty()) return tetrahedra;
-  return tetrahedra * share.gap_ratio * share.resolved_ratio / share.ratio;
+  return tetrahedra * resolution.gap_ratio * resolution.resolved_ratio / resolution.ratio;
 }
 
-std::string describe_share(const FeatureReport& report) {
-  constexpr double telling = 1.25;  // less is what a forecast may be off by
-  if (report.share.ratio < telling) return {};
+std::string describe_added(const FeatureReport& report) {
+  constexpr double least_logged_ratio = 1.25;  // less is what a forecast may be off by
+  if (report.resolution.ratio < least_logged_ratio) return {};
   return fmt::format(
       "features finer than the smallest size make it {:.2g} times as many: about {:.2g} "
       "tetrahedra (sizing.feature_budget, sizing.feature_minimum bound them)",
-      report.share.ratio, report.tetrahedra);
+      report.resolution.ratio, report.tetrahedra);
 }
 
 std::string describe(const FeatureReport& report) {
   if (report.strips.empty()) return {};
-  const std::string longer = report.share.aspect == sizing::no_aspect
-                                 ? fmt::format("{:.3g} long", report.share.minimum)
-                                 : fmt::format("{:.2g} times as long as wide", report.share.aspect);
+  const std::string longer = report.resolution.aspect == sizing::no_aspect
+                                 ? fmt::format("{:.3g} long", report.resolution.minimum)
+                                 : fmt::format("{:.2g} times as long as wide", report.resolution.aspect);
   std::string text = fmt::format(
-      "{} face(s) have strips that {:.3g} tetrahedra do not resolve: triangles along them are {}; resolved, "
+      "{} face(s) have narrow regions that {:.3g} tetrahedra do not resolve: triangles along them are {}; "
+      "resolved, "
       "they would take about {:.2g}:",
       report.strips.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
   for (std::size_t i = 0; i < std::min(shown_strips, report.strips.size()); ++i) {

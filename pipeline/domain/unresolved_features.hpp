@@ -1,4 +1,4 @@
-/// Features that are finer than the elements which the budget has for them.
+/// Reports features that are finer than the elements that the budget allows.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -14,12 +14,12 @@ class SampledModel;
 
 namespace aeroloom::domain {
 
-/// A strip of a face across which elements are shorter than along it.
+/// A narrow region of a face where elements are longer than the region is wide.
 struct UnresolvedStrip {
   std::string face;
-  double width;            ///< at the narrowest place, in the model's unit
-  geometry::Vec3 place;    ///< there
-  double surface_degrees;  ///< the angle of triangles to expect: one side is the width, one the floor
+  double width;            ///< smallest, in the model's unit
+  geometry::Vec3 place;    ///< of the smallest width
+  double surface_degrees;  ///< smallest angle to expect in a triangle across the region
 
   static constexpr auto fields() {
     return std::tuple(&UnresolvedStrip::face, &UnresolvedStrip::width, &UnresolvedStrip::place,
@@ -27,29 +27,27 @@ struct UnresolvedStrip {
   }
 };
 
-/// Features finer than the smallest size, and how far they are resolved, where sizes were chosen from the
-/// model.
+/// Features finer than the smallest size and their resolution, if sizes were chosen from the model.
 struct FeatureReport {
-  sizing::FeatureResolution share;
-  double tetrahedra = 0;                ///< predicted in all
-  std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty where everything is resolved
+  sizing::FeatureResolution resolution;
+  double tetrahedra = 0;                ///< predicted total
+  std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty if all are resolved
 
   static constexpr auto fields() {
-    return std::tuple(&FeatureReport::share, &FeatureReport::tetrahedra, &FeatureReport::strips);
+    return std::tuple(&FeatureReport::resolution, &FeatureReport::tetrahedra, &FeatureReport::strips);
   }
-  /// Predicted tetrahedra with every strip resolved; about that.
+  /// Approximate prediction with all narrow regions resolved.
   double wanted_tetrahedra() const;
 };
 
-/// Lists the strips. Collective.
-FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureResolution& share,
-                              double tetrahedra);
+/// Lists unresolved narrow regions. Collective.
+FeatureReport report_features(const sizing::SampledModel& sampled,
+                              const sizing::FeatureResolution& resolution, double tetrahedra);
 
-/// The message about unresolved features: what they would take, what to expect, and the remedies; empty where
-/// there are none.
+/// A message about unresolved features: their cost, their effect, and remedies. Empty if there are none.
 std::string describe(const FeatureReport& report);
 
-/// The message about what features finer than the smallest size add to the count; empty where it is little.
-std::string describe_share(const FeatureReport& report);
+/// A message about the elements that fine features add. Empty if they are few.
+std::string describe_added(const FeatureReport& report);
 
 }  // namespace aeroloom::domain

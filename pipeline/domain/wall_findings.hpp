@@ -1,4 +1,4 @@
-/// Findings of the sizing stage about walls that are close to each other.
+/// Findings of the sizing stage about walls close to each other.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -19,20 +19,20 @@ namespace aeroloom::domain {
 /// A face on which the search for gaps ended early.
 struct UnseenWalls {
   std::string face;
-  geometry::Vec3 place;  ///< middle of the largest part that was not looked at
-  double size;           ///< of that part
+  geometry::Vec3 place;  ///< centre of the largest region not searched
+  double size;           ///< of that region
 
   static constexpr auto fields() {
     return std::tuple(&UnseenWalls::face, &UnseenWalls::place, &UnseenWalls::size);
   }
 };
 
-/// Two faces that lie on one another where elements are so large that they cannot tell them apart.
+/// Two faces that lie on one another, closer than elements can separate.
 struct FacesOnOneAnother {
   std::string first, second;
-  double area;           ///< over which they do, about
-  geometry::Vec3 place;  ///< there
-  double apart;          ///< at most
+  double area;           ///< approximate common area
+  geometry::Vec3 place;  ///< in the common area
+  double apart;          ///< largest distance
 
   static constexpr auto fields() {
     return std::tuple(&FacesOnOneAnother::first, &FacesOnOneAnother::second, &FacesOnOneAnother::area,
@@ -42,19 +42,19 @@ struct FacesOnOneAnother {
 
 struct WallFindings {
   std::vector<UnseenWalls> unseen;
-  std::vector<FacesOnOneAnother> coincident;  ///< by area, the largest first
+  std::vector<FacesOnOneAnother> coincident;  ///< largest areas first
 
   static constexpr auto fields() { return std::tuple(&WallFindings::unseen, &WallFindings::coincident); }
 };
 
-/// By name; of the coincident faces those that the field does not tell apart. `model` is the one in which
-/// they were found, `factory` that of the model to mesh.
+/// Converts findings to names. Keeps only coincident faces that the field does not separate. `model`: where
+/// the faces were found; `factory`: of the model to mesh.
 WallFindings report_walls(const cad::Model& model, const std::vector<sizing::CoincidentFaces>& coincident,
                           const sizing::FieldFactory& factory, const sizing::SizeField& field);
 
-/// Where the search for gaps ended early; empty where it did not.
+/// A message about searches that ended early; may be empty.
 std::string describe(const std::vector<UnseenWalls>& unseen);
-/// Why there can be no mesh, with the remedy; empty where nothing is in the way.
+/// Explains why no mesh can be made, with a remedy; may be empty.
 std::string describe(const std::vector<FacesOnOneAnother>& coincident);
 
 }  // namespace aeroloom::domain

@@ -1,4 +1,4 @@
-/// Points and changes of the geometry as the project's JSON files have them.
+/// Points and CAD changes as JSON.
 #pragma once
 
 #include "cad/model/evaluation/face_place.hpp"
@@ -16,7 +16,7 @@ inline nlohmann::ordered_json to_json(const geometry::Box& box) {
   return nlohmann::ordered_json::array({to_json(box.low), to_json(box.high)});
 }
 
-/// The beginning of a row that tells of a face.
+/// The first members of a JSON object about a face.
 inline nlohmann::ordered_json face_row(const std::string& name, const cad::FacePlace& place) {
   return {
       {"name", name}, {"area", place.area}, {"centre", to_json(place.centre)}, {"box", to_json(place.box)}};

@@ -1,4 +1,4 @@
-/// How the program ends.
+/// Exit codes of the program.
 #pragma once
 
 #include "pipeline/case/option_keys.hpp"
@@ -8,7 +8,7 @@
 
 namespace aeroloom::report {
 
-/// Exit codes of the program; part of its interface (docs/usage.md).
+/// Exit codes; part of the program's interface (docs/usage.md).
 enum class ExitCode {
   ok = 0,
   usage = 2,  ///< command line or configuration
@@ -16,12 +16,12 @@ enum class ExitCode {
   surface = 4,
   volume = 5,
   quality_gate = 6,
-  files = 7,  ///< reading or writing
+  files = 7,  ///< files could not be read or written
   resources = 8,
   bug = 70,
 };
 
-/// A stage failed: the same message and code on every rank. Options are named by their keys.
+/// A stage failed. Message and code are equal on every rank. The message names options by their keys.
 class StageFailure : public std::runtime_error {
 public:
   StageFailure(std::string stage, ExitCode code, const std::string& message)

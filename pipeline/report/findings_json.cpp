@@ -13,7 +13,7 @@ nlohmann::ordered_json to_json(const std::vector<domain::NamedBound>& faces) {
     json.push_back({{"face", each.face},
                     {"fraction", each.fraction},
                     {"degrees", each.degrees},
-                    {"share_of_body", each.share_of_body}});
+                    {"share_of_body", each.body_fraction}});
   return json;
 }
 
@@ -28,7 +28,7 @@ nlohmann::ordered_json to_json(const domain::TrailingEdgeReport& report) {
                      {"narrowest", edge.narrowest},
                      {"widest", edge.widest},
                      {"chord", edge.chord},
-                     {"width_over_chord", edge.share},
+                     {"width_over_chord", edge.width_over_chord},
                      {"aspect", edge.aspect},
                      {"moved", edge.fate == domain::EdgeFate::closed ? domain::moved(edge) : 0.0}});
   }
@@ -43,17 +43,17 @@ nlohmann::ordered_json to_json(const domain::FeatureReport& report) {
                       {"at", to_json(strip.place)},
                       {"surface_degrees", strip.surface_degrees}});
   }
-  const bool nothing = report.share.aspect == sizing::no_aspect;
-  double smallest = nothing ? report.share.minimum : report.share.floor;
+  const bool nothing = report.resolution.aspect == sizing::no_aspect;
+  double smallest = nothing ? report.resolution.minimum : report.resolution.floor;
   if (!strips.empty()) {
     const double width = report.strips.front().width;
-    smallest = width * report.share.aspect_at(width);
+    smallest = width * report.resolution.aspect_at(width);
   }
-  return {{"aspect", nothing ? nlohmann::ordered_json() : nlohmann::ordered_json(report.share.aspect)},
+  return {{"aspect", nothing ? nlohmann::ordered_json() : nlohmann::ordered_json(report.resolution.aspect)},
           {"smallest_size", smallest},
-          {"share", report.share.ratio},
-          {"smallest_gap_size", report.share.gap_floor},
-          {"gap_share", report.share.gap_ratio},
+          {"share", report.resolution.ratio},
+          {"smallest_gap_size", report.resolution.gap_floor},
+          {"gap_share", report.resolution.gap_ratio},
           {"predicted_tetrahedra", report.tetrahedra},
           {"wanted_tetrahedra", report.wanted_tetrahedra()},
           {"unresolved", std::move(strips)}};

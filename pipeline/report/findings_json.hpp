@@ -1,4 +1,4 @@
-/// Findings made while sizes were chosen, as report.json and the answer of `aeroloom check` have it.
+/// Findings of the sizing stage as JSON, for report.json and check.json.
 #pragma once
 
 #include "pipeline/domain/bounded_faces.hpp"

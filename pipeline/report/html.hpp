@@ -1,5 +1,5 @@
-/// report.html: one page that needs nothing but itself. It is a function of report.json and the pictures, so
-/// that the two can never say different things, and that the page of any report can be made again.
+/// Writes report.html, one self-contained page. It is a function of report.json and the pictures, so the two
+/// always agree, and the page of an old report can be made again.
 #pragma once
 
 #include "pipeline/report/picture.hpp"
@@ -9,9 +9,9 @@
 
 namespace aeroloom::report {
 
-/// The page; `json` is the text of report.json. It makes no request, runs no script and is below 5 MB:
-/// pictures that do not fit are named, and long tables end where they say that more is in report.json.
-/// Throws nlohmann::json::exception for what is no JSON.
+/// The page; `json` is the text of report.json. The page loads nothing, runs no script and stays below 5 MB:
+/// pictures that do not fit are only named, long tables end with a reference to report.json. Throws
+/// nlohmann::json::exception if `json` is no JSON.
 std::string report_html(const std::string& json, const std::vector<Picture>& pictures);
 
 }  // namespace aeroloom::report

@@ -1,7 +1,6 @@
 #include "pipeline/report/html_sections.hpp"
 #include "pipeline/report/page/html_table.hpp"
 
-#include <cmath>
 #include <map>
 
 #include <fmt/format.h>

@@ -73,7 +73,8 @@ std::string below_target(const Json& report) {
       fmt::format("<li>{} {} below the target of {}:", badge(rest > 0 ? "fair" : "good", "target"),
                   counted(pinned + features + held + rest, "tetrahedron is", "tetrahedra are"), target);
   if (pinned > 0) text += fmt::format(" {} forced by sharp angles of the CAD;", count(pinned));
-  if (features > 0) text += fmt::format(" {} at strips or gaps finer than the elements;", count(features));
+  if (features > 0)
+    text += fmt::format(" {} at narrow regions or gaps finer than the elements;", count(features));
   if (held > 0)
     text += fmt::format(" {} on a surface or on layers that were to stay as they are;", count(held));
   text += rest > 0 ? fmt::format(" {} that no sharp angle, strip or gap of the CAD explains.", count(rest))

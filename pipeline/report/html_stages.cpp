@@ -16,9 +16,9 @@ bool was_resumed(const Json& report, const std::string& stage) {
 
 /// The busiest rank over the mean. Below a hundredth of a second the clock's steps rule it.
 std::string imbalance(const Json& stage) {
-  constexpr double least_told = 0.01;
+  constexpr double least_shown = 0.01;
   const double mean = number(find(stage, "/cpu_seconds_mean"));
-  return mean < least_told ? "–" : fmt::format("{:.2f}", number(find(stage, "/cpu_seconds_max")) / mean);
+  return mean < least_shown ? "–" : fmt::format("{:.2f}", number(find(stage, "/cpu_seconds_max")) / mean);
 }
 
 /// Bytes of messages of all kinds.

@@ -1,4 +1,4 @@
-/// The versions of the libraries that the program is made of.
+/// Versions of the program and its libraries.
 #pragma once
 
 #include <string>
@@ -10,11 +10,10 @@ namespace aeroloom::report {
 /// The version of the program: "0.2.0".
 std::string program_version();
 
-/// Names and versions of the libraries, of those that are loaded where they can be asked, otherwise of those
-/// compiled against.
+/// Names and versions of the libraries: of the loaded library if it can be asked, else of the headers.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
-/// All of it with the licence, as `aeroloom --version` prints it.
+/// Versions and licence, as printed by `aeroloom --version`.
 std::string version_text();
 
 }  // namespace aeroloom::report

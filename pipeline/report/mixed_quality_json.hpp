@@ -1,4 +1,4 @@
-/// The quality of a mesh of several shapes as the project's JSON files have it (docs/quality.md).
+/// The quality of a mesh of several cell shapes as JSON (docs/quality.md).
 #pragma once
 
 #include "mesh/quality/mixed_quality.hpp"
@@ -7,7 +7,7 @@
 
 namespace aeroloom::report {
 
-/// By shape and measure, and the worst cells by measure; shapes that there are none of are left out.
+/// By shape and measure, with the worst cells of each measure. Shapes without cells are left out.
 nlohmann::ordered_json to_json(const mesh::MixedQuality& quality);
 
 }  // namespace aeroloom::report

@@ -1,4 +1,4 @@
-/// The quality of a mesh of several shapes for people to read.
+/// The quality of a mesh of several cell shapes as text.
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -8,8 +8,8 @@
 
 namespace aeroloom::report {
 
-/// Tables of counts by region and patch, of minima, percentiles and means by shape and measure, histograms
-/// with bars, the worst cells by measure; lines of 120 characters at most, but for long names.
+/// Tables by region and patch; minima, percentiles and means by shape and measure; histograms; worst cells.
+/// Lines have at most 120 characters, except for long names.
 std::string quality_text(const io::FileMesh& mesh, const mesh::MixedQuality& quality);
 
 }  // namespace aeroloom::report

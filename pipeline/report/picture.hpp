@@ -7,15 +7,15 @@
 
 namespace aeroloom::report {
 
-/// A colour of a picture and what it stands for.
+/// A colour in a picture and its meaning.
 struct LegendItem {
   std::string name;
-  std::string colour;  ///< as HTML writes it: "#rrggbb"
+  std::string colour;  ///< as in HTML: "#rrggbb"
 };
 
 struct Picture {
-  std::string name;     ///< of a file without its extension: letters, digits, underscores
-  std::string caption;  ///< what is to be seen, a sentence
+  std::string name;     ///< file name without extension: letters, digits, underscores
+  std::string caption;  ///< one sentence
   int width = 0, height = 0;
   std::vector<std::uint8_t> png{};
   std::vector<LegendItem> legend{};

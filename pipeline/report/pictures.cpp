@@ -24,7 +24,6 @@ namespace {
 
 using geometry::Box;
 using geometry::Vec3;
-using parallel::Communicator;
 using picture::Camera;
 using picture::Canvas;
 using picture::Colour;
@@ -53,7 +52,6 @@ constexpr double no_extent = 1e-300;  // in place of nothing, to divide by
 
 /// The subject of all pictures of a mesh, found once.
 struct Subject {
-  const Communicator& communicator;
   const PictureSource& source;
   Scene scene;
   picture::EdgeNeighbours neighbours;
@@ -82,8 +80,8 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
   }
 }
 
-Subject find_subject(const Communicator& communicator, const PictureSource& source) {
-  Subject subject{communicator, source, picture::find_scene(source.surface, source.types), {}, {}, {}};
+Subject find_subject(const PictureSource& source) {
+  Subject subject{source, picture::find_scene(source.surface, source.types), {}, {}, {}};
   subject.neighbours = picture::find_edge_neighbours(source.surface, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
@@ -91,7 +89,6 @@ Subject find_subject(const Communicator& communicator, const PictureSource& sour
 
 /// Collective.
 std::vector<LegendItem> legend_of_cuts(const mesh::DistributedMesh& volume) {
-  const Communicator& communicator = volume.communicator;
   std::vector<LegendItem> legend;
   legend.reserve(picture::angle_classes.size());
   for (const picture::AngleClass& each : picture::angle_classes) {
@@ -99,15 +96,16 @@ std::vector<LegendItem> legend_of_cuts(const mesh::DistributedMesh& volume) {
   }
   const bool layered = std::any_of(volume.pieces.begin(), volume.pieces.end(),
                                    [](const mesh::Piece& piece) { return !piece.layers.empty(); });
-  if (communicator.maximum(std::int64_t{layered}) > 0)
+  if (volume.communicator.maximum(std::int64_t{layered}) > 0)
     legend.push_back({"boundary layers", html_name(picture::layer_green)});
   return legend;
 }
 
 /// `draw` puts on a canvas what this rank has, `draw_alike` what is the same on all. Collective; all ranks
 /// learn of what is thrown on one by `draw`.
-Picture painted(const Communicator& communicator, Picture picture, const std::function<void(Canvas&)>& draw,
+Picture painted(const Subject& subject, Picture picture, const std::function<void(Canvas&)>& draw,
                 const std::function<void(Canvas&)>& draw_alike = nullptr) {
+  const parallel::Communicator& communicator = subject.source.surface.communicator;
   std::optional<Canvas> canvas;
   parallel::agree(communicator, [&] { draw(canvas.emplace(picture.width, picture.height)); });
   const picture::Image image =
@@ -126,7 +124,7 @@ Box seen_from(const Subject& subject, const Viewpoint& view) {
       for (int k = 0; k < 3; ++k) mine.add(in_view(view, pieces[p].point(pieces[p].cell(t)[k])));
     }
   }
-  return mesh::box_over_ranks(subject.communicator, mine);
+  return mesh::box_over_ranks(subject.source.surface.communicator, mine);
 }
 
 /// A height that suits what is to be seen.
@@ -153,7 +151,7 @@ Picture body_picture(const Subject& subject) {
   const int height = height_for(seen, least_height_of_body, most_height);
   const Camera camera = picture::frame(view, seen, {0, 0, width, height}, margin);
   const std::string what = subject.scene.has_body ? "The body in the flow" : "The walls, seen from inside";
-  return painted(subject.communicator,
+  return painted(subject,
                  {.name = "body",
                   .caption = what + ", by patch.",
                   .width = width,
@@ -191,7 +189,7 @@ Picture views_picture(const Subject& subject) {
                                           {0, upper, left, lower},
                                           {left, upper, width - left, lower}}};
   return painted(
-      subject.communicator,
+      subject,
       {.name = "views",
        .caption =
            "From above, from the side and from the front to one scale; upper right: from behind and below.",
@@ -233,7 +231,7 @@ Picture close_up_picture(const Subject& subject, const Place& place, Vec3 from, 
   const Vec3 inwards = dot(place.normal, view.towards) * view.towards - place.normal;
   const Camera camera = picture::close_up(view, place.point + 0.25 * across * inwards, across,
                                           {0, 0, detail_width, detail_height});
-  return painted(subject.communicator,
+  return painted(subject,
                  {.name = std::move(name),
                   .caption = fmt::format("The triangles at {}, around {}; the picture is {} wide.", what,
                                          point_text(place.point), width_text(subject, across)),
@@ -301,7 +299,7 @@ Picture painted_cut(const Subject& subject, const mesh::DistributedMesh& volume,
                     const Camera& camera, std::string name, std::string caption) {
   if (subject.scene.has_body) caption += " The body is grey.";
   return painted(
-      subject.communicator,
+      subject,
       {.name = std::move(name),
        .caption = std::move(caption),
        .width = camera.window.width,
@@ -354,10 +352,9 @@ Picture leading_edge_cut_picture(const Subject& subject, const mesh::Distributed
                   place.upstream ? "the leading edge" : "the sharpest place", width_text(subject, across)));
 }
 
-std::vector<Picture> make_all(const Communicator& communicator, const PictureSource& source,
-                              const mesh::DistributedMesh* volume) {
-  const Subject subject = find_subject(communicator, source);
-  const auto& surface = source.surface;
+std::vector<Picture> make_all(const PictureSource& source, const mesh::DistributedMesh* volume) {
+  const Subject subject = find_subject(source);
+  const mesh::NumberedMesh& surface = source.surface;
   const std::optional<Place> edge = find_leading_edge(surface, subject.neighbours, subject.scene);
   const std::optional<Place> junction = find_junction(surface, subject.neighbours, subject.scene);
   std::vector<Picture> pictures{body_picture(subject), views_picture(subject)};
@@ -365,24 +362,24 @@ std::vector<Picture> make_all(const Communicator& communicator, const PictureSou
   if (junction) pictures.push_back(junction_picture(subject, *junction));
   if (volume != nullptr) pictures.push_back(cut_picture(subject, *volume));
   if (volume != nullptr && edge) pictures.push_back(leading_edge_cut_picture(subject, *volume, *edge));
-  if (!communicator.is_root()) pictures.clear();
+  if (!surface.communicator.is_root()) pictures.clear();
   return pictures;
 }
 
 }  // namespace
 
-std::vector<Picture> pictures_or_warning(const Communicator& communicator,
-                                         const mesh::DistributedMesh* volume, const PictureSource& source) {
+std::vector<Picture> pictures_or_warning(const PictureSource& source, const mesh::DistributedMesh* volume) {
   std::string problem;
   try {
-    return make_all(communicator, source, volume);
+    return make_all(source, volume);
   } catch (const std::bad_alloc&) {
     parallel::give_up_without_memory();  // not agreed on: the others wait for this rank
     problem = parallel::out_of_memory_text();
   } catch (const std::exception& error) {
     problem = error.what();
   }
-  if (communicator.is_root()) parallel::log_warning(fmt::format("the report has no pictures: {}", problem));
+  if (source.surface.communicator.is_root())
+    parallel::log_warning(fmt::format("the report has no pictures: {}", problem));
   return {};
 }
 

@@ -1,5 +1,5 @@
-/// The report of a run: report.json for machines, report.html for people, both from one record. Keys:
-/// docs/report.md; how to read it: docs/reading_the_report.md.
+/// Writes the report of a run: report.json for programs, report.html for people. Keys: docs/report.md; guide:
+/// docs/reading_the_report.md.
 #pragma once
 
 #include "pipeline/report/report_json.hpp"
@@ -10,14 +10,14 @@
 
 namespace aeroloom::report {
 
-/// Writes report.json and report.html to the output directory, and tasks.csv where the case asks for it, each
-/// in one piece or not at all. `subject` is what was run and how it ended. Returns the table for the terminal
-/// on rank 0. Collective; throws CollectiveError when a file cannot be written.
+/// Writes report.json, report.html and, if the case asks for it, tasks.csv to the output directory. An
+/// incomplete file never replaces an old one. Returns the table for the terminal on rank 0. Collective;
+/// throws CollectiveError if a file cannot be written.
 std::string write_report(const parallel::Communicator& communicator, const cases::Case& input,
                          const RunRecord& record, const RunOutcome& outcome, const ReportSubject& subject);
 
-/// report.json of a run that was asked to end: its case and what became of it, nothing that ranks would have
-/// to agree on. On rank 0, on any thread. Throws std::ios_base::failure.
+/// Writes report.json of a terminated run: the case and how it ended, without communication. Called on rank
+/// 0, by any thread. Throws std::ios_base::failure.
 void write_last_report(const cases::Case& input, const RunOutcome& outcome, const ReportSubject& subject,
                        int ranks);
 

@@ -1,4 +1,4 @@
-/// report.json. Keys: docs/report.md, docs/report.schema.json.
+/// Writes report.json. Keys: docs/report.md, docs/report.schema.json.
 #pragma once
 
 #include "parallel/observation/warnings.hpp"
@@ -11,21 +11,21 @@
 
 namespace aeroloom::report {
 
-/// How a run ended, for the report.
+/// How a run ended.
 struct RunOutcome {
   ExitCode code = ExitCode::ok;
-  std::string stage;                          ///< that failed; empty when none did
+  std::string stage;                          ///< the failed stage; empty if none failed
   std::string message;                        ///< of the failure
-  std::vector<std::string> older_files = {};  ///< of meshes in the output directory, not of this run
+  std::vector<std::string> older_files = {};  ///< mesh files in the output directory from other runs
 };
 
-/// The case and the file that were run.
+/// The file that was run.
 struct ReportSubject {
-  std::string case_file;      ///< as it was named; empty: none
-  std::string improved_file;  ///< a mesh, of the command improve; else empty
+  std::string case_file;      ///< the case file as named by the user; empty: none
+  std::string improved_file;  ///< the mesh of the command improve; else empty
 };
 
-/// Facts that a report tells besides the case and the record.
+/// Facts for the report besides the case and the record.
 struct ReportFacts {
   RunOutcome outcome;
   ReportSubject subject;
@@ -33,10 +33,10 @@ struct ReportFacts {
   std::vector<parallel::StageSummary> stages;  ///< over all ranks
   parallel::Warnings warnings;                 ///< of all ranks
   std::string date;                            ///< ISO 8601
-  std::string tasks = {};                      ///< of all ranks, as task_table() has them
+  std::string tasks = {};                      ///< of all ranks, as task_table() returns them
 };
 
-/// The report as JSON text, UTF-8 whatever bytes names are made of. Rank 0 calls it.
+/// The report as JSON, valid UTF-8 whatever names contain. Called on rank 0.
 std::string report_json(const cases::Case& input, const RunRecord& record, const ReportFacts& facts);
 
 }  // namespace aeroloom::report

@@ -9,7 +9,6 @@
 #include "mesh/checks/validity.hpp"
 #include "mesh/quality/mixed_quality.hpp"
 #include "mesh/quality/quality.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
 #include "pipeline/domain/sizing_findings.hpp"
 #include "pipeline/report/picture.hpp"
@@ -36,7 +35,7 @@ struct PatchRow {
 /// A CAD face of the finished mesh.
 struct FaceRow {
   std::string name;
-  std::int32_t number = -1;  ///< in its file; -1 of what the program made
+  std::int32_t number = -1;  ///< in the CAD file; -1: made by the program
   std::string patch;
   double area = 0;      ///< of the triangles, in the square of the model's unit
   double cad_area = 0;  ///< of the CAD face
@@ -48,23 +47,40 @@ struct RegionRow {
   std::string name;
   double volume = 0;
   std::int64_t tetrahedra = 0;
-  double cad_volume = 0;      ///< of the CAD's region; 0 where there is no CAD
-  bool in_far_field = false;  ///< bounded by a far field, which is as coarse as it likes
+  double cad_volume = 0;      ///< of the CAD region; 0 without CAD
+  bool in_far_field = false;  ///< bounded by a far field; its volume is not judged
 };
 
-/// The layers that were asked for, and what became of them; both by patch of the mesh.
+/// The layers asked for and the layers made, both by patch of the mesh.
 struct LayerRecord {
   layers::LayerOptions asked;
   layers::LayerReport report;
 };
 
-/// Everything a run has found out: each stage puts its findings there, and the report is written from it. No
-/// stage takes from it what another has put there. The same on every rank except `domain` and `pictures`,
-/// which rank 0 alone holds.
-struct RunRecord {
-  std::string input_hash;  ///< 128 bits, of the bytes of the geometry file or of the built-in's dimensions
-  std::int64_t input_bytes = 0;      ///< of that file
-  std::vector<std::string> resumed;  ///< stages whose results came from an earlier run
+/// The results of checking a finished surface mesh.
+struct SurfaceFigures {
+  std::optional<mesh::QualitySummary> surface_quality;
+  std::vector<FaceRow> face_table;  ///< by face id; empty for a mesh from a file
+  std::vector<PatchRow> patches;
+};
+
+/// The results of checking a finished volume mesh.
+struct VolumeFigures {
+  mesh::MeshCounts counts;
+  double mesh_volume = 0;
+  std::string hash;
+  std::optional<mesh::QualitySummary> quality;
+  std::optional<mesh::MixedQuality> cells;  ///< if the gate has limits on further measures
+  attribution::PinnedReport pinned;
+  std::vector<RegionRow> regions_filled;
+};
+
+/// The facts of a run, from which its report is written. The driver copies the results of each stage into the
+/// record and never reads it. Equal on every rank, but only rank 0 has `domain` and `pictures`.
+struct RunRecord : SurfaceFigures, VolumeFigures {
+  std::string input_hash;        ///< 128 bits, of the geometry file or of the built-in geometry's dimensions
+  std::int64_t input_bytes = 0;  ///< of that file
+  std::vector<std::string> resumed;  ///< stages whose results come from an earlier run
   cad::DomainReport domain;
   std::string unit;
   double unit_in_metres = 0;
@@ -75,23 +91,14 @@ struct RunRecord {
   domain::SizingFindings findings;
   std::int64_t size_field_leaves = 0;
   surface::SurfaceReport surface;
-  std::optional<LayerRecord> layers;  ///< where the case asks for some
+  std::optional<LayerRecord> layers;  ///< if the case asks for layers
   volume::DecompositionReport decomposition;
   volume::VolumeReport volume;
   attribution::SizeConformity conformity;
   improve::ImproveReport improve;
-  attribution::PinnedReport pinned;
-  mesh::MeshCounts counts;
-  double mesh_volume = 0;
-  std::string hash;
-  std::optional<mesh::QualitySummary> surface_quality, quality;
-  std::optional<mesh::MixedQuality> cells;  ///< where the gate asks for what only this has
-  std::vector<PatchRow> patches;
-  std::vector<FaceRow> face_table;  ///< by face id; empty of a mesh from a file
-  std::vector<RegionRow> regions_filled;
   std::vector<Picture> pictures;
   parallel::StageClock clock;
-  double wall_seconds = 0;  ///< of the program, from its start to the end of the last stage
+  double wall_seconds = 0;  ///< from the start of the program to the end of the last stage
 };
 
 }  // namespace aeroloom::report

@@ -10,7 +10,7 @@ Json scaling_json(const Json& report, const std::string& tasks) {
     const study::Network usual;
     return study::to_json(study::worthwhile_ranks(study::costs_of(report, tasks), usual), usual);
   } catch (const std::runtime_error&) {
-    return {};  // of a run that failed or was resumed nobody can tell
+    return {};  // nothing is known of a run that failed or was resumed
   }
 }
 

@@ -1,4 +1,4 @@
-/// The tasks of a run as a table.
+/// Writes tasks.csv, the table of all tasks of a run.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -8,8 +8,8 @@
 
 namespace aeroloom::report {
 
-/// All ranks' tasks as comma-separated values, a row for each under a line of names, by rank, in the order in
-/// which the rank did them; empty but on rank 0. Collective.
+/// A heading and a row for each task, comma-separated, by rank and then in order of execution. Empty except
+/// on rank 0. Collective.
 std::string task_table(const parallel::Communicator& communicator, const parallel::StageClock& clock);
 
 }  // namespace aeroloom::report

@@ -12,7 +12,7 @@ namespace aeroloom::report {
 
 namespace {
 
-/// Why a stream has failed, as far as the system has told.
+/// Why a stream has failed, as far as known.
 std::error_code last_reason() {
   return {errno != 0 ? errno : EIO, std::generic_category()};
 }

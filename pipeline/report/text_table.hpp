@@ -8,7 +8,7 @@
 
 namespace aeroloom::report {
 
-/// The table of stage times and the quality of the mesh.
+/// A table of stage times, and the quality of the mesh.
 std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
                          int ranks);
 

@@ -8,7 +8,7 @@ namespace aeroloom::study {
 
 namespace {
 
-/// Partners around a part of space, where a record of one rank does not tell. A cell of a grid has as many
+/// Partners around a part of space, where a record of one rank has none. A cell of a grid has as many
 /// neighbours.
 constexpr double usual_partners = 26;
 

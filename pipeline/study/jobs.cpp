@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
-#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -26,8 +24,8 @@ constexpr double bytes_per_megabyte = 1048576;
 constexpr const char* results_name = "results";
 constexpr const char* submitted_name = "submitted";
 
-/// Scripts for a queue and for a shell share what they do; only how a run is told that its time is over is
-/// the queue's.
+/// Scripts for a queue and for a shell share what they do; only how a run is signalled that its time is over
+/// is the queue's.
 constexpr const char* body = R"sh(
 set -u
 cd {folder}
@@ -166,15 +164,15 @@ std::string last_word_of_queue(const fs::path& printed) {
 
 }  // namespace
 
-std::map<std::string, std::string> ask_queue(const fs::path& folder) {
-  std::map<std::string, std::string> jobs, said;
+std::map<std::string, std::string> query_queue(const fs::path& folder) {
+  std::map<std::string, std::string> jobs, of_runs;
   std::ifstream file(folder / submitted_name);
   std::string ids;
   for (std::string name, id; file >> name >> id;) {
     jobs[name] = id;  // the last counts
     ids += (ids.empty() ? "" : ",") + id;
   }
-  if (ids.empty()) return said;
+  if (ids.empty()) return of_runs;
   const fs::path answer = folder / "sacct";
   const Ended ended = run_line(
       "exec sacct --noheader --parsable2 --allocations --format=JobID,State,ExitCode --jobs=" + ids, answer);
@@ -191,9 +189,10 @@ std::map<std::string, std::string> ask_queue(const fs::path& folder) {
   }
   for (const auto& [name, id] : jobs) {
     std::string state = states.count(id) > 0 ? states[id] : last_word_of_queue(folder / (name + ".out"));
-    said[name] = fmt::format("job {}{}{}", id, state.empty() ? ", of which sacct says nothing" : " ", state);
+    of_runs[name] =
+        fmt::format("job {}{}{}", id, state.empty() ? ", of which sacct says nothing" : " ", state);
   }
-  return said;
+  return of_runs;
 }
 
 }  // namespace aeroloom::study

@@ -33,7 +33,7 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
     text.replace(at, what.size(), by);
 }
 
-/// Whether a variable tells this process of its own place under a launcher, or how to start without one:
+/// Whether a variable describes this process's place under a launcher, or how to start without one:
 /// others must not inherit it.
 bool is_of_this_process(const std::string& variable) {
   constexpr std::array<std::string_view, 9> beginnings{"OMPI_COMM_WORLD_",
@@ -50,7 +50,7 @@ bool is_of_this_process(const std::string& variable) {
                      [&](std::string_view beginning) { return variable.starts_with(beginning); });
 }
 
-/// As the system gave it to this process; libraries that run since have added to what getenv tells.
+/// As the system gave it to this process; libraries that run since have added to what getenv returns.
 std::vector<std::string> first_environment() {
   std::ifstream file("/proc/self/environ", std::ios::binary);
   const std::string all{std::istreambuf_iterator<char>(file), {}};
@@ -103,7 +103,7 @@ public:
   posix_spawnattr_t attributes{};
 };
 
-void ask_then_kill(pid_t group) {
+void terminate_then_kill(pid_t group) {
   constexpr int rounds = 50;  // five seconds between being asked and being killed
   constexpr std::chrono::milliseconds step(100);
   ::kill(-group, SIGTERM);
@@ -199,14 +199,14 @@ Ended run_line(const std::string& line, const std::filesystem::path& log) {
 }
 
 void end_line() {
-  if (const pid_t group = running_group; group > 0) ask_then_kill(group);
+  if (const pid_t group = running_group; group > 0) terminate_then_kill(group);
 }
 
 void end_group(pid_t group, const std::string& program) {
   std::ifstream file(fmt::format("/proc/{}/cmdline", group), std::ios::binary);
   const std::string words{std::istreambuf_iterator<char>(file), {}};
   if (group <= 1 || words.find(program) == std::string::npos) return;
-  ask_then_kill(group);
+  terminate_then_kill(group);
 }
 
 }  // namespace aeroloom::study

@@ -1,4 +1,4 @@
-/// Starts runs on any number of ranks, through whatever starts them on this machine.
+/// Starts runs on any number of ranks.
 #pragma once
 
 #include <filesystem>
@@ -9,33 +9,32 @@
 
 namespace aeroloom::study {
 
-/// How a command is started: a line for the shell in which {ranks}, {nodes} and {command} are replaced.
+/// A shell line in which {ranks}, {nodes} and {command} are replaced.
 struct Launcher {
   std::string pattern;
-  bool starts_single = true;  ///< also one rank; else the command is started itself
+  bool starts_single = true;  ///< also starts one rank; else the command is started directly
 
   std::string line(int ranks, int nodes, const std::vector<std::string>& command) const;
 };
 
-/// The launcher that the user gave, else srun within a job of SLURM, else mpirun on this machine. Throws
-/// std::invalid_argument for a pattern without {command} or {ranks}.
+/// The user's launcher; else srun inside a SLURM job; else mpirun. Throws std::invalid_argument for a pattern
+/// without {command} or {ranks}.
 Launcher make_launcher(const std::string& pattern);
 
-/// A word that the shell gives on as it is.
+/// Quotes a word for the shell.
 std::string quoted(const std::string& word);
-/// Words of a command, as a text for the shell.
+/// Quotes and joins the words of a command.
 std::string quoted(const std::vector<std::string>& words);
 
-/// How a line ended.
+/// How a shell line ended.
 struct Ended {
-  int code = 0;  ///< 128 and the signal where one ended it
+  int code = 0;  ///< 128 + signal if a signal ended it
   double seconds = 0;
 };
 
-/// Runs a line in a shell, in a process group of its own and in the environment that this process was started
-/// with, not what message passing has made of it. What it prints goes to `log`. `began` is called with the
-/// group once it runs. Where this process is asked to end meanwhile, end_line() is to be called from the
-/// watch.
+/// Runs a line in a shell, in its own process group and in the environment with which this process was
+/// started (without changes by MPI). Output goes to `log`. `began` is called with the group once it runs. A
+/// handler of termination signals must call end_line().
 template <class Began>
 Ended run_line(const std::string& line, const std::filesystem::path& log, Began began);
 Ended run_line(const std::string& line, const std::filesystem::path& log);
@@ -46,9 +45,9 @@ int await_line(pid_t group);
 double now_seconds();
 }  // namespace detail
 
-/// Ends the line that runs now, if any, and all that it has started: asked first, killed after a few seconds.
+/// Ends the current line, if any, and all its processes: SIGTERM, then SIGKILL after a few seconds.
 void end_line();
-/// Ends a process group that an earlier call has left; does nothing where it is gone or another program's.
+/// Ends a process group left by an earlier call. Does nothing if it is gone or belongs to another program.
 void end_group(pid_t group, const std::string& program);
 
 template <class Began>

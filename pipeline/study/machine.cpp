@@ -1,7 +1,6 @@
 #include "pipeline/study/machine.hpp"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -27,7 +26,7 @@ std::string value_of(const char* file, const std::string& key) {
 
 std::vector<std::string> network_links() {
   std::vector<std::string> links;
-  std::error_code ignored;  // where the system does not tell there are none
+  std::error_code ignored;  // unknown links are left out
   for (const auto& entry : std::filesystem::directory_iterator("/sys/class/net", ignored)) {
     const std::string name = entry.path().filename().string();
     if (name == "lo") continue;

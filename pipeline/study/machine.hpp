@@ -1,4 +1,4 @@
-/// The machine that a study ran on.
+/// Describes the machine of a study.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace aeroloom::study {
 
-/// Of this host, as far as the system tells; for a study of jobs, of the hosts' first that says so.
+/// Of this host, as far as known. For a study of jobs: of the first host that reports it.
 struct Machine {
   std::string host;
   std::string processor;
-  int processors = 1;              ///< that one node may use
+  int processors = 1;              ///< available on one node
   std::int64_t memory_bytes = 0;   ///< of a node
-  std::vector<std::string> links;  ///< network interfaces with their speed
+  std::vector<std::string> links;  ///< network interfaces with speed
   std::string system;
 
   nlohmann::ordered_json json() const;

@@ -51,7 +51,7 @@ ChartLine ideal_line(const Json& study, double constant = 0) {
   return line;
 }
 
-/// Of the strong series as its smallest number of ranks foretells it; by CPU where the series is judged so.
+/// Of the strong series as its smallest number of ranks predicts it; by CPU where the series is judged so.
 ChartLine predicted_line(const Json& study, const std::string& key) {
   ChartLine line{"predicted", {}};
   const std::vector<const Json*> rows = rows_of_series(study, "strong");
@@ -67,27 +67,27 @@ ChartLine predicted_line(const Json& study, const std::string& key) {
   return line;
 }
 
-std::string stage_piles(const Json& study) {
+std::string stage_bars(const Json& study) {
   std::vector<std::string> stages;
-  std::vector<Pile> piles;
+  std::vector<StackedBar> bars;
   for (const std::string series : {"serial", "strong", "weak"}) {
     for (const Json* row : rows_of_series(study, series)) {
       const char* key = is_by_cpu(*row) ? "/busy_cpu_seconds" : "/wall_seconds";
-      Pile pile{fmt::format("{}{}{}", series == "strong" ? "" : fmt::format("{} ", series),
-                            number(find(*row, "/ranks")), is_by_cpu(*row) ? "*" : ""),
-                {}};
+      StackedBar bar{fmt::format("{}{}{}", series == "strong" ? "" : fmt::format("{} ", series),
+                                 number(find(*row, "/ranks")), is_by_cpu(*row) ? "*" : ""),
+                     {}};
       for (const Json& stage : find(*row, "/stages")) {
         const std::string name = text(find(stage, "/name"));
         const auto place = std::find(stages.begin(), stages.end(), name);
         const auto at = static_cast<std::size_t>(place - stages.begin());
         if (place == stages.end()) stages.push_back(name);
-        pile.parts.resize(std::max(pile.parts.size(), at + 1));
-        pile.parts[at] = number(find(stage, key));
+        bar.parts.resize(std::max(bar.parts.size(), at + 1));
+        bar.parts[at] = number(find(stage, key));
       }
-      piles.push_back(std::move(pile));
+      bars.push_back(std::move(bar));
     }
   }
-  return pile_chart("Time per stage, seconds", "", stages, piles);
+  return stacked_bar_chart("Time per stage, seconds", "", stages, bars);
 }
 
 std::string charts(const Json& study) {
@@ -115,7 +115,7 @@ std::string charts(const Json& study) {
                               .y_name = "",
                               .logarithmic = true}) +
          line_chart(efficiency, {.title = "Efficiency", .x_name = "ranks", .y_name = "", .percent = true}) +
-         stage_piles(study) +
+         stage_bars(study) +
          line_chart(rate, {.title = "Tetrahedra per second and core", .x_name = "ranks", .y_name = ""}) +
          line_chart(memory, {.title = "Memory of the largest rank, MiB", .x_name = "ranks", .y_name = ""}) +
          line_chart(imbalance, {.title = "Busiest rank over the mean, CPU of tasks",
@@ -166,13 +166,13 @@ std::string row_table(const Json& study) {
   return table.html();
 }
 
-/// Foretold beside measured, and where the time goes that is not shared out.
+/// Predicted beside measured, and where the time goes that is not shared out.
 std::string prediction_table(const Json& study) {
   if (!find(study, "/prediction/rows").is_array()) return "";
   std::vector<Column> columns{{"ranks", Align::right},
-                              {"seconds", Align::right, "foretold"},
+                              {"seconds", Align::right, "predicted"},
                               {"measured", Align::right, "by the clock"},
-                              {"CPU", Align::right, "seconds of the busiest rank, foretold"},
+                              {"CPU", Align::right, "seconds of the busiest rank, predicted"},
                               {"measured", Align::right},
                               {"efficiency", Align::right},
                               {"memory/rank", Align::right, "of the largest, without what a node shares"}};
@@ -200,7 +200,7 @@ std::string prediction_table(const Json& study) {
     table.add(cells);
   }
   return section(
-      "prediction", "Foretold by the run on fewest ranks",
+      "prediction", "Predicted from the run on fewest ranks",
       paragraph(fmt::format("{} rank(s) work with 80 % efficiency, {} where geometry does not count. "
                             "Network: {:.3g} s, {:.3g} bytes/s.",
                             count(find(study, "/prediction/ranks_at_80_percent")),
@@ -304,7 +304,7 @@ std::string remarks(const Json& study) {
   if (any_by_cpu)
     text += paragraph(
         badge("fair", "CPU") +
-        " More ranks than processors: rows marked so, and piles with a star, are judged by the CPU seconds "
+        " More ranks than processors: rows marked so, and bars with a star, are judged by the CPU seconds "
         "of the busiest rank, "
         "summed over stages, without waiting. That is what balance and repeated work would allow, not "
         "what a clock has shown.");

@@ -1,4 +1,4 @@
-/// scaling.html: a study to look at, complete in itself; a function of scaling.json alone.
+/// Writes scaling.html, a self-contained page made from scaling.json.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@ namespace aeroloom::study {
 
 std::string study_page(const std::string& json);
 
-/// Two studies side by side, of their scaling.json: rows of the same series and ranks. For a terminal, or as
-/// a page.
+/// Compares the scaling.json of two studies row by row (equal series and ranks), as text or as a page.
 std::string compare_text(const std::string& old_json, const std::string& new_json);
 
 }  // namespace aeroloom::study

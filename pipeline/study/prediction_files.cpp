@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,7 +63,7 @@ std::string loss_heads() {
 }
 
 /// The smallest number of ranks that misses the wanted efficiency, where there is one: that is where to look.
-const Prediction& telling(const std::vector<Prediction>& predictions) {
+const Prediction& first_inefficient(const std::vector<Prediction>& predictions) {
   const auto found = std::find_if(predictions.begin(), predictions.end(), [](const Prediction& each) {
     return each.efficiency() < wanted_efficiency;
   });
@@ -135,7 +134,7 @@ std::string prediction_text(const Forecasts& forecasts) {
     text += fmt::format("{:>6} {:>10.4g} {:>9.1f} {:>9.1f}% {:>9.0f}{}\n", each.ranks, each.seconds,
                         each.speedup(), 100 * each.efficiency(), each.bytes / mebibyte,
                         loss_columns(each.losses, each.seconds));
-  const Prediction& shown = telling(forecasts.predictions);
+  const Prediction& shown = first_inefficient(forecasts.predictions);
   text += fmt::format("\n{:<10} {:>10} {:>29}{}   on {} ranks, parts of all {:.4g} s\n", "stage", "seconds",
                       "", loss_heads(), shown.ranks, shown.seconds);
   for (const StagePrediction& stage : shown.stages)

@@ -1,4 +1,4 @@
-/// Predictions to look at: a table for a terminal, prediction.json, prediction.csv.
+/// Writes predictions as text, prediction.json and prediction.csv.
 #pragma once
 
 #include "pipeline/study/replay.hpp"
@@ -10,24 +10,24 @@
 
 namespace aeroloom::study {
 
-/// The efficiency that is asked for of many ranks.
+/// The parallel efficiency that counts as good.
 inline constexpr double wanted_efficiency = 0.8;
 
-/// How many ranks work with wanted_efficiency, and what they need.
+/// The largest number of ranks with wanted_efficiency, and its cost.
 struct WorthwhileRanks {
   int ranks = 1;
   double seconds = 0;
   double bytes_per_rank = 0;       ///< of the largest rank
-  int ranks_without_geometry = 1;  ///< where reading and preparing the CAD does not count
+  int ranks_without_geometry = 1;  ///< the same without the time for reading and preparing CAD
 };
 WorthwhileRanks worthwhile_ranks(const RunCosts& costs, const Network& network);
 
-/// All that a prediction tells.
+/// A complete prediction.
 struct Forecasts {
-  std::string record;  ///< the folder of the run
+  std::string record;  ///< folder of the recorded run
   int recorded_ranks = 1;
   Network network;
-  std::vector<Prediction> predictions;  ///< by ranks
+  std::vector<Prediction> predictions;  ///< by number of ranks
   WorthwhileRanks worthwhile;
 };
 /// Throws as predict().
@@ -37,9 +37,9 @@ Forecasts forecast_ranks(const RunCosts& costs, const std::string& record, const
 nlohmann::ordered_json to_json(const WorthwhileRanks& worthwhile, const Network& network);
 /// Keys are stable within a schema_version.
 nlohmann::ordered_json prediction_json(const Forecasts& forecasts);
-/// A line for each number of ranks and stage, and one for all stages.
+/// One line for each number of ranks and stage, and one for all stages together.
 std::string prediction_csv(const Forecasts& forecasts);
-/// Where the time goes: of each number of ranks in all, of one of them by stages.
+/// Where the time goes: totals by number of ranks, and stages for one number of ranks.
 std::string prediction_text(const Forecasts& forecasts);
 
 }  // namespace aeroloom::study

@@ -3,8 +3,6 @@
 #include "pipeline/study/task_schedule.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -46,9 +44,9 @@ public:
     if (bytes <= 0) return add_evenly(seconds);
     std::vector<double> round(_loads.size(), 0);
     for (const auto& [number, piece] : scheduler.pieces()) {
-      const double share = seconds * piece.bytes / bytes;
-      round[static_cast<std::size_t>(piece.owner)] += share;
-      _largest = std::max(_largest, share);
+      const double of_piece = seconds * piece.bytes / bytes;
+      round[static_cast<std::size_t>(piece.owner)] += of_piece;
+      _largest = std::max(_largest, of_piece);
     }
     _work += seconds;
     add_round(round);
@@ -101,8 +99,8 @@ double largest_child(const StageCosts& stage) {
 double bytes_on(const RunCosts& costs, const StageCosts& stage, int ranks, double spread) {
   if (stage.name == "start" || stage.name == "geometry") return stage.own_bytes;
   const double constant = floor_of(costs) + largest_child(stage);
-  const double shared_out = std::max(0.0, stage.own_bytes - constant) * costs.ranks;
-  return std::min(constant, stage.own_bytes) + shared_out / ranks * spread;
+  const double distributed = std::max(0.0, stage.own_bytes - constant) * costs.ranks;
+  return std::min(constant, stage.own_bytes) + distributed / ranks * spread;
 }
 
 StagePrediction replay(const StageCosts& stage, const RunCosts& costs, int ranks, const Network& network,
@@ -115,7 +113,7 @@ StagePrediction replay(const StageCosts& stage, const RunCosts& costs, int ranks
   }
   const bool by_pieces = goes_by_pieces(stage.name) && !scheduler.pieces().empty();
   by_pieces ? loads.add_by_pieces(stage.divisible, scheduler) : loads.add_evenly(stage.divisible);
-  const double share = loads.work() / ranks, at_least = std::max(share, loads.largest());
+  const double mean = loads.work() / ranks, at_least = std::max(mean, loads.largest());
   const double others = (ranks - 1.0) / ranks;
   StagePrediction result;
   result.name = stage.name;
@@ -123,7 +121,7 @@ StagePrediction replay(const StageCosts& stage, const RunCosts& costs, int ranks
   Losses& losses = result.losses;
   losses.serial = stage.serial * others;
   losses.repeated = stage.repeated * others;
-  losses.granularity = at_least - share;
+  losses.granularity = at_least - mean;
   losses.imbalance = std::max(0.0, loads.busiest() - at_least);
   losses.waiting = std::max(0.0, loads.in_rounds() - loads.busiest());
   losses.communication = exchange_seconds(stage.exchanges, costs.ranks, ranks, network);

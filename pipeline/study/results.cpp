@@ -155,17 +155,17 @@ std::vector<RunResult> collect_runs(const StudyRecord& record,
     const fs::path folder = folder_of(record.options.directory, spec);
     RunResult run{spec, read_marks(folder), {}, {}};
     look_at(folder, run);
-    if (const auto said = queue.find(spec.name());
-        said != queue.end() && run.marks.state != RunState::ended) {
+    if (const auto state = queue.find(spec.name());
+        state != queue.end() && run.marks.state != RunState::ended) {
       if (run.marks.state == RunState::planned) run.marks.state = RunState::queued;
-      run.failure += (run.failure.empty() ? "" : "; ") + fmt::format("queue: {}", said->second);
+      run.failure += (run.failure.empty() ? "" : "; ") + fmt::format("queue: {}", state->second);
     }
     results.push_back(std::move(run));
   }
   return results;
 }
 
-const RunResult* telling_run(const std::vector<RunResult>& runs) {
+const RunResult* recorded_run(const std::vector<RunResult>& runs) {
   std::vector<const RunResult*> candidates;
   for (const RunResult& run : runs)
     if (run.spec.series == Series::strong && run.figures) candidates.push_back(&run);
@@ -180,13 +180,13 @@ const RunResult* telling_run(const std::vector<RunResult>& runs) {
   return candidates[static_cast<std::size_t>(end - candidates.begin() - 1) / 2];
 }
 
-std::vector<int> ranks_to_foretell(const std::vector<RunResult>& runs) {
+std::vector<int> ranks_to_predict(const std::vector<RunResult>& runs) {
   std::set<int> ranks;
   for (const RunResult& run : runs)
     if (run.spec.series == Series::strong) ranks.insert(run.spec.ranks);
   if (ranks.empty()) return {};
   constexpr int farthest_factor =
-      4;  // over the most ranks that were run: farther nothing checks what is foretold
+      4;  // over the most ranks that were run: farther nothing checks what is predicted
   const int most = farthest_factor * *ranks.rbegin();
   for (int n = 1; n <= most; n *= 2) ranks.insert(n);
   return {ranks.begin(), ranks.end()};

@@ -37,7 +37,7 @@ std::vector<std::string> scaled(const CaseSize& size, double factor) {
   return settings;
 }
 
-/// Lengths for `wanted` elements: as many are lost per logarithm of length as the last two forecasts tell.
+/// Lengths for `wanted` elements: as many are lost per logarithm of length as between the last two forecasts.
 std::vector<std::string> find_lengths(const StudyOptions& options, const CaseSize& size, double wanted,
                                       double factor, double made) {
   double slope = first_slope;
@@ -88,7 +88,7 @@ CaseForecast forecast_case(const StudyOptions& options, const std::vector<std::s
 }
 
 std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize& size,
-                                    const std::function<void(const std::string&)>& tell) {
+                                    const std::function<void(const std::string&)>& log) {
   std::vector<WeakScale> scales;
   const int least = options.ranks.front();
   const double first = forecast_case(options, {}).tetrahedra;
@@ -99,7 +99,7 @@ std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize&
       const double of_rank =
           forecast_case(options, scales.back().settings).tetrahedra * least / ranks / first;
       if (of_rank < uneven && of_rank > 1 / uneven) continue;
-      tell(fmt::format(
+      log(fmt::format(
           "weak series, {} rank(s): {:.2g} times the tetrahedra per rank that {} have, for the size of "
           "features "
           "does not go with the target. Remedy: sizing.minimum and sizing.maximum instead of a target, "
@@ -110,25 +110,24 @@ std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize&
   }
   for (const int ranks : options.ranks) {
     scales.push_back({ranks, find_lengths(options, size, first * ranks / least, 1, first)});
-    tell(
-        fmt::format("weak series, {} rank(s): {}", ranks, fmt::format("{}", scales.back().settings.front())));
+    log(fmt::format("weak series, {} rank(s): {}", ranks, fmt::format("{}", scales.back().settings.front())));
   }
   return scales;
 }
 
 void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
-               const std::function<void(const std::string&)>& tell) {
+               const std::function<void(const std::string&)>& log) {
   const StudyOptions& options = record.options;
   constexpr double busy = 0.5;  // of a core that others use; chosen, not measured
   double load = 0;
   if (std::ifstream("/proc/loadavg") >> load && load > busy)
-    tell(fmt::format("this machine is busy, its load is {:.1f}: seconds will tell of that, too", load));
+    log(fmt::format("this machine is busy, its load is {:.1f}: seconds will tell of that, too", load));
   std::size_t number = 0;
   for (const RunSpec& run : record.runs) {
     const fs::path folder = folder_of(options.directory, run);
     const std::string title = fmt::format("[{}/{}] {}", ++number, record.runs.size(), run.name());
     if (is_done(folder)) {
-      tell(title + ": done before");
+      log(title + ": done before");
       continue;
     }
     if (const RunMarks marks = read_marks(folder); marks.state == RunState::begun)
@@ -140,11 +139,11 @@ void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
     mark_end(folder, ended.code);
     if (ended.code == 0 && is_done(folder)) {
       const RunFigures figures = figures_of(Json::parse(read_file(folder / "report.json")));
-      tell(fmt::format("{}: {:.0f} tetrahedra in {:.2f} s, hash {}", title, figures.tetrahedra, figures.wall,
-                       figures.hash));
+      log(fmt::format("{}: {:.0f} tetrahedra in {:.2f} s, hash {}", title, figures.tetrahedra, figures.wall,
+                      figures.hash));
       if (!keep) remove_meshes(folder);
     } else {
-      tell(fmt::format("{}: failed with code {}, see {}", title, ended.code, (folder / "log").string()));
+      log(fmt::format("{}: failed with code {}, see {}", title, ended.code, (folder / "log").string()));
     }
   }
 }

@@ -1,5 +1,4 @@
-/// Carries a study out on this machine, or within a job: one run after another, what is done already left
-/// out.
+/// Carries out a study on this machine or within a job. Runs follow one another; finished ones are skipped.
 #pragma once
 
 #include "pipeline/study/launcher.hpp"
@@ -14,32 +13,32 @@
 
 namespace aeroloom::study {
 
-/// The prediction of `check` for a case.
+/// The prediction of `aeroloom check` for a case.
 struct CaseForecast {
   double tetrahedra = 0, seconds = 0, bytes = 0;
 };
 
-/// Of the case of a study with some settings more. Throws std::runtime_error with what `check` says where it
-/// fails.
+/// Predicts the study's case with additional settings. Throws std::runtime_error with the message of `check`
+/// if that fails.
 CaseForecast forecast_case(const StudyOptions& options, const std::vector<std::string>& settings);
 
-/// The size that a case asks for: a target, or lengths that hold.
+/// The size that a case asks for: a target, or fixed lengths.
 struct CaseSize {
   std::optional<double> target;
-  std::vector<std::pair<std::string, double>> lengths;  ///< keys and values, without a target
+  std::vector<std::pair<std::string, double>> lengths;  ///< keys and values, if there is no target
 };
 
-/// Settings by which each number of ranks gets as many elements a rank as the smallest: the target grows, or
-/// all lengths shrink by one factor that is found by forecasts. Throws as forecast_case.
+/// Settings with equal elements per rank for each number of ranks: a larger target, or lengths times one
+/// factor found by forecasts. Throws as forecast_case().
 std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize& size,
-                                    const std::function<void(const std::string&)>& tell);
+                                    const std::function<void(const std::string&)>& log);
 
-/// The words that start a run, without a launcher.
+/// The words of the command for a run, without launcher.
 std::vector<std::string> command_of(const StudyOptions& options, const RunSpec& run);
 
-/// Starts what has not ended well yet. A run that fails is told of and leaves the others to go on. Files of a
-/// mesh go once its hash is known, unless `keep`. Throws std::runtime_error where marks cannot be written.
+/// Starts all runs that have not succeeded. Failures are logged and do not stop the series. Mesh files are
+/// removed once their hash is known, unless `keep`. Throws std::runtime_error if marks cannot be written.
 void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
-               const std::function<void(const std::string&)>& tell);
+               const std::function<void(const std::string&)>& log);
 
 }  // namespace aeroloom::study

@@ -1,4 +1,4 @@
-/// The figures of a study, one row for each configuration: medians, speed-up, efficiency.
+/// The table of a study: medians, speed-up and efficiency of each configuration.
 #pragma once
 
 #include "pipeline/study/machine.hpp"
@@ -14,27 +14,26 @@ struct SeriesRow {
   Series series = Series::strong;
   int ranks = 1, nodes = 1;
   int planned = 0, ended = 0, failed = 0;
-  bool by_cpu =
-      false;          ///< more ranks than processors: judged by the CPU of the busiest rank, not by the clock
-  RunFigures median;  ///< the figures of the run with the median wall time, or CPU time; where any ended
-  double least = 0, most = 0;    ///< seconds over the runs
-  double speedup = 0;            ///< against one rank in one piece; 0: there is none
-  double speedup_of_series = 0;  ///< against the smallest number of ranks of its series, times that number
-  double efficiency = 0;  ///< speed-up over ranks; of a weak series elements a second and core over the first
+  bool by_cpu = false;           ///< more ranks than processors: CPU of the busiest rank replaces wall time
+  RunFigures median;             ///< the run with median time, if any has ended
+  double least = 0, most = 0;    ///< shortest and longest time
+  double speedup = 0;            ///< over one rank and one piece; 0: not known
+  double speedup_of_series = 0;  ///< over the fewest ranks of the series, times that number of ranks
+  double efficiency = 0;  ///< speed-up over ranks; weak series: rate per core over that of the first row
 
   double seconds() const { return by_cpu ? median.busy : median.wall; }
 };
 
-/// In the order serial, strong, weak, and by ranks.
+/// Ordered serial, strong, weak; then by ranks.
 std::vector<SeriesRow> make_rows(const StudyRecord& record, const std::vector<RunResult>& runs,
                                  const Machine& machine);
 
-/// The JSON beside the page: keys are stable within a schema_version.
+/// scaling.json. Keys are stable within a schema_version.
 Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs,
                 const std::vector<SeriesRow>& rows, const Machine& machine);
-/// A line for each run, with a head.
+/// scaling.csv: a heading and one line for each run.
 std::string study_csv(const std::vector<RunResult>& runs);
-/// The rows for a terminal.
+/// The rows as text.
 std::string study_text(const std::vector<SeriesRow>& rows);
 
 }  // namespace aeroloom::study

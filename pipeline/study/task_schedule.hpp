@@ -1,4 +1,4 @@
-/// How tasks of each kind are scheduled: the program's own schedule, for any number of ranks.
+/// Schedules recorded tasks on any number of ranks as the program does.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -10,25 +10,25 @@
 
 namespace aeroloom::study {
 
-/// Tasks of a group on ranks. Batches of all ranks wait for each other.
+/// A schedule of a group. All ranks wait for each other between batches.
 struct TaskSchedule {
   std::vector<parallel::Rank> owners;  ///< by task
-  std::vector<int> batches;            ///< by task; empty: all in one
+  std::vector<int> batches;            ///< by task; empty: a single batch
 };
 
-/// Schedules one group after another as a run on so many ranks does.
+/// Schedules groups one after another, as a run on this number of ranks does.
 class Scheduler {
 public:
   explicit Scheduler(int ranks);
 
-  /// `follows`: whether the group goes on in the round of the group before it.
+  /// `follows`: the group continues the round of the previous group.
   TaskSchedule schedule(const TaskGroup& group, bool follows);
-  /// A piece of the mesh as it lies now.
+  /// A piece of the mesh at present.
   struct HeldPiece {
     parallel::Rank owner;
     double bytes;
   };
-  /// By number; those of the core after those of zones. Empty before there are any.
+  /// By number; pieces of the core follow those of zones. Empty before pieces exist.
   const std::map<std::int64_t, HeldPiece>& pieces() const { return _pieces; }
 
 private:
@@ -40,7 +40,7 @@ private:
   std::map<std::int64_t, HeldPiece> _pieces;
 };
 
-/// Whether what a stage does beside its tasks is done piece by piece, where the pieces are.
+/// Whether the work of a stage outside tasks is done by pieces, on the ranks that own them.
 bool goes_by_pieces(std::string_view stage);
 
 }  // namespace aeroloom::study

@@ -1,4 +1,4 @@
-/// Small files of a study, read and written whole.
+/// Reads and writes whole small files of a study.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace aeroloom::study {
 
-/// Reading and writing throw std::runtime_error that names the file and why.
+/// Both functions throw std::runtime_error with the name of the file and the reason.
 std::string read_file(const std::filesystem::path& file);
-/// Makes the folders above; what was there goes only when all of the new text is written.
+/// Creates missing folders. Replaces an old file only once the new text is written completely.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace aeroloom::study

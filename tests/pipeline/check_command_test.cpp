@@ -1,4 +1,4 @@
-// The command check: what it says of a case, how it ends, and that a run does what it foretells.
+// The command check: what it says of a case, how it ends, and that a run does what it predicts.
 #include "tests/cad/real_files.hpp"
 #include "tests/pipeline/command_line.hpp"
 #include "tests/references.hpp"
@@ -38,7 +38,7 @@ std::set<std::string> names_of(const Json& rows) {
   return names;
 }
 
-TEST_F(CheckCommand, ForetellsTheSameOnAnyNumberOfRanks) {
+TEST_F(CheckCommand, PredictsTheSameOnAnyNumberOfRanks) {
   const Json record = check(0,
                             "geometry: {builtin: transport}\nfarfield: {shape: cylinder, extent: 3}\n"
                             "sizing: {target_tetrahedra: 200000}\n",
@@ -65,7 +65,7 @@ TEST_F(CheckCommand, ForetellsTheSameOnAnyNumberOfRanks) {
 }
 
 // What becomes of thin trailing edges is the same in `check` and in a run.
-TEST_F(CheckCommandLocal, ForetellsWhatARunDoesToTrailingEdges) {
+TEST_F(CheckCommandLocal, PredictsWhatARunDoesToTrailingEdges) {
   const Json record =
       check(0,
             "geometry:\n  builtin: transport\n"

@@ -23,7 +23,7 @@ std::vector<report::Picture> pictures_of_mesh(const parallel::Communicator& worl
   const mesh::NumberedMesh surface = mesh::number_mesh(mesh::boundary_mesh(mesh::number_mesh(volume)));
   const std::clock_t begin = std::clock();
   std::vector<report::Picture> pictures =
-      report::pictures_or_warning(world, &volume, {surface, volume.patch_types, ""});
+      report::pictures_or_warning({surface, volume.patch_types, ""}, &volume);
   if (world.is_root())
     std::printf("pictures: %.2f s of CPU\n", double(std::clock() - begin) / CLOCKS_PER_SEC);
   return pictures;

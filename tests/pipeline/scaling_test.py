@@ -124,7 +124,7 @@ def check_prediction(shell):
     assert {line["ranks"] for line in lines} == {"8", "64"} and lines[-1]["stage"] == "all"
     assert [row["ranks"] for row in study(shell)["prediction"]["rows"]] == [1, 2, 4, 8]
     page = (shell.folder / "out" / "scaling.html").read_text()
-    assert "Foretold" in page and ">predicted<" in page
+    assert "Predicted from" in page and ">predicted<" in page
     code, text, error = shell.run("check case.yaml --set output.directory=checked")
     told = json.loads((shell.folder / "checked" / "check.json").read_text())["forecast"]["scaling"]
     assert code == 0 and "80 % efficiency" in text and told["ranks_at_80_percent"] >= 1, text + error

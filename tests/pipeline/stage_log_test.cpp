@@ -39,37 +39,27 @@ bool has(const std::string& text, const std::string& word) {
 }
 
 TEST_F(StageLog, WarnsWhereMoreTetrahedraComeThanWereForecast) {
-  report::RunRecord record;
-  record.findings.counts.tetrahedra = 1e6;
-  record.decomposition.expected_tetrahedra = 1.4e6;
-  EXPECT_EQ(said_by([&] { warn_of_count(record); }).warnings, "");
-  record.decomposition.expected_tetrahedra = 3e6;
-  const Said faces = said_by([&] { warn_of_count(record); });
+  EXPECT_EQ(said_by([&] { warn_of_count(1.4e6, 1e6, 0); }).warnings, "");
+  const Said faces = said_by([&] { warn_of_count(3e6, 1e6, 0); });
   EXPECT_TRUE(has(faces.warnings, "3 times the 1e+06")) << faces.warnings;
   EXPECT_TRUE(has(faces.warnings, "faces have more triangles than sizes ask for")) << faces.warnings;
-  record.surface.mending_rounds = 2;
-  EXPECT_TRUE(has(said_by([&] { warn_of_count(record); }).warnings, "sizes fell in 2 round(s)"));
+  EXPECT_TRUE(has(said_by([&] { warn_of_count(3e6, 1e6, 2); }).warnings, "sizes fell in 2 round(s)"));
 }
 
 TEST_F(StageLog, WarnsOfLengthsThatAreNoMetresForOpenFoamAlone) {
-  report::RunRecord record;
-  record.unit = "mm";
-  record.unit_in_metres = 1e-3;
   cases::OutputOptions output;
-  EXPECT_EQ(said_by([&] { warn_of_units(record, output); }).warnings, "");
+  EXPECT_EQ(said_by([&] { warn_of_units("mm", 1e-3, output); }).warnings, "");
   output.formats.push_back(io::FileFormat::openfoam);
-  const Said said = said_by([&] { warn_of_units(record, output); });
+  const Said said = said_by([&] { warn_of_units("mm", 1e-3, output); });
   EXPECT_TRUE(has(said.warnings, "are in mm")) << said.warnings;
   EXPECT_TRUE(has(said.warnings, "transformPoints -scale '(0.001 0.001 0.001)'")) << said.warnings;
-  record.unit = "m";
-  record.unit_in_metres = 1;
-  EXPECT_EQ(said_by([&] { warn_of_units(record, output); }).warnings, "");
+  EXPECT_EQ(said_by([&] { warn_of_units("m", 1, output); }).warnings, "");
 }
 
 TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {
-  report::RunRecord record;
-  record.face_names = {"wing", "body"};
-  EXPECT_EQ(said_by([&] { log_needles(record); }).facts, "");
+  surface::SurfaceReport report;
+  const std::vector<report::FaceRow> faces{{.name = "wing"}, {.name = "body"}};
+  EXPECT_EQ(said_by([&] { log_needles(report, faces); }).facts, "");
   surface::NeedleGroup forced, own;
   forced.cause = surface::NeedleCause::corner;
   forced.needles = 3;
@@ -78,25 +68,25 @@ TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {
   own.needles = 4;
   own.degrees = 7;
   own.face = 1;
-  record.surface.needles = {forced, own};
-  const Said said = said_by([&] { log_needles(record); });
+  report.needles = {forced, own};
+  const Said said = said_by([&] { log_needles(report, faces); });
   EXPECT_TRUE(has(said.facts, "3 triangles below 10 degrees")) << said.facts;
   EXPECT_TRUE(has(said.facts, "in 1 places, from 2.5 degrees")) << said.facts;
   EXPECT_TRUE(has(said.warnings,
                   "4 triangles are below 10 degrees that the CAD does not force; 4 on 'body', 7 degrees"))
       << said.warnings;
-  record.surface.needles.assign(7, own);
-  const Said many = said_by([&] { log_needles(record); });
+  report.needles.assign(7, own);
+  const Said many = said_by([&] { log_needles(report, faces); });
   EXPECT_TRUE(has(many.warnings, "28 triangles") && has(many.warnings, "and more, see surface.needles[]"))
       << many.warnings;
 }
 
 TEST_F(StageLog, SaysNothingOfPinnedElementsWhereThereAreNone) {
-  report::RunRecord record;
-  EXPECT_EQ(said_by([&] { log_pinned(record); }).facts, "");
-  record.pinned.tetrahedra = 5;
-  record.pinned.pinned = {.tetrahedra = 5, .smallest_angle = 3};
-  const Said said = said_by([&] { log_pinned(record); });
+  attribution::PinnedReport report;
+  EXPECT_EQ(said_by([&] { log_pinned(report); }).facts, "");
+  report.tetrahedra = 5;
+  report.pinned = {.tetrahedra = 5, .smallest_angle = 3};
+  const Said said = said_by([&] { log_pinned(report); });
   EXPECT_TRUE(has(said.facts, "5 (from 3 degrees) are pinned by 0 sharp places")) << said.facts;
 }
 

@@ -21,9 +21,9 @@ using report::ExitCode;
 
 /// The failure of a stage called "surface" that does this.
 std::optional<report::StageFailure> failure_of(const std::function<void()>& work) {
-  report::RunRecord record;
+  parallel::StageClock clock;
   try {
-    run_stage(record, "surface", ExitCode::surface, work);
+    run_stage(clock, "surface", ExitCode::surface, work);
   } catch (const report::StageFailure& failure) {
     EXPECT_EQ(failure.stage(), "surface");
     return failure;
@@ -39,20 +39,20 @@ void expect_code(ExitCode code, const std::string& word, const std::function<voi
 }
 
 TEST(StageTest, GivesWhatItsWorkGives) {
-  report::RunRecord record;
-  EXPECT_EQ(run_stage(record, "sizing", ExitCode::cad, [] { return 42; }), 42);
-  ASSERT_EQ(record.clock.costs().size(), 1u);
-  EXPECT_EQ(record.clock.costs().front().name, "sizing");
+  parallel::StageClock clock;
+  EXPECT_EQ(run_stage(clock, "sizing", ExitCode::cad, [] { return 42; }), 42);
+  ASSERT_EQ(clock.costs().size(), 1u);
+  EXPECT_EQ(clock.costs().front().name, "sizing");
   EXPECT_EQ(current_stage(), "sizing");
 }
 
 TEST(StageTest, ClosesItsClockWhateverItsWorkThrows) {
-  report::RunRecord record;
-  EXPECT_THROW(run_stage(record, "one", ExitCode::cad, []() -> int { throw std::runtime_error("no"); }),
+  parallel::StageClock clock;
+  EXPECT_THROW(run_stage(clock, "one", ExitCode::cad, []() -> int { throw std::runtime_error("no"); }),
                report::StageFailure);
-  run_stage(record, "two", ExitCode::cad, [] {});
-  ASSERT_EQ(record.clock.costs().size(), 2u);
-  EXPECT_EQ(record.clock.costs().back().name, "two");
+  run_stage(clock, "two", ExitCode::cad, [] {});
+  ASSERT_EQ(clock.costs().size(), 2u);
+  EXPECT_EQ(clock.costs().back().name, "two");
 }
 
 TEST(StageTest, EndsWithTheCodeOfTheKindOrOfTheStage) {

@@ -1,7 +1,7 @@
 /// Gates of finished meshes: regions and walls are what they are in the CAD, or a few elements wide; a mesh
 /// is valid.
 #include "pipeline/finished_volume.hpp"
-#include "pipeline/run.hpp"
+#include "pipeline/report/exit_code.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -19,26 +19,32 @@ report::RunRecord with_region(double volume, double cad_volume) {
   return record;
 }
 
+/// Refers to the record.
+JudgedMesh judged(const report::RunRecord& record) {
+  return {record, record.patches, nullptr, record.sizes, record.unit};
+}
+
 TEST(VolumeGate, RefusesRegionsOfAnotherVolume) {
   const cases::Case input;
-  EXPECT_NO_THROW(require_quality(input, with_region(0.95, 1)));
-  EXPECT_THROW(require_quality(input, with_region(0.85, 1)), report::StageFailure);
-  EXPECT_TRUE(coarse_region(input.gate, with_region(0.85, 1)).empty());
+  EXPECT_NO_THROW(require_quality(input, judged(with_region(0.95, 1))));
+  EXPECT_THROW(require_quality(input, judged(with_region(0.85, 1))), report::StageFailure);
+  EXPECT_TRUE(coarse_region(input.gate, judged(with_region(0.85, 1))).empty());
 }
 
 TEST(VolumeGate, WarnsOfRegionsAFewElementsWide) {
   const cases::Case input;
   const double few = 0.2 * 0.2 * 0.2;
-  EXPECT_NO_THROW(require_quality(input, with_region(0.85 * few, few)));
-  EXPECT_NE(coarse_region(input.gate, with_region(0.85 * few, few)).find("'tank'"), std::string::npos);
-  EXPECT_TRUE(coarse_region(input.gate, with_region(0.95 * few, few)).empty());
-  EXPECT_THROW(require_quality(input, with_region(0.7 * few, few)), report::StageFailure);
+  EXPECT_NO_THROW(require_quality(input, judged(with_region(0.85 * few, few))));
+  EXPECT_NE(coarse_region(input.gate, judged(with_region(0.85 * few, few))).find("'tank'"),
+            std::string::npos);
+  EXPECT_TRUE(coarse_region(input.gate, judged(with_region(0.95 * few, few))).empty());
+  EXPECT_THROW(require_quality(input, judged(with_region(0.7 * few, few))), report::StageFailure);
 }
 
 /// The message of the gate; empty where the mesh passes.
 std::string refusal(const cases::Case& input, const report::RunRecord& record) {
   try {
-    require_quality(input, record);
+    require_quality(input, judged(record));
     return {};
   } catch (const report::StageFailure& failure) {
     EXPECT_EQ(failure.code(), report::ExitCode::quality_gate);

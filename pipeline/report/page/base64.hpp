@@ -1,4 +1,4 @@
-/// Bytes as text within a page.
+/// Encodes bytes as text, for images in a page.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-/// Elements of a page.
+/// Tables, sections and other elements of an HTML page.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ enum class Align { left, right };
 struct Column {
   std::string head;  ///< HTML
   Align align = Align::left;
-  std::string hint = {};  ///< plain text that explains the heading
+  std::string hint = {};  ///< explains the heading; plain text
 };
 
-/// A table whose first rows are shown; of the others it says how many there are and in which file.
+/// A table that shows its first rows, then the number of hidden rows and the file that has them.
 class Table {
 public:
   explicit Table(std::vector<Column> columns, std::string file = "report.json")
@@ -33,16 +33,16 @@ private:
   std::size_t _rows = 0;
 };
 
-/// A section with its heading; nothing where the body is empty. `id` is a word of our own.
+/// A section with heading; empty if `body` is empty. `id`: a word for links.
 std::string section(const std::string& id, const std::string& title, const std::string& body);
-/// A heading within a section and what belongs to it; nothing where the body is empty.
+/// A heading within a section, with its content; empty if `body` is empty.
 std::string part(const std::string& title, const std::string& body);
 std::string paragraph(const std::string& body);
-/// A short word that stands out: `kind` is good, fair, poor or plain.
+/// A highlighted word; `kind`: good, fair, poor or plain.
 std::string badge(const std::string& kind, const std::string& words);
-/// Names and values, two columns; both HTML.
+/// A table of names and values, both HTML.
 std::string facts(const std::vector<std::pair<std::string, std::string>>& rows);
-/// A bar that is filled to this fraction, 0 to 1.
+/// A bar filled up to this fraction, 0 to 1.
 std::string bar(double part);
 
 }  // namespace aeroloom::page

@@ -156,18 +156,18 @@ std::string line_chart(const std::vector<ChartLine>& lines, const LineChart& cha
       frame.wide, frame.high, escaped(chart.title), frame.from_left, escaped(chart.title), body, legend);
 }
 
-std::string pile_chart(const std::string& title, const std::string& unit,
-                       const std::vector<std::string>& parts, const std::vector<Pile>& piles) {
+std::string stacked_bar_chart(const std::string& title, const std::string& unit,
+                              const std::vector<std::string>& parts, const std::vector<StackedBar>& bars) {
   double most = 0;
-  for (const Pile& pile : piles) {
+  for (const StackedBar& bar : bars) {
     double sum = 0;
-    for (const double part : pile.parts) sum += part;
+    for (const double part : bar.parts) sum += part;
     most = std::max(most, sum);
   }
   if (most <= 0) return {};
   const Frame frame;
   const Scale up{0, 1.08 * most, false};
-  const double room = (frame.right_end() - frame.from_left) / static_cast<double>(piles.size());
+  const double room = (frame.right_end() - frame.from_left) / static_cast<double>(bars.size());
   const double wide = std::min(54.0, 0.7 * room);
   const auto y_of = [&](double y) {
     return frame.lower_end() - up.part(y) * (frame.lower_end() - frame.from_top);
@@ -177,11 +177,11 @@ std::string pile_chart(const std::string& title, const std::string& unit,
     body += rule("grid", frame.from_left, y_of(tick), frame.right_end(), y_of(tick));
     body += words(frame.from_left - 6, y_of(tick) + 4, "end", short_number(tick) + unit);
   }
-  for (std::size_t p = 0; p < piles.size(); ++p) {
+  for (std::size_t p = 0; p < bars.size(); ++p) {
     const double x = frame.from_left + (static_cast<double>(p) + 0.5) * room;
     double below = 0;
-    for (std::size_t k = 0; k < piles[p].parts.size(); ++k) {
-      const double size = piles[p].parts[k];
+    for (std::size_t k = 0; k < bars[p].parts.size(); ++k) {
+      const double size = bars[p].parts[k];
       if (size <= 0) continue;
       const double high = y_of(below) - y_of(below + size);
       body += fmt::format(
@@ -191,11 +191,11 @@ std::string pile_chart(const std::string& title, const std::string& unit,
       if (high >= 12) body += words(x, y_of(below + size / 2) + 4, "middle", parts[k]);
       below += size;
     }
-    body += words(x, frame.lower_end() + 16, "middle", piles[p].name);
+    body += words(x, frame.lower_end() + 16, "middle", bars[p].name);
   }
   body += rule("axis", frame.from_left, frame.lower_end(), frame.right_end(), frame.lower_end());
   return fmt::format(
-      "<div><svg class=\"chart piles\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n"
+      "<div><svg class=\"chart stacked\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n"
       "<text class=\"title\" x=\"{:g}\" y=\"14\">{}</text>\n{}</svg></div>\n",
       frame.wide, frame.high, escaped(title), frame.from_left, escaped(title), body);
 }

@@ -1,4 +1,4 @@
-/// Charts over numbers of ranks, drawn as SVG that can be distinguished without colours.
+/// Charts of scaling studies as SVG, readable without colours.
 #pragma once
 
 #include <string>
@@ -7,29 +7,29 @@
 
 namespace aeroloom::page {
 
-/// One line: a marker at each point, and a dash of its own.
+/// One line, with markers and its own dash pattern.
 struct ChartLine {
   std::string name;  ///< plain text
   std::vector<std::pair<double, double>> points;
-  bool ideal = false;  ///< thin and without markers: what would be best
+  bool ideal = false;  ///< a reference line: thin, without markers
 };
 
 struct LineChart {
   std::string title, x_name, y_name;  ///< plain text
-  bool logarithmic = false;           ///< both axes; x is so always
-  bool percent = false;               ///< numbers of y are fractions
-  double y_least = 0;                 ///< where y begins, of a linear axis
+  bool logarithmic = false;           ///< both axes; else only x is logarithmic
+  bool percent = false;               ///< y values are fractions
+  double y_least = 0;                 ///< lower end of a linear y axis
 };
 
-/// Nothing where no line has a point.
+/// Empty if no line has a point.
 std::string line_chart(const std::vector<ChartLine>& lines, const LineChart& chart);
 
-/// A pile of parts beside another, each with its name below; parts below the first have the number 0.
-struct Pile {
+/// A stacked bar with its name below. The lowest segment has the number 0.
+struct StackedBar {
   std::string name;           ///< plain text
-  std::vector<double> parts;  ///< as many as there are names of parts
+  std::vector<double> parts;  ///< one for each name of a segment
 };
-std::string pile_chart(const std::string& title, const std::string& unit,
-                       const std::vector<std::string>& parts, const std::vector<Pile>& piles);
+std::string stacked_bar_chart(const std::string& title, const std::string& unit,
+                              const std::vector<std::string>& parts, const std::vector<StackedBar>& bars);
 
 }  // namespace aeroloom::page

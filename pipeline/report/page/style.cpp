@@ -80,7 +80,7 @@ svg .stroke1 { stroke: var(--second); stroke-dasharray: 7 3; } svg .stroke2 { st
 svg .stroke3 { stroke: var(--fair); stroke-dasharray: 7 3 2 3; }
 svg .line0 { fill: var(--bar); } svg .line1 { fill: var(--second); }
 svg .line2 { fill: var(--good); } svg .line3 { fill: var(--fair); }
-.piles rect { stroke: var(--paper); stroke-width: 1; }
+.bars rect { stroke: var(--paper); stroke-width: 1; }
 .loads rect, .legend rect, .swatch rect { stroke: var(--paper); stroke-width: 1; }
 .swatch, .legend svg { width: 12px; height: 12px; margin-right: 6px; vertical-align: -1px; }
 .legend { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 0; margin: 6px 0; font-size: 13px; }

@@ -5,7 +5,7 @@
 
 namespace aeroloom::page {
 
-/// CSS for screens, light and dark, wide and narrow, and for paper. Names nothing outside the page.
+/// CSS for light and dark screens of any width, and for print. Loads nothing.
 std::string_view style_sheet();
 
 }  // namespace aeroloom::page

@@ -1,5 +1,4 @@
-/// The camera: from space to the canvas, in parallel projection. Lengths are those of the mesh, and what is
-/// drawn to one scale can be measured.
+/// Projects space onto the canvas (parallel projection). Lengths can be measured in the picture.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -7,13 +6,13 @@
 
 namespace aeroloom::picture {
 
-/// Where the viewer is, as three unit vectors that are perpendicular to each other.
+/// The position of the viewer: three orthonormal vectors.
 struct Viewpoint {
-  geometry::Vec3 right, up, towards;  ///< `towards` points from what is seen to the viewer
+  geometry::Vec3 right, up, towards;  ///< `towards`: from the object to the viewer
 };
 
-/// From the direction `from`, with `up` upwards as far as that goes; any other upwards where `up` lies along
-/// `from`.
+/// A view from the direction `from`, with `up` pointing upwards as far as possible; any upward direction if
+/// `up` is parallel to `from`.
 Viewpoint look_from(geometry::Vec3 from, geometry::Vec3 up);
 
 /// Coordinates along right, up and towards.
@@ -23,8 +22,8 @@ inline geometry::Vec3 in_view(const Viewpoint& view, geometry::Vec3 p) {
 
 struct Camera {
   Viewpoint view;
-  geometry::Vec3 target;  ///< seen in the middle of the window, at depth 0
-  double scale = 1;       ///< pixels per length
+  geometry::Vec3 target;  ///< in the centre of the window, at depth 0
+  double scale = 1;       ///< pixels per unit length
   Window window;
 
   ScreenPoint project(geometry::Vec3 p) const {
@@ -34,9 +33,9 @@ struct Camera {
   }
 };
 
-/// Shows all of `seen`, a box in coordinates of the view, with a margin of that many pixels.
+/// Shows all of `seen`, a box in view coordinates, with a margin in pixels.
 Camera frame(const Viewpoint& view, const geometry::Box& seen, Window window, double margin);
-/// Shows a place with `width` around it from the left border to the right one.
+/// Shows the point in the centre of the window, which is `width` wide in space.
 Camera close_up(const Viewpoint& view, geometry::Vec3 target, double width, Window window);
 
 }  // namespace aeroloom::picture

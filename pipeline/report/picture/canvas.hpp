@@ -1,9 +1,9 @@
-/// The canvas: triangles and lines on it, the nearest in front.
+/// The canvas: triangles and lines with hidden-surface removal.
 ///
-/// A pixel has four samples, each one number: depth above, colour below. Of two fragments the lower number
-/// stays; so what is seen is a minimum, which does not depend on the order in which things are drawn nor on
-/// who draws them. Equal depths go to the darker colour. Borders of triangles count as inside, so there are
-/// no cracks between neighbours.
+/// Each pixel has four samples; a sample is one number with the depth in the upper and the colour in the
+/// lower bits. The smaller of two numbers wins. So the picture is a minimum and independent of drawing order
+/// and ranks. At equal depth the darker colour wins. Borders belong to triangles, so neighbours leave no
+/// cracks.
 #pragma once
 
 #include "pipeline/report/picture/colour.hpp"
@@ -14,7 +14,7 @@
 
 namespace aeroloom::picture {
 
-/// A point on the canvas: pixels from the left and from the top; depth in pixels away from the viewer.
+/// A point in pixels from the left and from the top; depth in pixels, away from the viewer.
 struct ScreenPoint {
   double x = 0, y = 0, depth = 0;
 };
@@ -24,34 +24,34 @@ struct Window {
   int left = 0, top = 0, width = 0, height = 0;
 };
 
-/// How a triangle is filled and which of its edges have a line.
+/// Filling of a triangle, and lines along its edges.
 struct TriangleStyle {
   Colour fill;
   Colour line;
-  double line_width = 0;                           ///< pixels, half of it on this side of the edge
+  double line_width = 0;                           ///< in pixels; half of it lies on this side of the edge
   std::array<double, 3> line_opacity = {0, 0, 0};  ///< of the edge from corner i to corner i + 1
 };
 
 class Canvas {
 public:
-  static constexpr int samples = 4;  // of a pixel each: edges are smooth to the eye
+  static constexpr int samples = 4;  // per pixel, against jagged edges
   static constexpr std::uint64_t nothing = ~std::uint64_t{0};
 
-  /// Empty. 8 samples bytes a pixel.
+  /// An empty canvas of 8 * samples bytes per pixel.
   Canvas(int width, int height);
 
   int width() const { return _width; }
   int height() const { return _height; }
-  /// Nothing is drawn outside of the window; at first it is the whole canvas.
+  /// Restricts drawing to the window; initially the whole canvas.
   void set_window(Window window) { _window = window; }
-  /// Nothing is drawn nearer than this; at first all is.
+  /// Clips everything nearer than this depth; initially nothing.
   void set_nearest(double depth) { _nearest = depth; }
 
   void draw_triangle(const std::array<ScreenPoint, 3>& corners, const TriangleStyle& style);
-  /// A line with round ends. It stands `raised` pixels nearer than its ends say.
+  /// A line with round ends, moved `raised` pixels towards the viewer.
   void draw_line(ScreenPoint a, ScreenPoint b, double width, Colour colour, double raised);
 
-  /// The samples of a row of pixels from the top, width() times `samples`.
+  /// The samples of a pixel row, counted from the top: width() * samples numbers.
   std::uint64_t* row(int y) { return _samples.data() + first_of_row(y); }
   const std::uint64_t* row(int y) const { return _samples.data() + first_of_row(y); }
   static Colour colour_of(std::uint64_t sample) {

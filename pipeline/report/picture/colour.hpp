@@ -1,4 +1,4 @@
-/// Colours: what patches and angles look like.
+/// Colours of patches and angles.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace aeroloom::picture {
 
-/// A colour as a screen shows it (sRGB).
+/// An sRGB colour.
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
 
@@ -20,18 +20,18 @@ struct Colour {
 
 inline constexpr Colour white{255, 255, 255};
 inline constexpr Colour ink{28, 32, 38};             ///< outlines
-inline constexpr Colour solid_grey{208, 212, 217};   ///< a body that was cut
+inline constexpr Colour solid_grey{208, 212, 217};   ///< a body in a cut
 inline constexpr Colour layer_green{214, 232, 200};  ///< cells of boundary layers
 
-/// `fraction` of b in a, from 0 to 1.
+/// Mixes `fraction` of b into a, from 0 to 1.
 Colour mix(Colour a, Colour b, double fraction);
-/// Darker or lighter by a factor.
+/// Makes a colour darker or lighter by a factor.
 Colour lit(Colour colour, double brightness);
-/// As HTML writes it: "#rrggbb".
+/// As in HTML: "#rrggbb".
 std::string html_name(Colour colour);
 
-/// Colours for things that have names, light enough for lines to be seen on them. They differ in lightness
-/// too, neighbours most, for eyes that see few hues.
+/// Colours for named items, light enough to show lines. Adjacent ones differ in lightness, for viewers who
+/// see few hues.
 inline constexpr std::array<Colour, 12> name_colours = {{{112, 164, 210},
                                                          {236, 170, 72},
                                                          {86, 176, 148},
@@ -45,14 +45,14 @@ inline constexpr std::array<Colour, 12> name_colours = {{{112, 164, 210},
                                                          {84, 128, 146},
                                                          {196, 196, 200}}};
 
-/// A class of smallest dihedral angles, degrees.
+/// A class of smallest dihedral angles, in degrees.
 struct AngleClass {
-  double below;  ///< and not below the class before
+  double below;  ///< upper bound; the class before is the lower bound
   Colour colour;
   std::string_view name;
 };
-/// From flat tetrahedra, red, to those near the regular one (70.5 degrees), blue; yellow between, for eyes
-/// that tell red from green badly.
+/// From red (flat) over yellow to blue (near the regular tetrahedron, 70.5 degrees); suits red-green
+/// blindness.
 inline constexpr std::array<AngleClass, 7> angle_classes = {{{5, {165, 15, 40}, "under 5°"},
                                                              {10, {222, 72, 50}, "5° to 10°"},
                                                              {20, {250, 150, 90}, "10° to 20°"},

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <tuple>
 
 namespace aeroloom::picture {
 namespace {
@@ -32,7 +31,7 @@ struct TriangleSide {
   }
 };
 
-/// Tells the sides of one edge apart.
+/// The order of the sides of one edge.
 std::tuple<mesh::PieceId, std::int32_t> place_of(const TriangleSide& side) {
   return {side.piece, side.item};
 }
@@ -70,13 +69,13 @@ const TriangleSide& side_of(const mesh::Guest<TriangleSide>& guest) {
   return guest.item;
 }
 
-/// Calls tell(member, fold) for each side of an edge that others have too.
-template <class Member, class Tell>
-void tell_each(std::span<const Member> run, const Tell& tell) {
+/// Calls visit(member, fold) for each side of an edge that others have too.
+template <class Member, class Visit>
+void for_each_neighbour(std::span<const Member> run, const Visit& visit) {
   if (run.size() < 2) return;
   for (std::size_t i = 0; i < run.size(); ++i) {
     const TriangleSide& next = side_of(run[(i + 1) % run.size()]);
-    tell(run[i], EdgeNeighbour{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
+    visit(run[i], EdgeNeighbour{next.normal, next.face, next.patch, run.size() > 2, next.shown != 0});
   }
 }
 
@@ -106,7 +105,7 @@ EdgeNeighbours find_edge_neighbours(const mesh::NumberedMesh& surface, const Sho
       if (run.size() == 1 && shared[v[item % 3]] && shared[v[(item % 3 + 1) % 3]]) {
         travelling.push_back(run.front());
       } else {
-        tell_each(run, [&](const TriangleSide& side, const EdgeNeighbour& neighbour) {
+        for_each_neighbour(run, [&](const TriangleSide& side, const EdgeNeighbour& neighbour) {
           neighbours[p][side.item] = neighbour;
         });
       }
@@ -117,7 +116,7 @@ EdgeNeighbours find_edge_neighbours(const mesh::NumberedMesh& surface, const Sho
   });
   const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, place_of);
   const auto answers = meeting.answer<Answer>([](const auto& run, const auto& reply) {
-    tell_each(run, [&](const mesh::Guest<TriangleSide>& guest, const EdgeNeighbour& neighbour) {
+    for_each_neighbour(run, [&](const mesh::Guest<TriangleSide>& guest, const EdgeNeighbour& neighbour) {
       reply(guest, {guest.item.place, guest.item.item, neighbour});
     });
   });

@@ -1,4 +1,4 @@
-/// Bits of lines on a surface, and the lines that they make.
+/// Connects edges and triangles to lines on a surface.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -11,9 +11,9 @@
 
 namespace aeroloom::picture {
 
-/// A triangle or edge that lies on a line.
+/// An edge or triangle on a line.
 struct LineItem {
-  std::array<mesh::GlobalIndex, 3> vertices;  ///< ascending; of an edge the last is there twice
+  std::array<mesh::GlobalIndex, 3> vertices;  ///< ascending; the last of an edge is repeated
   geometry::Vec3 point, normal, along;        ///< as in Place
   double length = 0, size = 0;
 
@@ -23,26 +23,26 @@ struct LineItem {
   }
 };
 
-/// By vertices; the two items of a sharp edge, one from each of its triangles, by what differs in them.
+/// Orders by vertices, then by the values that differ between the two items of a sharp edge.
 inline bool precedes(const LineItem& a, const LineItem& b) {
   return std::tie(a.vertices, a.size, a.along.x, a.along.y, a.along.z) <
          std::tie(b.vertices, b.size, b.along.x, b.along.y, b.along.z);
 }
 
-/// Line items that are connected by vertices.
+/// Items that are connected by vertices.
 struct SurfaceLine {
-  std::vector<LineItem> items;  ///< by their vertices
-  geometry::Box box;            ///< of the points of its items
+  std::vector<LineItem> items;  ///< ordered by vertices
+  geometry::Box box;            ///< of the items' points
 
   double extent() const { return box.diagonal(); }
 };
 
-/// All lines of the items of all ranks on rank 0, by their lowest vertices; nothing elsewhere. A function of
-/// the set of all items. Collective.
+/// The lines of all ranks' items on rank 0, ordered by lowest vertex; empty elsewhere. A function of the set
+/// of all items. Collective.
 std::vector<SurfaceLine> gather_lines(const parallel::Communicator& communicator,
                                       const std::vector<LineItem>& mine);
 
-/// The mean of what is near an item: its direction, normal and size, over four sizes.
+/// The item with normal, direction and size averaged over all items within four sizes.
 LineItem smoothed(const SurfaceLine& line, const LineItem& item);
 
 }  // namespace aeroloom::picture

@@ -1,4 +1,4 @@
-/// Few colours for many: what a file with a palette needs.
+/// Reduces an image to few colours, for files with a palette.
 #pragma once
 
 #include "pipeline/report/picture/image.hpp"
@@ -8,15 +8,15 @@
 
 namespace aeroloom::picture {
 
-/// An image whose pixels name colours of a list.
+/// An image whose pixels are indices into a palette.
 struct PalettedImage {
-  std::vector<Colour> palette;       ///< 256 at most
-  std::vector<std::uint8_t> pixels;  ///< row by row from the top
+  std::vector<Colour> palette;       ///< at most 256
+  std::vector<std::uint8_t> pixels;  ///< by rows from the top
 };
 
-/// The image in at most that many colours, found by dividing the box of all colours again and again where
-/// their spread is largest (Heckbert, SIGGRAPH 1982, doi:10.1145/800064.801294). Colours nearer to each other
-/// than 8 of 256 steps count as one. `most` from 2 to 256.
+/// The image in at most `most` colours (2 to 256), by median cut: the box of colours is divided repeatedly
+/// where the spread is largest (Heckbert, SIGGRAPH 1982, doi:10.1145/800064.801294). Colours within 8 of 256
+/// steps count as equal.
 PalettedImage quantise(const Image& image, int most);
 
 }  // namespace aeroloom::picture

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 
 namespace aeroloom::picture {
 namespace {
@@ -22,8 +21,8 @@ using geometry::degree;
 // The bounds that make a leading edge and a junction were chosen, not measured; with others a picture shows
 // another place.
 
-constexpr double sharp_turn = 40 * degree;  ///< edges count on their own from here on
-constexpr double corner = 75 * degree;      ///< coarse triangles on a rounding turn by less
+constexpr double sharp_angle = 40 * degree;  ///< edges count on their own from here on
+constexpr double corner = 75 * degree;       ///< coarse triangles on a rounding turn by less
 /// The flow comes from before a line, within 73 degrees of its normal.
 constexpr double least_upstream = 0.3;
 /// Of the turn of an edge or triangle: the flow that it divides comes from within that.
@@ -37,7 +36,7 @@ constexpr double least_length = 8;
 /// Of the longest line: as long as that, and the one on the left is taken, so that rounding does not choose.
 constexpr double as_long = 0.98;
 /// Faces meet inwards by more at a junction, along more edges than these.
-constexpr double inward_turn = 20 * degree;
+constexpr double inward_angle = 20 * degree;
 constexpr std::size_t least_edges = 10;
 constexpr Vec3 upstream{-1, 0, 0};
 
@@ -52,7 +51,7 @@ struct Element {
   std::array<Vec3, 3> corners;
   Vec3 normal;  ///< unit, towards the flow
   double area = 0, size = 0;
-  std::array<double, 3> turns = {0, 0, 0};             ///< at the edge from corner i, radians
+  std::array<double, 3> turning_angles = {0, 0, 0};    ///< at the edge from corner i, radians
   std::array<Vec3, 3> bisectors;                       ///< half way between the normals of both sides
   std::array<bool, 3> inside = {false, false, false};  ///< whether the neighbour there is shown
 
@@ -72,7 +71,7 @@ Element element_of(const mesh::Piece& piece, LocalIndex t, const std::vector<Edg
     e.size += norm(e.edge(i)) / 3;
     e.inside[i] = !neighbour.several && neighbour.shown;
     if (!e.inside[i]) continue;
-    e.turns[i] = angle_at(-e.normal, e.edge(i), neighbour);
+    e.turning_angles[i] = angle_at(-e.normal, e.edge(i), neighbour);
     e.bisectors[i] = normalized(e.normal - neighbour.normal);
   }
   return e;
@@ -82,9 +81,10 @@ Curvature curvature_of(const Element& e) {
   const Vec3 u = normalized(e.edge(0)), w = cross(e.normal, u);
   double uu = 0, uw = 0, ww = 0;
   for (int i = 0; i < 3; ++i) {
-    if (std::abs(e.turns[i]) >= corner) continue;
+    if (std::abs(e.turning_angles[i]) >= corner) continue;
     const Vec3 across = cross(e.normal, normalized(e.edge(i)));
-    const double a = dot(across, u), b = dot(across, w), weight = e.turns[i] * norm(e.edge(i)) / (2 * e.area);
+    const double a = dot(across, u), b = dot(across, w),
+                 weight = e.turning_angles[i] * norm(e.edge(i)) / (2 * e.area);
     uu += weight * a * a, uw += weight * a * b, ww += weight * b * b;
   }
   const double mean = 0.5 * (uu + ww), off = std::sqrt(0.25 * (uu - ww) * (uu - ww) + uw * uw);
@@ -130,15 +130,15 @@ bool flow_divides(Vec3 normal, Vec3 along, double angle) {
          std::abs(dot(upstream, cross(along, normal))) < std::sin(angle);
 }
 
-/// Bits of leading edges. Each sharp_turn edge comes from both of its triangles.
+/// Bits of leading edges. Each sharp_angle edge comes from both of its triangles.
 std::vector<LineItem> leading_items(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
                                     const Scene& scene) {
   std::vector<LineItem> items;
   const double diagonal = scene.box.diagonal();
   for_each_element(surface, neighbours, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] < sharp_turn) continue;
-      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), fraction_of_edge * e.turns[i]))
+      if (e.turning_angles[i] < sharp_angle) continue;
+      if (flow_divides(e.bisectors[i], normalized(e.edge(i)), fraction_of_edge * e.turning_angles[i]))
         items.push_back(item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
@@ -195,11 +195,11 @@ std::optional<Place> find_sharpest(const mesh::NumberedMesh& surface, const Edge
       if (const Sharpest here{angle, item}; is_sharper(here, mine)) mine = here;
     };
     for (int i = 0; i < 3; ++i) {
-      if (e.turns[i] >= sharp_turn) take(e.turns[i], item_of_edge(e, i, vertices));
+      if (e.turning_angles[i] >= sharp_angle) take(e.turning_angles[i], item_of_edge(e, i, vertices));
     }
     const Curvature curvature = curvature_of(e);
     if (curvature.largest * scene.box.diagonal() > least_curvature_of_any)
-      take(std::min(curvature.largest * e.size, sharp_turn), item_of_triangle(e, curvature, vertices));
+      take(std::min(curvature.largest * e.size, sharp_angle), item_of_triangle(e, curvature, vertices));
   });
   std::vector<Sharpest> all = communicator.all_gather_items<Sharpest>(std::span<const Sharpest>(&mine, 1));
   const Sharpest& best = *std::min_element(all.begin(), all.end(), is_sharper);
@@ -241,7 +241,7 @@ std::optional<Place> find_junction(const mesh::NumberedMesh& surface, const Edge
   parallel::agree(communicator, [&] {
     for_each_element(surface, neighbours, scene, [&](const Element& e, const auto& vertices) {
       for (int i = 0; i < 3; ++i) {
-        if (e.turns[i] < -inward_turn && vertices[i] < vertices[(i + 1) % 3])
+        if (e.turning_angles[i] < -inward_angle && vertices[i] < vertices[(i + 1) % 3])
           items.push_back(item_of_edge(e, i, vertices));
       }
     });

@@ -1,41 +1,40 @@
-/// The scene of a picture: the body in the flow, or the walls around it.
+/// Selects what pictures show: the body in the flow, or the walls around the flow.
 #pragma once
 
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace aeroloom::picture {
 
-/// Twice the area times the unit normal of a triangle: out of the region in front of it, that is away from
-/// who looks at a wall from the flow.
+/// Twice the area times the unit normal of a triangle. It points out of the region in front of the triangle,
+/// away from the flow at a wall.
 geometry::Vec3 area_normal(const mesh::Piece& piece, mesh::LocalIndex triangle);
 
-/// Per local piece, one for each triangle: 1 where it is shown.
+/// By local piece and triangle: 1 if it is shown.
 using Shown = std::vector<std::vector<std::uint8_t>>;
 
-/// The body or the walls that pictures show; the same on every rank but for `shown`.
+/// What pictures show; equal on every rank except for `shown`.
 struct Scene {
-  /// Whether there is a body in the flow. Else the flow is inside, and all its walls are shown.
+  /// Whether a body stands in the flow. Otherwise the flow is internal and all walls are shown.
   bool has_body = false;
   Shown shown;
-  std::vector<std::uint8_t> patches;  ///< by patch: whether a triangle of it is shown
-  std::vector<double> patch_areas;    ///< of what is shown of it
-  geometry::Box box, domain;          ///< of what is shown, of everything
-  /// The mean flow-side normal of what is shown: zero for a closed body, away from the plane of symmetry for
-  /// half of one.
+  std::vector<std::uint8_t> patches;  ///< by patch: whether any of its triangles is shown
+  std::vector<double> patch_areas;    ///< of the shown triangles
+  geometry::Box box, domain;          ///< of the shown triangles; of the whole surface
+  /// Mean flow-side normal of the shown triangles: zero for a closed body; away from the symmetry plane for
+  /// half a body.
   geometry::Vec3 open_towards;
 };
 
-/// Far field, planes of symmetry and faces between regions are never shown. Where no patch is a far field,
-/// the triangles on the convex hull of the domain are left out if they enclose the rest: the hull is known by
-/// its farthest points in 200 directions, a triangle lies on it to 0.15 of its longest edge; they enclose
-/// the rest if their area vectors cancel to 15 % (half a body leaves a hole in the plane of symmetry, a bend
-/// half of its walls) and hold nine tenths of the volume. In a duct they do not. `types` by patch; those left
-/// out are walls. Collective.
+/// Selects triangles. Far field, symmetry planes and faces between regions are never shown. Without a
+/// far-field patch, triangles on the convex hull of the domain are hidden if they enclose the rest. The hull
+/// is known by its farthest points in 200 directions; a triangle lies on it to 0.15 of its longest edge. Such
+/// triangles enclose the rest if their area vectors cancel to 15 % (half a body leaves a hole in the symmetry
+/// plane, a bend half of its walls) and they hold nine tenths of the volume. In a duct they do not. `types`:
+/// by patch; missing ones are walls. Collective.
 Scene find_scene(const mesh::DistributedMesh& surface, const std::vector<mesh::PatchType>& types);
 
 }  // namespace aeroloom::picture

@@ -90,7 +90,7 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
     const parallel::Warnings warnings = parallel::take_warnings(world);
-    const double share = sized.findings.features ? sized.findings.features->share.ratio : 1;
+    const double share = sized.findings.features ? sized.findings.features->resolution.ratio : 1;
     const double error = std::log(sized.findings.counts.tetrahedra / share / 30'000);
     met += std::abs(error) < std::log(1.25);
     if (std::abs(error) > std::log(1.25)) {
@@ -113,7 +113,7 @@ TEST(SizeDomain, ChoosesTheSameOnAnyNumberOfRanks) {
           size_domain(communicator, model, target_beside(chosen), {cases::NarrowFaces::join});
       text += fmt::format("{:a} {:a} {:a} {:a} {:a} {}\n", sized.findings.counts.tetrahedra,
                           sized.findings.counts.triangles, sized.sizes.minimum, sized.sizes.surface_maximum,
-                          sized.findings.features ? sized.findings.features->share.ratio : 1,
+                          sized.findings.features ? sized.findings.features->resolution.ratio : 1,
                           sized.field.leaf_count());
     }
     return text;
@@ -165,7 +165,7 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   ASSERT_EQ(small.findings.features->strips.size(), 3u) << "the blunt end, and the sides beside it";
   EXPECT_NEAR(small.findings.features->strips[0].width, 0.0005, 1e-6);
   EXPECT_NEAR(small.findings.features->strips[0].place.x, 1, 1e-9);
-  const double aspect = small.findings.features->share.aspect;
+  const double aspect = small.findings.features->resolution.aspect;
   EXPECT_GT(aspect, 1);
   EXPECT_NEAR(std::tan(small.findings.features->strips[0].surface_degrees * std::numbers::pi / 180),
               1 / aspect, 1e-6);
@@ -323,15 +323,15 @@ TEST(SizeDomain, OtherSizesComeWithTheSurface) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
   const SizedDomain joined = size(model, 0.1, cases::NarrowFaces::join),
                     kept = size(model, 0.1, cases::NarrowFaces::keep);
-  const mesh::DistributedMesh empty;
+  const surface::SurfaceMesh empty{{mesh::number_mesh(mesh::DistributedMesh(world)), kept.field}, {}};
   SizedDomain sized = joined;
-  const auto with = pipeline::pack_surface(world, {empty, kept.field, {}, kept, true});
-  EXPECT_TRUE(pipeline::unpack_surface(world, as_read(with), model, sized));
+  const auto with = pipeline::pack_surface({empty, kept, true});
+  EXPECT_TRUE(pipeline::unpack_surface(as_read(with), model, sized));
   EXPECT_TRUE(sized.findings.joined.groups.empty());
   EXPECT_EQ(sized.field.digest(), kept.field.digest());
   sized = joined;
-  const auto without = pipeline::pack_surface(world, {empty, kept.field, {}, kept, false});
-  EXPECT_FALSE(pipeline::unpack_surface(world, as_read(without), model, sized));
+  const auto without = pipeline::pack_surface({empty, kept, false});
+  EXPECT_FALSE(pipeline::unpack_surface(as_read(without), model, sized));
   EXPECT_EQ(sized.field.digest(), joined.field.digest());
 }
 

@@ -96,7 +96,7 @@ TEST(Jobs, TellWhatTheQueueWroteOfTheirEnd) {
       folder.path / "strong_4_1.out",
       "a line\nslurmstepd-node1: error: *** JOB 1 ON node1 CANCELLED AT 2026-11-25T09:46:29 DUE TO NODE "
       "FAILURE, SEE SLURMCTLD LOG FOR DETAILS ***\nlast words\n");
-  const std::map<std::string, std::string> said = ask_queue(folder.path);
+  const std::map<std::string, std::string> said = query_queue(folder.path);
   EXPECT_EQ(said.at("strong_4_1"), "job 99999998 CANCELLED AT 2026-11-25T09:46:29 DUE TO NODE FAILURE");
   EXPECT_EQ(said.at("strong_4_2"), "job 99999999, of which sacct says nothing");
 }

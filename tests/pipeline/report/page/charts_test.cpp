@@ -96,7 +96,7 @@ TEST(LineChart, FractionsArePercent) {
 
 TEST(PileChart, PartsStandOnEachOther) {
   const std::string chart =
-      pile_chart("memory", " GiB", {"mesh", "field"}, {{"1 rank", {2, 1}}, {"2 ranks", {1, 0}}});
+      stacked_bar_chart("memory", " GiB", {"mesh", "field"}, {{"1 rank", {2, 1}}, {"2 ranks", {1, 0}}});
   const std::vector<double> mesh = attribute(chart, "stage0", "height"),
                             field = attribute(chart, "stage1", "height");
   ASSERT_EQ(mesh.size(), 2u);
@@ -104,7 +104,7 @@ TEST(PileChart, PartsStandOnEachOther) {
   EXPECT_NEAR(mesh[0], 2 * mesh[1], 0.2);
   const double below = attribute(chart, "stage0", "y")[0];
   EXPECT_NEAR(attribute(chart, "stage1", "y")[0] + field[0], below, 0.2);
-  EXPECT_EQ(pile_chart("memory", "", {"mesh"}, {{"1 rank", {0}}}), "");
+  EXPECT_EQ(stacked_bar_chart("memory", "", {"mesh"}, {{"1 rank", {0}}}), "");
 }
 
 TEST(Style, NamesNothingOutsideThePage) {
