@@ -10,9 +10,7 @@
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 #include "mesh/quality/tet_quality.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "parallel/observation/progress.hpp"
-#include "parallel/observation/timers.hpp"
 
 #include <cstdint>
 

@@ -6,7 +6,6 @@
 #include "improve/mesh_source.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/data/piece.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <vector>
 

@@ -3,9 +3,7 @@
 
 #include "improve/borders/rounds.hpp"
 #include "improve/improve_report.hpp"
-#include "mesh/data/piece.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
+#include "mesh/data/distributed_mesh.hpp"
 
 namespace aeroloom::improve {
 
@@ -19,13 +17,10 @@ public:
   void add_piece(const mesh::Piece& piece, double cells, double begin, const ImproveReport& of_piece);
   /// A cavity was improved since then.
   void note_cavity(const cavities::Cavity& cavity, double begin);
-  void begin_round() { parallel::begin_round(); }
-  /// The report of all ranks, the same on each. Collective.
-  ImproveReport total(const parallel::Communicator& communicator) const;
+  /// The report of all ranks of a mesh, the same on each. Collective.
+  ImproveReport total(const mesh::DistributedMesh& mesh) const;
 
   ImproveReport mine;  ///< of this rank
-
-private:
 };
 
 }  // namespace aeroloom::improve

@@ -6,7 +6,6 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -46,16 +45,15 @@ void limit_by_gaps(const WallShare& wall, const Directions& directions, ColumnLi
 
 Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
                     const PlaneRemesher& remesh_planes) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
   parallel::add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
   const WallShare walls(wall.mesh, options);
   const Fans fans = gather_fans(walls);
   const Directions directions = find_directions(walls, fans);
   ColumnLimits limits(walls, options, fans, directions);
-  limits.converge(communicator);
+  limits.converge();
   limit_by_gaps(walls, directions, limits);
-  limits.converge(communicator);
+  limits.converge();
   Layers layers;
   layers.report.validity_rounds = shrink_to_good(walls, directions, limits);
   layers.front = FrontClearing(walls, directions, remesh_planes).run(limits, layers.report);

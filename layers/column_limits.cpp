@@ -3,7 +3,6 @@
 #include "layers/wanted_layers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -103,8 +102,8 @@ void ColumnLimits::limit_counts(std::vector<std::int32_t> counts, LayerLimit cau
 }
 
 template <class T, class Follow>
-void ColumnLimits::propagate(const parallel::Communicator& communicator, std::vector<T>& values,
-                             std::vector<std::int32_t> from, const Follow& follow) const {
+void ColumnLimits::propagate(std::vector<T>& values, std::vector<std::int32_t> from,
+                             const Follow& follow) const {
   std::vector<std::uint8_t> waits(values.size(), 0);
   std::vector<std::int32_t> next;
   const auto lower = [&](std::int32_t v, T value) {
@@ -127,30 +126,25 @@ void ColumnLimits::propagate(const parallel::Communicator& communicator, std::ve
     for (const std::int32_t v : _wall.vertex_of_copy) lower(v, combined[v]);
     from.swap(next);
     next.clear();
-    changes = communicator.sum(static_cast<std::int64_t>(from.size())) > 0;
+    changes = _wall.mesh.communicator.sum(static_cast<std::int64_t>(from.size())) > 0;
   }
 }
 
-bool ColumnLimits::converge_counts(const parallel::Communicator& communicator) {
+void ColumnLimits::converge_counts() {
   std::vector<std::int32_t> counts = _counts;
-  propagate(communicator, counts, std::exchange(_lower_counts, {}),
+  propagate(counts, std::exchange(_lower_counts, {}),
             [&](std::int32_t, std::int32_t, std::int32_t count) { return count + _stairs; });
-  std::int64_t cut = 0;
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
-    if (counts[v] == _counts[v]) continue;
-    cut_count(v, counts[v], LayerLimit::stairs);
-    ++cut;
+    if (counts[v] != _counts[v]) cut_count(v, counts[v], LayerLimit::stairs);
   }
   _lower_counts.clear();  // at a fixed point
-  return communicator.sum(cut) > 0;
 }
 
-void ColumnLimits::converge_totals(const parallel::Communicator& communicator) {
+void ColumnLimits::converge_totals() {
   std::vector<double> limits = _limits;
-  propagate(communicator, limits, std::exchange(_lower_totals, {}),
-            [&](std::int32_t v, std::int32_t u, double limit) {
-              return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
-            });
+  propagate(limits, std::exchange(_lower_totals, {}), [&](std::int32_t v, std::int32_t u, double limit) {
+    return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
+  });
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
     if (!(limits[v] < _limits[v])) continue;
     _limits[v] = limits[v];
@@ -158,11 +152,12 @@ void ColumnLimits::converge_totals(const parallel::Communicator& communicator) {
   }
 }
 
-void ColumnLimits::converge(const parallel::Communicator& communicator) {
+void ColumnLimits::converge() {
   do {
-    converge_counts(communicator);
-    converge_totals(communicator);
-  } while (communicator.sum(static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
+    converge_counts();
+    converge_totals();
+  } while (_wall.mesh.communicator.sum(
+               static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
 }
 
 }  // namespace aeroloom::layers

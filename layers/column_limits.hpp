@@ -35,7 +35,7 @@ public:
   void limit_counts(std::vector<std::int32_t> counts, LayerLimit cause);
   /// Lets neighbours follow: counts within `stairs`, totals within the slope, until nothing changes.
   /// Collective.
-  void converge(const parallel::Communicator& communicator);
+  void converge();
 
   /// The vertices whose columns changed since the last call; equal in all pieces.
   std::vector<std::int32_t> take_changed();
@@ -49,10 +49,9 @@ private:
   /// that the neighbour u may have. `from` are the vertices whose values are below what they were.
   /// Collective.
   template <class T, class Follow>
-  void propagate(const parallel::Communicator& communicator, std::vector<T>& values,
-                 std::vector<std::int32_t> from, const Follow& follow) const;
-  bool converge_counts(const parallel::Communicator& communicator);
-  void converge_totals(const parallel::Communicator& communicator);
+  void propagate(std::vector<T>& values, std::vector<std::int32_t> from, const Follow& follow) const;
+  void converge_counts();
+  void converge_totals();
 
   const WallShare& _wall;
   std::int32_t _stairs;

@@ -7,7 +7,6 @@
 
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,6 @@
 
 #include "layers/fans.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace aeroloom::layers {

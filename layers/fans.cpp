@@ -131,7 +131,6 @@ void append_normals(std::span<const FanTriangle> fan, std::span<const Vec3> plan
 
 /// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
 std::vector<FanAnswer> meet_at_shared_vertices(const WallShare& wall) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<FanGuest> guests;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const PieceFans of_piece(wall, p);
@@ -143,7 +142,7 @@ std::vector<FanAnswer> meet_at_shared_vertices(const WallShare& wall) {
         guests.push_back({key, v, of_piece.triangle(t, v)});
     }
   }
-  const mesh::Rendezvous meeting(communicator, guests, &FanGuest::key, [](const FanGuest& guest) {
+  const mesh::Rendezvous meeting(wall.mesh.communicator, guests, &FanGuest::key, [](const FanGuest& guest) {
     return std::pair(guest.triangle.piece, guest.triangle.cell);
   });
   std::vector<FanAnswer> answers = meeting.answer<FanAnswer>([](const auto& group, const auto& reply) {

@@ -73,7 +73,8 @@ public:
     if (p == pieces.size() || pieces[p].id != piece) return;
     add_triangle(_wall.first_triangle[p] + cell);
   }
-  std::int64_t lowered_here() const { return _lowered; }
+  /// How many columns of all ranks fall. Collective.
+  std::int64_t total() const { return _wall.mesh.communicator.sum(_lowered); }
   std::vector<std::int32_t> take() { return std::move(_counts); }
 
 private:
@@ -88,10 +89,7 @@ private:
 
 FrontClearing::FrontClearing(const WallShare& wall, const Directions& directions,
                              const PlaneRemesher& remesh_planes)
-    : _communicator(wall.mesh.communicator),
-      _wall(wall),
-      _directions(directions),
-      _remesh_planes(remesh_planes) {
+    : _wall(wall), _directions(directions), _remesh_planes(remesh_planes) {
   std::vector<std::int32_t> on_plane;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const auto roles =
@@ -115,11 +113,11 @@ void FrontClearing::lower_on_planes(const std::vector<mesh::SharedVertexKey>& at
     const mesh::SharedVertexKey key = _wall.mesh.pieces[p].shared_keys[copy - _wall.shared.first(p)];
     if (std::binary_search(at_fault.begin(), at_fault.end(), key)) lower.add(_wall.vertex_of_copy[copy]);
   });
-  if (_communicator.sum(lower.lowered_here()) > 0) return;
+  if (lower.total() > 0) return;
   for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
     if (_wall.roles[t] == WallRole::plane) lower.add_triangle(t);
   }
-  if (_communicator.sum(lower.lowered_here()) > 0) return;
+  if (lower.total() > 0) return;
   throw parallel::CollectiveError(
       parallel::FailureKind::bug,
       "layers: planes cannot be meshed again within boundaries that did not move");
@@ -137,7 +135,7 @@ void FrontClearing::lower_around_parts(const mesh::DistributedMesh& front, Lower
   }
   const std::vector<std::int32_t> swallowing = find_swallowing_triangles(_wall, ends);
   for (const std::int32_t t : swallowing) lower.add_triangle(t);
-  report.swallowing += _communicator.sum(static_cast<std::int64_t>(swallowing.size()));
+  report.swallowing += _wall.mesh.communicator.sum(static_cast<std::int64_t>(swallowing.size()));
 }
 
 bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report) const {
@@ -157,8 +155,8 @@ bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower,
     add(hit.first_piece, hit.first);
     add(hit.second_piece, hit.second);
   }
-  if (_communicator.sum(lower.lowered_here()) == 0) lower_around_parts(front, lower, report);
-  if (_communicator.sum(lower.lowered_here()) == 0) return true;
+  if (lower.total() == 0) lower_around_parts(front, lower, report);
+  if (lower.total() == 0) return true;
   report.crossings += static_cast<std::int64_t>(hits.size());
   return false;
 }
@@ -169,9 +167,9 @@ mesh::DistributedMesh FrontClearing::run(ColumnLimits& limits, LayerReport& repo
     LoweredCounts lower(_wall, limits, round);
     if (is_clear(front, lower, report)) return front;
     report.crossing_rounds = round;
-    if (round > rounds_of_thirds) report.zeroed_by_force += _communicator.sum(lower.lowered_here());
+    if (round > rounds_of_thirds) report.zeroed_by_force += lower.total();
     limits.limit_counts(lower.take(), LayerLimit::crossing);
-    limits.converge(_communicator);
+    limits.converge();
     report.validity_rounds += shrink_to_good(_wall, _directions, limits);
   }
 }

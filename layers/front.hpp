@@ -35,7 +35,6 @@ private:
   /// Lowers what is in the way of a front; returns whether that is nothing.
   bool is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report) const;
 
-  const parallel::Communicator& _communicator;
   const WallShare& _wall;
   const Directions& _directions;
   const PlaneRemesher& _remesh_planes;

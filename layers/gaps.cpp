@@ -80,8 +80,7 @@ Box box_of_ball(const TouchingBall& ball) {
 }
 
 /// The boxes of the balls of all ranks, some hundred balls each.
-std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator,
-                                      const std::vector<TouchingBall>& balls) {
+std::vector<BallBatch> gather_batches(const WallShare& wall, const std::vector<TouchingBall>& balls) {
   std::vector<Box> boxes;
   for (const TouchingBall& ball : balls) {
     if (ball.diameter > 0) boxes.push_back(box_of_ball(ball));
@@ -89,15 +88,14 @@ std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator
   const geometry::BoxTree tree(boxes, balls_per_batch);
   std::vector<BallBatch> batches;
   for (const auto leaf : tree.leaves()) {
-    BallBatch& batch = batches.emplace_back(BallBatch{{}, communicator.rank()});
+    BallBatch& batch = batches.emplace_back(BallBatch{{}, wall.mesh.communicator.rank()});
     for (const std::int32_t i : leaf) batch.box.add(boxes[i]);
   }
-  return communicator.all_gather_items(std::span<const BallBatch>(batches));
+  return wall.mesh.communicator.all_gather_items(std::span<const BallBatch>(batches));
 }
 
 /// The triangles of this rank, and those of others that its balls may meet.
 std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vector<BallBatch>& batches) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<Box> boxes;
   boxes.reserve(batches.size());
   for (const BallBatch& batch : batches) boxes.push_back(batch.box);
@@ -118,7 +116,7 @@ std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vect
       triangles.push_back(triangle);
     }
   }
-  return parallel::deliver(communicator, std::move(triangles),
+  return parallel::deliver(wall.mesh.communicator, std::move(triangles),
                            [](const NearTriangle& t) { return static_cast<parallel::Rank>(t.rank); });
 }
 
@@ -151,8 +149,7 @@ double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
 }
 
 std::vector<double> find_gaps(const WallShare& wall, const std::vector<TouchingBall>& balls) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
-  const std::vector<NearTriangle> triangles = fetch_triangles(wall, gather_batches(communicator, balls));
+  const std::vector<NearTriangle> triangles = fetch_triangles(wall, gather_batches(wall, balls));
   std::vector<Box> boxes(triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     for (const Vec3 corner : triangles[t].corners) boxes[t].add(corner);

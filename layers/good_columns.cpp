@@ -1,5 +1,7 @@
 #include "layers/good_columns.hpp"
 
+#include "layers/layer_validity.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -22,8 +24,7 @@ std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<
   return triangles;
 }
 
-}  // namespace
-
+/// The columns of a triangle's corners.
 TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
                              std::int32_t triangle) {
   TriangleColumns columns;
@@ -34,8 +35,9 @@ TriangleColumns columns_over(const WallShare& wall, const Directions& directions
   return columns;
 }
 
+}  // namespace
+
 int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLimits& limits) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<std::uint8_t> seen(wall.triangles.size(), 0);
   for (int rounds = 0;; ++rounds) {
     std::vector<double> totals(wall.points.size(), std::numeric_limits<double>::infinity());
@@ -50,9 +52,9 @@ int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLi
         if (columns[i].heights.total(columns[i].count) > height) total = std::min(total, height);
       }
     }
-    if (communicator.sum(bad) == 0) return rounds;
+    if (wall.mesh.communicator.sum(bad) == 0) return rounds;
     limits.limit_totals(std::move(totals), LayerLimit::validity);
-    limits.converge(communicator);
+    limits.converge();
   }
 }
 

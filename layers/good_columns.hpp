@@ -2,13 +2,8 @@
 #pragma once
 
 #include "layers/column_limits.hpp"
-#include "layers/layer_validity.hpp"
 
 namespace aeroloom::layers {
-
-/// The columns of a triangle's corners.
-TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
-                             std::int32_t triangle);
 
 /// Where a cell over a wall triangle is not good, its columns end below that, and neighbours follow, until
 /// all are. Looks only at triangles whose columns changed since the last call. Returns the rounds it took,

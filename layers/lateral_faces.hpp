@@ -3,7 +3,6 @@
 
 #include "layers/columns.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <tuple>

@@ -24,7 +24,6 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 using mesh::PieceId;
-using parallel::Communicator;
 
 namespace {
 
@@ -55,7 +54,6 @@ using FrontTable = mesh::DistributedTable<FrontVertex>;
 
 FrontTable make_table(const Columns& columns, const NamedFront& front,
                       const std::vector<std::optional<std::size_t>>& places) {
-  const Communicator& communicator = front.mesh.communicator;
   std::vector<const PieceColumns*> columns_of(front.mesh.pieces.size(), nullptr);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
@@ -70,8 +68,8 @@ FrontTable make_table(const Columns& columns, const NamedFront& front,
                        static_cast<std::int32_t>(piece.vertex_dimension[v]), front.entities[p][v]}});
     }
   }
-  return {communicator, mesh::even_ranges(communicator.size(), front.numbering.vertex_count),
-          std::move(rows)};
+  return {front.mesh.communicator,
+          mesh::even_ranges(front.mesh.communicator.size(), front.numbering.vertex_count), std::move(rows)};
 }
 
 /// The pieces behind the front: their vertices on it get keys that layers know, and their classification; the
@@ -127,24 +125,11 @@ private:
       piece.shared_vertices.push_back(vertex);
       piece.shared_keys.push_back(key);
     }
-    keep_bare_triangles(piece, grows);
-  }
-
-  void keep_bare_triangles(Piece& piece, const std::vector<std::uint8_t>& grows) const {
-    std::size_t kept = 0;
-    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    mesh::keep_boundary_triangles(piece, [&](LocalIndex t) {
       const LocalIndex* v = piece.boundary_triangle(t);
-      const bool covered = bears_layers(_wall, piece.triangle_patch[t]) &&
-                           std::any_of(v, v + 3, [&](LocalIndex each) { return grows[each] != 0; });
-      if (covered) continue;
-      std::copy_n(v, 3, piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
-      piece.triangle_face[kept] = piece.triangle_face[t];
-      piece.triangle_patch[kept] = piece.triangle_patch[t];
-      ++kept;
-    }
-    piece.boundary.resize(3 * kept);
-    piece.triangle_face.resize(kept);
-    piece.triangle_patch.resize(kept);
+      return !bears_layers(_wall, piece.triangle_patch[t]) ||
+             std::none_of(v, v + 3, [&](LocalIndex each) { return grows[each] != 0; });
+    });
   }
 
   const mesh::DistributedMesh& _wall;
@@ -209,10 +194,7 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
         of_piece[v] = std::min(of_piece[v], Place{on_face, mesh::cad_face_of(piece, f)});
     }
   }
-  std::vector<Place> copies(shared.size());
-  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { copies[copy] = places[p][v]; });
-  shared.reduce_and_scatter(copies, [](const Place& a, const Place& b) { return std::min(a, b); });
-  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { places[p][v] = copies[copy]; });
+  shared.combine(places, [](const Place& a, const Place& b) { return std::min(a, b); });
   for (std::size_t p = 0; p < places.size(); ++p) {
     Piece& piece = volume.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -225,10 +207,9 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 }  // namespace
 
 NamedFront name_front(mesh::DistributedMesh front) {
-  const Communicator communicator = front.communicator;
   NamedFront named{{std::move(front), {}}, {}};
   named.numbering = mesh::number_mesh(named.mesh);
-  parallel::agree(communicator, [&] {
+  parallel::agree(named.mesh.communicator, [&] {
     if (named.numbering.vertex_count > std::numeric_limits<std::int32_t>::max())
       throw std::runtime_error("layers: the surface has more vertices than 2^31");
     for (std::size_t p = 0; p < named.mesh.pieces.size(); ++p) {
@@ -243,12 +224,12 @@ NamedFront name_front(mesh::DistributedMesh front) {
 
 void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& front,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
-  const Communicator& communicator = wall.mesh.communicator;
   const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
   BehindFront(wall.mesh, make_table(columns, front, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
-  parallel::agree(communicator, [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
+  parallel::agree(wall.mesh.communicator,
+                  [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
@@ -263,7 +244,8 @@ void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const
   volume.piece_count += static_cast<PieceId>(first.back());
   mesh::SharedVertices shared(volume);
   shared.drop_unshared(volume);
-  if (communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0) classify_on_planes(shared, volume);
+  if (wall.mesh.communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0)
+    classify_on_planes(shared, volume);
 }
 
 }  // namespace aeroloom::layers

@@ -69,7 +69,6 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 
 std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimits& limits,
                                         LayerElements elements) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<PieceRow> rows;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     std::vector<PatchLayers> patches(wall.mesh.patches.size());
@@ -82,7 +81,7 @@ std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimit
         rows.push_back({patches[i], static_cast<std::int32_t>(i), wall.mesh.pieces[p].id});
     }
   }
-  rows = communicator.all_gather_items(std::span<const PieceRow>(rows));
+  rows = wall.mesh.communicator.all_gather_items(std::span<const PieceRow>(rows));
   std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
   std::vector<PatchLayers> patches(wall.mesh.patches.size());
   for (const PieceRow& row : rows) add_row(row.layers, patches[row.patch]);

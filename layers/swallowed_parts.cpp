@@ -42,7 +42,6 @@ void keep_first_of_each_face(std::vector<FacePoint>& points) {
 
 /// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.
 std::vector<FacePoint> points_of_faces(const WallShare& wall) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<FacePoint> points;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
@@ -57,7 +56,7 @@ std::vector<FacePoint> points_of_faces(const WallShare& wall) {
     }
   }
   keep_first_of_each_face(points);
-  points = communicator.all_gather_items(std::span<const FacePoint>(points));
+  points = wall.mesh.communicator.all_gather_items(std::span<const FacePoint>(points));
   keep_first_of_each_face(points);
   return points;
 }

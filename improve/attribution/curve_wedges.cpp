@@ -92,13 +92,12 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
 
 std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
                                       const std::vector<EdgeName>& edges) {
-  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<EdgeShare> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
       add_shares(mesh.pieces[i], numbering.vertices[i], edges, mine);
   }
-  std::vector<EdgeShare> all = communicator.all_gather_items<EdgeShare>(mine);
+  std::vector<EdgeShare> all = mesh.communicator.all_gather_items<EdgeShare>(mine);
   std::sort(all.begin(), all.end(), [](const EdgeShare& a, const EdgeShare& b) {
     return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
   });

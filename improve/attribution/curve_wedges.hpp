@@ -3,7 +3,6 @@
 
 #include "improve/attribution/strip_edges.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,12 +3,10 @@
 #include "mesh/exchange/shared_vertices.hpp"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace aeroloom::attribution {
 
 std::vector<std::vector<std::uint8_t>> find_front_vertices(const mesh::DistributedMesh& mesh) {
-  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<std::vector<std::uint8_t>> on_front;
   bool layered = false;
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -19,14 +17,8 @@ std::vector<std::vector<std::uint8_t>> find_front_vertices(const mesh::Distribut
     if (of_layers) std::fill(flags.begin(), flags.end(), 1);
     layered = layered || of_layers;
   }
-  if (communicator.maximum(std::int64_t{layered}) == 0) return on_front;
-  const mesh::SharedVertices shared(mesh);
-  std::vector<std::uint8_t> copies(shared.size());
-  shared.for_each(
-      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { copies[copy] = on_front[p][v]; });
-  shared.reduce_and_scatter(copies, [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
-  shared.for_each(
-      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { on_front[p][v] = copies[copy]; });
+  if (mesh.communicator.maximum(std::int64_t{layered}) == 0) return on_front;
+  mesh::SharedVertices(mesh).combine(on_front, [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
   return on_front;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <vector>

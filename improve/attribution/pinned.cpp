@@ -44,8 +44,7 @@ class PinnedSearch {
 public:
   PinnedSearch(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, double target,
                const mesh::CellsOutside& suspects, bool surface_may_change)
-      : _communicator(mesh.communicator),
-        _mesh(mesh),
+      : _mesh(mesh),
         _numbering(numbering),
         _suspects(suspects),
         _target(target),
@@ -102,7 +101,6 @@ private:
   void total(MissedTarget& kind) const;
   PinnedReport merge();
 
-  const parallel::Communicator& _communicator;
   const mesh::DistributedMesh& _mesh;
   const mesh::Numbering& _numbering;
   const mesh::CellsOutside& _suspects;
@@ -139,7 +137,7 @@ void PinnedSearch::collect_edges() {
       }
     }
   }
-  _edges = _communicator.all_gather_items<EdgeName>(mine);
+  _edges = _mesh.communicator.all_gather_items<EdgeName>(mine);
   geometry::sort_unique(_edges);
 }
 
@@ -167,7 +165,7 @@ void PinnedSearch::list_sharp_curves() {
       }
     }
   }
-  _sharp_curves = SharpCurves(_communicator, mine);
+  _sharp_curves = SharpCurves(_mesh, mine);
 }
 
 bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
@@ -302,9 +300,9 @@ void PinnedSearch::judge(std::size_t i) {
 }
 
 void PinnedSearch::total(MissedTarget& kind) const {
-  kind.tetrahedra = _communicator.sum(kind.tetrahedra);
-  kind.smallest_angle = _communicator.minimum(kind.smallest_angle);
-  kind.largest_angle = _communicator.maximum(kind.largest_angle);
+  kind.tetrahedra = _mesh.communicator.sum(kind.tetrahedra);
+  kind.smallest_angle = _mesh.communicator.minimum(kind.smallest_angle);
+  kind.largest_angle = _mesh.communicator.maximum(kind.largest_angle);
 }
 
 /// Tetrahedra of the same face become one entry, on each rank before they travel.
@@ -326,11 +324,12 @@ void PinnedSearch::merge_features() {
     }
     return merged;
   };
-  _report.features = merge(_communicator.all_gather_items<UnresolvedFeature>(merge(std::move(_features))));
+  _report.features =
+      merge(_mesh.communicator.all_gather_items<UnresolvedFeature>(merge(std::move(_features))));
 }
 
 PinnedReport PinnedSearch::merge() {
-  std::vector<PinningEntity> all = _communicator.all_gather_items<PinningEntity>(_entities);
+  std::vector<PinningEntity> all = _mesh.communicator.all_gather_items<PinningEntity>(_entities);
   const auto key = [](const PinningEntity& e) { return std::tuple(e.kind, e.faces, e.vertex); };
   std::sort(all.begin(), all.end(), [&](const PinningEntity& a, const PinningEntity& b) {
     return std::tuple(key(a), a.angle, a.at.x, a.at.y, a.at.z) <

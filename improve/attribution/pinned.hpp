@@ -6,7 +6,6 @@
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/quality/quality.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,6 @@
 
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/features/segment_tree.hpp"
 
 #include <cstdint>
@@ -33,7 +32,7 @@ class SharpCurves {
 public:
   SharpCurves() = default;
   /// From each rank's own, some of which others may have too. Collective.
-  SharpCurves(const parallel::Communicator& communicator, const std::vector<SharpSegment>& mine);
+  SharpCurves(const mesh::DistributedMesh& mesh, const std::vector<SharpSegment>& mine);
 
   struct Nearest {
     double distance, angle;

@@ -3,7 +3,6 @@
 #include "mesh/data/cell_stars.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace aeroloom::attribution {
 

@@ -15,7 +15,6 @@ using mesh::Piece;
 
 std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
                                         const std::vector<EdgeName>& edges) {
-  const parallel::Communicator& communicator = mesh.communicator;
   const auto triangles = find_strip_triangles(mesh, numbering);
   std::vector<StripEdge> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -34,7 +33,7 @@ std::vector<StripEdge> find_strip_edges(const mesh::DistributedMesh& mesh, const
       }
     }
   }
-  std::vector<StripEdge> strips = communicator.all_gather_items<StripEdge>(mine);
+  std::vector<StripEdge> strips = mesh.communicator.all_gather_items<StripEdge>(mine);
   const auto same = [](const StripEdge& a, const StripEdge& b) { return a.edge == b.edge; };
   geometry::sort_unique(
       strips,

@@ -74,7 +74,6 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
 /// Curves are known by their edges: those at which triangles of two CAD faces meet.
 std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
                                               const mesh::Numbering& numbering) {
-  const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
     const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
     geometry::sort_unique(
@@ -84,7 +83,7 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
     add_edges(mesh.pieces[i], numbering.vertices[i], edges);
   sort_out(edges);
-  edges = communicator.all_gather_items<EdgeAtVertex>(edges);
+  edges = mesh.communicator.all_gather_items<EdgeAtVertex>(edges);
   sort_out(edges);
   std::vector<CurveAtVertex> curves;
   for (std::size_t i = 1; i < edges.size(); ++i) {

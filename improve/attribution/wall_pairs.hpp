@@ -3,7 +3,6 @@
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <compare>

@@ -5,7 +5,6 @@
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 #include "mesh/quality/tet_quality.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 

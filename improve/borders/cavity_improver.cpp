@@ -2,6 +2,7 @@
 
 #include "improve/borders/scatter.hpp"
 #include "improve/improver.hpp"
+#include "improve/limits/examination.hpp"
 #include "improve/limits/local_target.hpp"
 #include "mesh/data/mixing.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
@@ -50,7 +51,7 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
     std::vector<char> beside;  // a border, once needed
     for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
-      const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+      const std::array<Vec3, 4> p = points_of(piece, t);
       const double quality = measure(p[0], p[1], p[2], p[3]);
       if (quality >= local_target(v)) continue;
       // Beside a strip what was tried inside a piece is not tried again.
@@ -156,11 +157,8 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
     before = std::min(
         before, _measure(cavity.points[t[0]], cavity.points[t[1]], cavity.points[t[2]], cavity.points[t[3]]));
   }
-  for (LocalIndex t = 0; t < _piece.cell_count(); ++t) {
-    const LocalIndex* c = _piece.cell(t);
-    after = std::min(
-        after, _measure(_piece.point(c[0]), _piece.point(c[1]), _piece.point(c[2]), _piece.point(c[3])));
-  }
+  for (LocalIndex t = 0; t < _piece.cell_count(); ++t)
+    after = std::min(after, quality_of(_piece, t, _measure));
   constexpr double rounding =
       1e-12;  // vertices of a tetrahedron may come in another order, with other last bits
   return after < before - rounding;

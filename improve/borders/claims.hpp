@@ -5,9 +5,6 @@
 
 namespace aeroloom::cavities {
 
-/// All pieces claim the same cavity for shared vertices: the highest. Collective.
-void spread_claims(const mesh::SharedVertices& shared, CavityClaims& claims);
-
 /// Withdraws claims of vertices with a neighbour in another cavity, in any piece. Collective.
 void withdraw_contested_claims(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                                CavityClaims& claims);

@@ -8,12 +8,11 @@
 #include "mesh/data/mixing.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/delivery.hpp"
-#include "mesh/exchange/findings.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -30,11 +29,6 @@ struct Outcome {
   static constexpr auto fields() { return std::tuple(&Outcome::cavity, &Outcome::replaced, &Outcome::added); }
 };
 
-template <class T, class Less>
-void sort_by(std::vector<T>& items, const Less& less) {
-  std::sort(items.begin(), items.end(), less);
-}
-
 /// The names of a piece's vertices in this round.
 std::vector<mesh::SharedVertexKey> vertex_keys_of(const mesh::Piece& piece, int round) {
   std::vector<mesh::SharedVertexKey> vertex_keys(piece.vertex_count());
@@ -50,11 +44,32 @@ std::array<mesh::LocalIndex, 3> sorted(std::array<mesh::LocalIndex, 3> v) {
   return v;
 }
 
-/// The tetrahedra that this rank's pieces give to cavities.
-struct Contribution {
+/// Tetrahedra of cavities on their way between ranks, with their vertices and triangles of the surface mesh.
+struct WireParts {
   std::vector<WireTet> tets;
   std::vector<WireVertex> vertices;
   std::vector<WireTriangle> triangles;
+};
+
+/// Sends each item to the rank that `rank_of` gives. Vertices and triangles arrive by cavity, then by key,
+/// tetrahedra by the rank that sent them. Collective.
+template <class RankOf>
+WireParts deliver(const mesh::DistributedMesh& mesh, WireParts parts, const RankOf& rank_of) {
+  WireParts in{mesh::deliver(mesh.communicator, std::move(parts.tets), rank_of),
+               mesh::deliver(mesh.communicator, std::move(parts.vertices), rank_of),
+               mesh::deliver(mesh.communicator, std::move(parts.triangles), rank_of)};
+  std::sort(in.vertices.begin(), in.vertices.end(), [](const WireVertex& a, const WireVertex& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
+  });
+  std::sort(in.triangles.begin(), in.triangles.end(), [](const WireTriangle& a, const WireTriangle& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
+  });
+  return in;
+}
+
+/// The tetrahedra that this rank's pieces give to cavities.
+struct Contribution {
+  WireParts parts;
   std::vector<std::vector<CavityId>> of_cell;                   ///< per local piece, per cell
   std::vector<std::vector<CavityId>> of_triangle;               ///< per local piece, per boundary triangle
   std::vector<std::vector<mesh::SharedVertexKey>> vertex_keys;  ///< per local piece, per vertex
@@ -108,26 +123,26 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
       const CavityId claim = cavity_of(claims[p], v, 4);
       if (claim == no_cavity) continue;
       of_cell[c] = within_region(claim, piece.region);
-      result.tets.push_back({of_cell[c],
-                             piece.id,
-                             piece.region,
-                             {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]], vertex_key[v[3]]}});
+      result.parts.tets.push_back({of_cell[c],
+                                   piece.id,
+                                   piece.region,
+                                   {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]], vertex_key[v[3]]}});
       for (int k = 0; k < 4; ++k) used.push_back({of_cell[c], v[k]});
     }
     geometry::sort_unique(used);
     for (const auto& [cavity, v] : used)
-      result.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
-                                 vertex_key[v], piece.point(v), piece.vertex_entity[v]});
+      result.parts.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
+                                       vertex_key[v], piece.point(v), piece.vertex_entity[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
       if (cavity == no_cavity) continue;
       const mesh::LocalIndex* v = piece.boundary_triangle(t);
-      result.triangles.push_back({cavity,
-                                  piece.id,
-                                  piece.triangle_face[t],
-                                  {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]]},
-                                  piece.triangle_patch[t]});
+      result.parts.triangles.push_back({cavity,
+                                        piece.id,
+                                        piece.triangle_face[t],
+                                        {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]]},
+                                        piece.triangle_patch[t]});
     }
   }
   return result;
@@ -145,7 +160,7 @@ struct CavityTable {
   parallel::Rank owner(CavityId id) const { return owners[slot(id)]; }
 };
 
-CavityTable list_cavities(const parallel::Communicator& communicator, const Contribution& mine) {
+CavityTable list_cavities(const mesh::DistributedMesh& mesh, const std::vector<WireTet>& tets) {
   struct CavitySize {
     CavityId cavity;
     std::int64_t tets;
@@ -153,14 +168,14 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
     static constexpr auto fields() { return std::tuple(&CavitySize::cavity, &CavitySize::tets); }
   };
   std::vector<CavityId> all;
-  for (const WireTet& t : mine.tets) all.push_back(t.cavity);
+  for (const WireTet& t : tets) all.push_back(t.cavity);
   std::sort(all.begin(), all.end());
   std::vector<CavitySize> rows;
   geometry::for_each_run(std::span<const CavityId>(all), std::equal_to<>{},
                          [&](std::size_t first, std::size_t last) {
                            rows.push_back({all[first], static_cast<std::int64_t>(last - first)});
                          });
-  std::vector<CavitySize> table = communicator.all_gather_items<CavitySize>(rows);
+  std::vector<CavitySize> table = mesh.communicator.all_gather_items<CavitySize>(rows);
   std::sort(table.begin(), table.end(),
             [](const CavitySize& a, const CavitySize& b) { return a.cavity < b.cavity; });
   CavityTable result;
@@ -171,7 +186,7 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
     }
     result.loads.back() += static_cast<double>(row.tets);
   }
-  result.owners = parallel::assign_largest_first(result.loads, communicator.size());
+  result.owners = parallel::assign_largest_first(result.loads, mesh.communicator.size());
   return result;
 }
 
@@ -184,21 +199,13 @@ struct OwnedCavity {
   CavityShares shares;  ///< of the content
 };
 
-std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
-                                  Contribution& mine) {
-  const auto owner = [&](const auto& item) { return table.owner(item.cavity); };
-  auto tets = mesh::deliver(communicator, std::move(mine.tets), owner);
-  auto vertices = mesh::deliver(communicator, std::move(mine.vertices), owner);
-  auto triangles = mesh::deliver(communicator, std::move(mine.triangles), owner);
+std::vector<OwnedCavity> assemble(const mesh::DistributedMesh& mesh, WireParts parts) {
+  const CavityTable table = list_cavities(mesh, parts.tets);
+  auto [tets, vertices, triangles] =
+      deliver(mesh, std::move(parts), [&](const auto& item) { return table.owner(item.cavity); });
   // Within a piece the order of tetrahedra is kept: it depends on no rank.
   std::stable_sort(tets.begin(), tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.piece < b.piece;
-  });
-  sort_by(vertices, [](const WireVertex& a, const WireVertex& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
-  });
-  sort_by(triangles, [](const WireTriangle& a, const WireTriangle& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
   });
   std::vector<OwnedCavity> cavities;
   std::size_t v = 0, s = 0;
@@ -232,15 +239,8 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
   return cavities;
 }
 
-/// Replaced cavities on their way to the pieces that take them.
-struct Delivery {
-  std::vector<WireTet> tets;
-  std::vector<WireVertex> vertices;
-  std::vector<WireTriangle> triangles;
-};
-
 /// Adds a replaced cavity. `first_added` is the number of its first new vertex among those of the round.
-void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added, Delivery& out) {
+void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added, WireParts& out) {
   const CavityId id = owned.cavity.id;
   const auto known = static_cast<mesh::LocalIndex>(owned.vertex_keys.size());
   const auto vertex_key = [&](mesh::LocalIndex v) {
@@ -280,10 +280,12 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
   }
 }
 
-Delivery deliver_replaced(const parallel::Communicator& communicator,
-                          const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
-                          const std::vector<parallel::Rank>& owner_of_piece, int round) {
-  Delivery out;
+/// Brings replaced cavities to the pieces that take their tetrahedra. Collective.
+WireParts deliver_replaced(const mesh::DistributedMesh& mesh, const std::vector<OwnedCavity>& cavities,
+                           const std::vector<Outcome>& outcomes, int round) {
+  const std::vector<parallel::Rank> here(mesh.pieces.size(), mesh.communicator.rank());
+  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
+  WireParts out;
   std::int64_t first_new = 0;
   std::size_t next = 0;
   for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
@@ -293,39 +295,23 @@ Delivery deliver_replaced(const parallel::Communicator& communicator,
     const OwnedCavity& owned = cavities[next++];
     if (owned.content) pack_replaced(owned, round, first, out);
   }
-  const auto receiver_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
-  Delivery in;
-  in.tets = mesh::deliver(communicator, std::move(out.tets), receiver_rank);
-  in.vertices = mesh::deliver(communicator, std::move(out.vertices), receiver_rank);
-  in.triangles = mesh::deliver(communicator, std::move(out.triangles), receiver_rank);
+  WireParts in = deliver(mesh, std::move(out), [&](const auto& item) { return owner_of_piece[item.piece]; });
   std::stable_sort(in.tets.begin(), in.tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.piece != b.piece ? a.piece < b.piece : a.cavity < b.cavity;
-  });
-  sort_by(in.vertices, [](const WireVertex& a, const WireVertex& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
-  });
-  sort_by(in.triangles, [](const WireTriangle& a, const WireTriangle& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
   });
   return in;
 }
 
 std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine,
-                                       const std::vector<Outcome>& outcomes, const Delivery& delivery) {
-  const auto outcome_of = [&](CavityId id) {
-    return std::lower_bound(outcomes.begin(), outcomes.end(), id,
-                            [](const Outcome& o, CavityId c) { return o.cavity < c; });
+                                       const std::vector<Outcome>& outcomes, const WireParts& delivery) {
+  const auto gone = [&](CavityId id) {
+    const auto is_before = [](const Outcome& o, CavityId c) { return o.cavity < c; };
+    return id != no_cavity && std::lower_bound(outcomes.begin(), outcomes.end(), id, is_before)->replaced;
   };
-  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->replaced; };
   std::vector<std::vector<WireTriangle>> triangles(mesh.pieces.size());
-  const auto local_piece = [&](mesh::PieceId id) {
-    const auto at = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
-                                     [](const mesh::Piece& piece, mesh::PieceId p) { return piece.id < p; });
-    return static_cast<std::size_t>(at - mesh.pieces.begin());
-  };
   std::vector<std::vector<WireVertex>> vertices(mesh.pieces.size());
-  for (const WireVertex& v : delivery.vertices) vertices[local_piece(v.piece)].push_back(v);
-  for (const WireTriangle& t : delivery.triangles) triangles[local_piece(t.piece)].push_back(t);
+  for (const WireVertex& v : delivery.vertices) vertices[mesh::position_of(mesh, v.piece)].push_back(v);
+  for (const WireTriangle& t : delivery.triangles) triangles[mesh::position_of(mesh, t.piece)].push_back(t);
   std::vector<PieceChange> changes(mesh.pieces.size());
   std::size_t first = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
@@ -360,22 +346,20 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 
 CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                              const ReplacementRequest& request) {
-  const parallel::Communicator communicator = mesh.communicator;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_key_rounds) throw std::logic_error("replace_cavities: too many rounds");
   CavityClaims uncontested = request.claims;
-  spread_claims(shared, uncontested);
+  shared.combine(uncontested, [](CavityId a, CavityId b) { return std::max(a, b); });  // the same for all
   withdraw_contested_claims(mesh, shared, uncontested);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (int ring = 0; ring < request.extent.rings; ++ring)
       widen(mesh.pieces[p], request.extent.along_surface, uncontested[p]);
   }
   Contribution mine = collect(mesh, uncontested, round);
-  const CavityTable table = list_cavities(communicator, mine);
-  std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);
+  std::vector<OwnedCavity> cavities = assemble(mesh, std::move(mine.parts));
   std::vector<Outcome> outcomes;
-  parallel::agree(communicator, [&] {
+  parallel::agree(mesh.communicator, [&] {
     for (OwnedCavity& owned : cavities) {
       owned.content = request.replace(owned.cavity);
       if (owned.content) owned.shares = share_out(owned.cavity, owned.donor, *owned.content);
@@ -383,12 +367,10 @@ CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVert
       outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }
   });
-  outcomes = communicator.all_gather_items<Outcome>(outcomes);
+  outcomes = mesh.communicator.all_gather_items<Outcome>(outcomes);
   std::sort(outcomes.begin(), outcomes.end(),
             [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
-  std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
-  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
-  const Delivery delivery = deliver_replaced(communicator, cavities, outcomes, owner_of_piece, round);
+  const WireParts delivery = deliver_replaced(mesh, cavities, outcomes, round);
   CavityRound result;
   result.changes = update_pieces(mesh, mine, outcomes, delivery);
   result.cavities = static_cast<std::int64_t>(outcomes.size());

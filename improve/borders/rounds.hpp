@@ -5,8 +5,6 @@
 
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 
 #include "improve/improve_options.hpp"
 #include "improve/limits/local_target.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <limits>

@@ -2,12 +2,11 @@
 /// between two CAD curves that are narrower than the elements along them.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/data/piece.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace aeroloom::improve {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "improve/limits/local_target.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "geometry/half_edges.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <span>

@@ -4,7 +4,7 @@
 
 #include "improve/operations/boundary_change.hpp"
 #include "improve/operations/ring_filling.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 namespace aeroloom::improve {
 

@@ -117,8 +117,7 @@ bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, CavityReplacement&
     after = placed;
     if (!gained) break;
   }
-  double before = std::numeric_limits<double>::max();
-  for (const LocalIndex t : _tets) before = std::min(before, mesh.quality(t));
+  const double before = mesh.worst_of(_tets);
   const double wanted = apex == mesh.vertex_count() ? gain_when_added : gain_when_moved;
   if (after < std::min(before + wanted * mesh.measure().target(), mesh.measure().target())) return false;
   if (after < before + least_gain || !keeps_fixed_vertices(mesh)) return false;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "improve/operations/smoothing.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <vector>

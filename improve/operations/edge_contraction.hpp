@@ -3,7 +3,7 @@
 
 #include "improve/operations/boundary_change.hpp"
 #include "improve/operations/operation.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "improve/operations/ring_filling.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 namespace aeroloom::improve {
 

@@ -2,7 +2,7 @@
 /// 2-3 swap and its generalisation, the inverse of edge removal).
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <vector>

@@ -2,7 +2,7 @@
 /// average lowers.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <limits>
 #include <vector>

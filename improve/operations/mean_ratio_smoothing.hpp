@@ -3,7 +3,7 @@
 #pragma once
 
 #include "improve/operations/inverse_ratios.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,7 @@
 #include "improve/limits/local_target.hpp"
 #include "improve/operations/bad_element_queue.hpp"
 #include "improve/operations/over_constrained_count.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <cstdint>
 #include <optional>

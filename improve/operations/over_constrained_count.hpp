@@ -1,7 +1,7 @@
 /// Counting over-constrained tetrahedra: those with several faces on the boundary.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <vector>

@@ -7,7 +7,7 @@
 #include "improve/operations/over_constrained_count.hpp"
 #include "improve/operations/ring_filling.hpp"
 #include "improve/operations/smoothing.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <cstdint>
 #include <optional>

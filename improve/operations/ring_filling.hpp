@@ -2,7 +2,7 @@
 /// surrounds.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <span>

@@ -180,8 +180,7 @@ void SmallPolyhedron::search(const TetMesh& mesh, double worst) {
 bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, CavityReplacement& cavity) {
   grow(mesh, t);
   if (_tets.size() < 2 || !open_front(mesh)) return false;
-  double before = std::numeric_limits<double>::max();
-  for (const LocalIndex tet : _tets) before = std::min(before, mesh.quality(tet));
+  const double before = mesh.worst_of(_tets);
   _qualities.fill(unknown);
   _filling.clear();
   _best_filling.clear();

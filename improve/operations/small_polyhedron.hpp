@@ -4,7 +4,7 @@
 #pragma once
 
 #include "improve/operations/operation.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <cstdint>

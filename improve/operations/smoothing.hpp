@@ -2,9 +2,8 @@
 #pragma once
 
 #include "improve/limits/change_limits.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
-#include <array>
 #include <vector>
 
 namespace aeroloom::improve {

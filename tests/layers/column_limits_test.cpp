@@ -98,7 +98,7 @@ TEST(ColumnLimits, CountsFallFromOneVertexByStairs) {
   const std::int32_t wanted = columns.count(0);
   // What one piece knows of the corner counts for all of them.
   columns.limit_counts(limited.at_corner<std::int32_t>(0, most_layers), LayerLimit::crossing);
-  columns.converge(limited.communicator);
+  columns.converge();
   std::int64_t steps = 0;
   limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
     EXPECT_LE(columns.count(v), columns.count(u) + limited.options.stairs);
@@ -122,7 +122,7 @@ TEST(ColumnLimits, TotalsRiseNoFasterThanTheSlope) {
   ColumnLimits& columns = limited.columns;
   const double low = 2e-3;
   columns.limit_totals(limited.at_corner(low, unlimited), LayerLimit::gap);
-  columns.converge(limited.communicator);
+  columns.converge();
   limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
     if (!limited.is_corner(v)) return;
     EXPECT_LE(columns.total(v), low);
@@ -135,7 +135,7 @@ TEST(ColumnLimits, AreTheSameHoweverTheWallIsCut) {
   const auto outcome = [](const Communicator& communicator, int pieces) {
     Limited limited(communicator, pieces);
     limited.columns.limit_counts(limited.at_corner<std::int32_t>(1, most_layers), LayerLimit::crossing);
-    limited.columns.converge(communicator);
+    limited.columns.converge();
     std::map<std::array<double, 3>, std::tuple<std::int32_t, double, double>> by_place;
     for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) {
       const Vec3 p = limited.base.wall.points[v];

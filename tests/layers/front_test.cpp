@@ -34,7 +34,7 @@ struct Unaware {
         fans(gather_fans(wall)),
         directions(find_directions(wall, fans)),
         limits(wall, layers_on_plates(), fans, directions) {
-    limits.converge(mesh.communicator);
+    limits.converge();
     shrink_to_good(wall, directions, limits);
   }
   mesh::DistributedMesh front() const {
@@ -103,7 +103,7 @@ TEST(Front, DoesNotCloseAroundAPart) {
   const Fans fans = gather_fans(wall);
   const Directions directions = find_directions(wall, fans);
   ColumnLimits limits(wall, options, fans, directions);
-  limits.converge(world);
+  limits.converge();
   shrink_to_good(wall, directions, limits);
   LayerReport report;
   const PlaneRemesher none;

@@ -1,5 +1,5 @@
 #include "improve/operations/operations.hpp"
-#include "improve/sweeps.hpp"
+#include "improve/pieces/sweeps.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/improve/fans.hpp"
 #include "tests/improve/pieces.hpp"

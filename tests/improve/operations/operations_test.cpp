@@ -2,7 +2,7 @@
 #include "improve/operations/edge_removal.hpp"
 #include "improve/operations/face_removal.hpp"
 #include "improve/operations/smoothing.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/quality/quality.hpp"
 #include "tests/improve/pieces.hpp"
 

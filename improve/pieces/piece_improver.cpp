@@ -2,9 +2,9 @@
 #include "improve/limits/examination.hpp"
 #include "improve/operations/mean_ratio_smoothing.hpp"
 #include "improve/operations/over_constrained_removal.hpp"
-#include "improve/over_constrained_trials.hpp"
-#include "improve/sweeps.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/pieces/over_constrained_trials.hpp"
+#include "improve/pieces/sweeps.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "improve/sweeps.hpp"
+#include "improve/pieces/sweeps.hpp"
 
 #include "improve/operations/operations.hpp"
 

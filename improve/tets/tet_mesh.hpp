@@ -50,10 +50,7 @@ struct EdgeRing {
 
 /// Tetrahedra around an edge on the boundary, from one of its triangles to the other: (start, end, ring[i],
 /// ring[i+1]) is tets[i], of positive volume.
-struct Fan {
-  LocalIndex start = 0, end = 0;
-  std::vector<LocalIndex> tets;
-  std::vector<LocalIndex> ring;
+struct Fan : EdgeRing {
   std::array<LocalIndex, 2> triangles{};  ///< (start, end, ring.front()) and (start, end, ring.back())
 };
 
@@ -99,6 +96,8 @@ public:
   bool is_positive(const Corners& c) const {
     return geometry::has_positive_volume(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
   }
+  /// The lowest quality of some tetrahedra; of none, the largest double.
+  double worst_of(std::span<const LocalIndex> tets) const;
   /// The local number of a vertex in a tetrahedron that has it.
   int local_vertex(LocalIndex t, LocalIndex v) const;
 
@@ -157,7 +156,6 @@ private:
   void match_triangles();
   void open_boundary(const FaceRecord& record, LocalIndex triangle);
   void match_boundary(const CavityReplacement& cavity);
-  void remove_dead_triangles();
   void fix_vertices();
   void match_cavity_faces();
   void take_slots(const CavityReplacement& cavity, std::vector<LocalIndex>& placed);

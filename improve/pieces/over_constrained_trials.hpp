@@ -3,7 +3,7 @@
 #pragma once
 
 #include "improve/improve_options.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/data/piece.hpp"
 #include "sizing/field/size_field.hpp"
 

@@ -1,12 +1,10 @@
-#include "improve/over_constrained_trials.hpp"
+#include "improve/pieces/over_constrained_trials.hpp"
 
 #include "improve/limits/local_target.hpp"
 #include "improve/operations/over_constrained_removal.hpp"
-#include "improve/sweeps.hpp"
-#include "mesh/data/cad_dimension.hpp"
+#include "improve/pieces/sweeps.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace aeroloom::improve {
 namespace {
