@@ -1,14 +1,24 @@
 /// The angles that the boundary encloses at edges between vertices on curves.
 #pragma once
 
-#include "improve/attribution/strip_edges.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::attribution {
+
+/// An edge between vertices on curves, as one region sees it.
+struct EdgeName {
+  mesh::GlobalIndex low, high;  ///< its vertices
+  std::int64_t region;
+
+  static constexpr auto fields() { return std::tuple(&EdgeName::low, &EdgeName::high, &EdgeName::region); }
+  auto operator<=>(const EdgeName&) const = default;
+};
 
 /// The angle of a region's tetrahedra around an edge, and the CAD faces on either side.
 struct EdgeWedge {

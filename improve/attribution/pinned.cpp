@@ -4,8 +4,8 @@
 #include "geometry/sort_unique.hpp"
 #include "improve/attribution/curve_wedges.hpp"
 #include "improve/attribution/front_vertices.hpp"
+#include "improve/attribution/narrow_regions.hpp"
 #include "improve/attribution/sharp_curves.hpp"
-#include "improve/attribution/strip_edges.hpp"
 #include "improve/attribution/wall_pairs.hpp"
 #include "mesh/data/cad_dimension.hpp"
 #include "mesh/quality/quality.hpp"
@@ -61,7 +61,7 @@ public:
     collect_edges();
     _wedges = measure_wedges(_mesh, _numbering, _edges);
     list_sharp_curves();
-    _strips = find_strip_edges(_mesh, _numbering, _edges);
+    _narrow = find_narrow_edges(_mesh, _numbering, _edges);
     if (!_surface_may_change) _on_front = find_front_vertices(_mesh);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
     return merge();
@@ -91,7 +91,7 @@ private:
                         const std::vector<std::array<LocalIndex, 4>>& corners);
   std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
   bool pinned_by_wedge(std::size_t piece, const BadTet& bad, const WallPair& walls);
-  bool is_at_strip(std::size_t piece, const BadTet& bad);
+  bool is_in_narrow_region(std::size_t piece, const BadTet& bad);
   bool is_held(std::size_t piece, const BadTet& bad) const;
   bool is_in_gap(std::size_t piece, const BadTet& bad, const WallPair& walls);
   MissedTarget& kind_of(std::size_t piece, const BadTet& bad,
@@ -114,7 +114,7 @@ private:
   std::vector<std::vector<std::uint8_t>> _on_front;  // per piece and vertex, where surfaces may not change
   std::vector<EdgeName> _edges;                      // of bad tetrahedra on all ranks, ascending
   std::vector<EdgeWedge> _wedges;                    // per edge
-  std::vector<StripEdge> _strips;                    // those of them across strips
+  std::vector<NarrowEdge> _narrow;                   // those of them across narrow regions
   std::vector<PinningEntity> _entities;
   std::vector<UnresolvedFeature> _features;
   PinnedReport _report;
@@ -253,16 +253,16 @@ bool PinnedSearch::is_in_gap(std::size_t i, const BadTet& bad, const WallPair& w
   return true;
 }
 
-/// The narrowest strip that the tetrahedron reaches across counts.
-bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
+/// The narrowest region that the tetrahedron reaches across counts.
+bool PinnedSearch::is_in_narrow_region(std::size_t i, const BadTet& bad) {
   const LocalIndex* c = _mesh.pieces[i].cell(bad.tet);
-  const StripEdge* narrowest = nullptr;
+  const NarrowEdge* narrowest = nullptr;
   for (const auto& [a, b] : mesh::tetrahedron_edges) {
     const std::int64_t edge = find(name(i, c[a], c[b]));
-    const StripEdge* strip = edge < 0 ? nullptr : find_strip_edge(_strips, edge);
-    if (!strip) continue;
-    if (!narrowest || std::tie(strip->width, strip->face) < std::tie(narrowest->width, narrowest->face))
-      narrowest = strip;
+    const NarrowEdge* found = edge < 0 ? nullptr : find_narrow_edge(_narrow, edge);
+    if (!found) continue;
+    if (!narrowest || std::tie(found->width, found->face) < std::tie(narrowest->width, narrowest->face))
+      narrowest = found;
   }
   if (!narrowest) return false;
   _features.push_back({narrowest->face, -1, narrowest->width, bad.angles.smallest, narrowest->at, 1});
@@ -289,7 +289,7 @@ MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
   if (pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners)) return _report.pinned;
   const std::optional<WallPair> walls = _walls.find(_mesh.pieces[i], bad.tet);
   if (walls && pinned_by_wedge(i, bad, *walls)) return _report.pinned;
-  if (is_at_strip(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
+  if (is_in_narrow_region(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
   if (is_held(i, bad)) return _report.held;
   return _report.rest;
 }
