@@ -42,13 +42,13 @@ inline constexpr std::int32_t most_layers = 1000;
 std::int32_t wanted_count(const WallLayers& wanted, double mean_edge);
 
 /// A column within a limit.
-struct Squeezed {
+struct Compressed {
   double growth = 1;
   std::int32_t count = 0;
 };
 /// Growth falls until `count` layers are no higher than `limit` together. Where they are at a growth of 1,
 /// there are fewer of them.
-Squeezed squeeze(const Heights& heights, std::int32_t count, double limit);
+Compressed compress(const Heights& heights, std::int32_t count, double limit);
 
 /// A gap in which layers of this total have all the room they want, beside edges of this length.
 double ample_gap(double total, double mean_edge);

@@ -25,7 +25,7 @@ constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 }  // namespace
 
-ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, const Fans& fans,
+ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
                            const Directions& directions)
     : _wall(wall), _stairs(options.stairs) {
   const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
@@ -42,8 +42,8 @@ ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, c
     const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
                             static_cast<std::int32_t>(asked.count), total};
     _wanted_counts[v] = layers::wanted_count(wanted, _mean_edges[v]);
-    if (fans.kinds[v] != FanKind::plain || directions.visibility[v] == 0) {
-      _causes[v] = fans.kinds[v] == FanKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
+    if (stars.kinds[v] != StarKind::plain || directions.visibility[v] == 0) {
+      _causes[v] = stars.kinds[v] == StarKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
       _lower_counts.push_back(v), _lower_totals.push_back(v);
       continue;
     }
@@ -78,7 +78,7 @@ void ColumnLimits::cut_count(std::int32_t v, std::int32_t count, LayerLimit caus
 }
 
 void ColumnLimits::fit(std::int32_t v, LayerLimit cause) {
-  const Squeezed fitting = squeeze(heights(v), _counts[v], _limits[v]);
+  const Compressed fitting = compress(heights(v), _counts[v], _limits[v]);
   if (fitting.growth < _growth[v]) note_change(v, cause);
   _growth[v] = fitting.growth;
   if (fitting.count < _counts[v]) cut_count(v, fitting.count, cause);

@@ -4,7 +4,7 @@
 
 #include "layers/column_heights.hpp"
 #include "layers/directions.hpp"
-#include "layers/wall_share.hpp"
+#include "layers/local_wall.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@ namespace aeroloom::layers {
 class ColumnLimits {
 public:
   /// The columns that the patches ask for. Collective.
-  ColumnLimits(const WallShare& wall, const LayerOptions& options, const Fans& fans,
+  ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
                const Directions& directions);
 
   Heights heights(std::int32_t v) const { return {_first[v], _growth[v], _constant[v]}; }
@@ -24,7 +24,7 @@ public:
   std::int32_t wanted_count(std::int32_t v) const { return _wanted_counts[v]; }
   double total(std::int32_t v) const { return heights(v).total(_counts[v]); }
   double last_height(std::int32_t v) const { return heights(v).last(_counts[v]); }
-  bool is_squeezed(std::int32_t v) const { return _growth[v] < _wanted_growth[v]; }
+  bool is_compressed(std::int32_t v) const { return _growth[v] < _wanted_growth[v]; }
   LayerLimit cause(std::int32_t v) const { return _causes[v]; }
   double mean_edge(std::int32_t v) const { return _mean_edges[v]; }
 
@@ -53,7 +53,7 @@ private:
   void converge_counts();
   void converge_totals();
 
-  const WallShare& _wall;
+  const LocalWall& _wall;
   std::int32_t _stairs;
   std::vector<double> _first, _growth, _wanted_growth, _mean_edges, _slopes;
   std::vector<double> _limits;  ///< of the totals: what neighbours go by

@@ -1,4 +1,4 @@
-/// Boundary layers: columns of nodes on the vertices of a wall mesh, and the front they end in.
+/// Boundary layers: columns of nodes on the vertices of a wall mesh, and the cap they end in.
 ///
 /// Cells are implicit. Layer k over a wall triangle has the nodes k - 1 and k of its three columns, each
 /// clipped at its own count: three live columns make a prism, two a pyramid, one a tetrahedron. A lateral
@@ -57,20 +57,20 @@ struct Columns {
 /// The height of node k over the wall vertex. The sum runs from the wall: what adds the heights one by one
 /// has the same bits.
 double height(const PieceColumns& columns, mesh::LocalIndex vertex, std::int32_t k);
-/// Node k of a column, 0 <= k <= its count: 0 is the wall vertex, the last one the vertex of the front.
+/// Node k of a column, 0 <= k <= its count: 0 is the wall vertex, the last one the vertex of the cap.
 geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, mesh::LocalIndex vertex,
                     std::int32_t k);
 
 /// What keeps a column from the layers asked for.
 enum class LayerLimit : std::int32_t {
   none,
-  no_direction,  ///< no direction sees all triangles around the vertex, or these are no plain fan
+  no_direction,  ///< no direction sees all triangles around the vertex, or these are no plain star
   ending,        ///< layers may not end on a face beside the vertex
   gap,           ///< another part of the boundary lies opposite
-  validity,      ///< cells, or triangles of the front, would be bad
+  validity,      ///< cells, or triangles of the cap, would be bad
   slope,         ///< the total height differs too much from a neighbour's
   stairs,        ///< the count differs too much from a neighbour's
-  crossing       ///< the front would meet itself or the boundary
+  crossing       ///< the cap would meet itself or the boundary
 };
 inline constexpr std::size_t layer_limit_count = 8;
 inline constexpr std::array<LayerLimit, layer_limit_count> all_layer_limits = {
@@ -82,12 +82,12 @@ std::string_view name_of(LayerLimit limit);
 /// The layers of a patch. Each vertex counts for a third of the triangles around it. Areas are in the unit of
 /// the mesh, squared.
 struct PatchLayers {
-  double area = 0;            ///< of triangles that ask for layers
-  double full_area = 0;       ///< with as many layers as asked for
-  double partial_area = 0;    ///< with fewer
-  double empty_area = 0;      ///< with none
-  double isotropic_area = 0;  ///< full, and the last layer at least 0.35 of the mean edge at the vertex high
-  double squeezed_area = 0;   ///< with layers that grow slower than asked for
+  double area = 0;             ///< of triangles that ask for layers
+  double full_area = 0;        ///< with as many layers as asked for
+  double partial_area = 0;     ///< with fewer
+  double empty_area = 0;       ///< with none
+  double isotropic_area = 0;   ///< full, and the last layer at least 0.35 of the mean edge at the vertex high
+  double compressed_area = 0;  ///< with layers that grow slower than asked for
   /// Of what is neither full nor unsqueezed, by what limited it last: a LayerLimit.
   std::array<double, layer_limit_count> limited_area{};
   double layers_area = 0;  ///< sum of areas times their layers: over `area`, the mean number of layers
@@ -96,7 +96,7 @@ struct PatchLayers {
 
   static constexpr auto fields() {
     return std::tuple(&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area,
-                      &PatchLayers::empty_area, &PatchLayers::isotropic_area, &PatchLayers::squeezed_area,
+                      &PatchLayers::empty_area, &PatchLayers::isotropic_area, &PatchLayers::compressed_area,
                       &PatchLayers::limited_area, &PatchLayers::layers_area, &PatchLayers::triangles,
                       &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra,
                       &PatchLayers::most_layers);
@@ -107,9 +107,9 @@ struct PatchLayers {
 struct LayerReport {
   std::vector<PatchLayers> patches;  ///< by patch index of the mesh
   int validity_rounds = 0;           ///< until all cells were good
-  int crossing_rounds = 0;           ///< until the front was free of intersections
+  int crossing_rounds = 0;           ///< until the cap was free of intersections
   std::int64_t crossings = 0;        ///< pairs of triangles that met on the way
-  std::int64_t swallowing = 0;       ///< triangles whose layers held another part of the boundary on the way
+  std::int64_t enclosing = 0;        ///< triangles whose layers held another part of the boundary on the way
   std::int64_t zeroed_by_force = 0;  ///< columns emptied after the last round
 };
 
@@ -117,22 +117,22 @@ struct Layers {
   Columns columns;
   /// The wall mesh with moved vertices: the same pieces, triangles, faces, patches, classification and
   /// shared-vertex keys; where planes were meshed again, as that has left it.
-  mesh::DistributedMesh front;
+  mesh::DistributedMesh cap;
   LayerReport report;
 };
 
-/// Meshes the planes that layers end on again, in a front whose vertices on their boundaries have moved.
+/// Meshes the planes that layers end on again, in a cap whose vertices on their boundaries have moved.
 /// Pieces of other faces stay, keep their order and come first. Returns the shared-vertex keys of vertices
-/// that must move less, the same on every rank, and leaves the front alone then; none: done. Collective.
-using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& front)>;
+/// that must move less, the same on every rank, and leaves the cap alone then; none: done. Collective.
+using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& cap)>;
 
 /// Of a piece of a wall, so that many ranks share layers evenly: pieces of surface meshing are whole faces in
 /// most models. Chosen, not measured.
 constexpr mesh::LocalIndex wall_piece_triangles = 1'000;
 
-/// Columns on the walls of a surface mesh whose triangles are free of intersections, and a front that is so
+/// Columns on the walls of a surface mesh whose triangles are free of intersections, and a cap that is so
 /// too; all cells between have positive volumes. A function of mesh and options alone, whatever the ranks.
-/// Heights only ever shrink on the way, and at zero the front is the wall: so there is a result for every
+/// Heights only ever shrink on the way, and at zero the cap is the wall: so there is a result for every
 /// mesh. `remesh_planes` is called, maybe several times, where layers end on planes; their pieces have no
 /// triangles of other faces then. Collective. Throws CollectiveError where options do not fit the mesh.
 Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,

@@ -1,7 +1,7 @@
 /// Directions of columns.
 #pragma once
 
-#include "layers/fans.hpp"
+#include "layers/vertex_stars.hpp"
 
 #include <vector>
 
@@ -20,6 +20,6 @@ struct Directions {
 /// The most normal directions, and these after sweeps of smoothing that see every triangle nearly as well as
 /// they. A vertex whose most normal direction stands lower than 1.15 degrees on a triangle has none, nor have
 /// those where layers may not be. On planes that layers end on, directions lie in them. Collective.
-Directions find_directions(const WallShare& wall, const Fans& fans);
+Directions find_directions(const LocalWall& wall, const VertexStars& stars);
 
 }  // namespace aeroloom::layers

@@ -80,7 +80,7 @@ Box box_of_ball(const TouchingBall& ball) {
 }
 
 /// The boxes of the balls of all ranks, some hundred balls each.
-std::vector<BallBatch> gather_batches(const WallShare& wall, const std::vector<TouchingBall>& balls) {
+std::vector<BallBatch> gather_batches(const LocalWall& wall, const std::vector<TouchingBall>& balls) {
   std::vector<Box> boxes;
   for (const TouchingBall& ball : balls) {
     if (ball.diameter > 0) boxes.push_back(box_of_ball(ball));
@@ -95,7 +95,7 @@ std::vector<BallBatch> gather_batches(const WallShare& wall, const std::vector<T
 }
 
 /// The triangles of this rank, and those of others that its balls may meet.
-std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vector<BallBatch>& batches) {
+std::vector<NearTriangle> fetch_triangles(const LocalWall& wall, const std::vector<BallBatch>& batches) {
   std::vector<Box> boxes;
   boxes.reserve(batches.size());
   for (const BallBatch& batch : batches) boxes.push_back(batch.box);
@@ -148,7 +148,7 @@ double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
   return diameter;
 }
 
-std::vector<double> find_gaps(const WallShare& wall, const std::vector<TouchingBall>& balls) {
+std::vector<double> find_gaps(const LocalWall& wall, const std::vector<TouchingBall>& balls) {
   const std::vector<NearTriangle> triangles = fetch_triangles(wall, gather_batches(wall, balls));
   std::vector<Box> boxes(triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) {

@@ -1,7 +1,7 @@
 /// How far the next part of the boundary is.
 #pragma once
 
-#include "layers/wall_share.hpp"
+#include "layers/local_wall.hpp"
 
 #include <vector>
 
@@ -20,7 +20,7 @@ struct TouchingBall {
 /// Visual Computer 28, 2012, doi:10.1007/s00371-011-0594-7). Between parallel walls that is their distance,
 /// in a corner of 90 degrees twice the distance from the other side. Triangles travel to the ranks of balls
 /// that they may meet. The same for any number of ranks. Collective.
-std::vector<double> find_gaps(const WallShare& wall, const std::vector<TouchingBall>& balls);
+std::vector<double> find_gaps(const LocalWall& wall, const std::vector<TouchingBall>& balls);
 
 /// The diameter of the largest ball that meets a triangle in its border alone, at most ball.diameter.
 double diameter_beside(const TouchingBall& ball, const geometry::Vec3 (&triangle)[3]);

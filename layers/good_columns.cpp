@@ -10,7 +10,7 @@ namespace aeroloom::layers {
 namespace {
 
 /// The layered triangles around vertices, each once.
-std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<std::int32_t>& vertices,
+std::vector<std::int32_t> triangles_at(const LocalWall& wall, const std::vector<std::int32_t>& vertices,
                                        std::vector<std::uint8_t>& seen) {
   std::vector<std::int32_t> triangles;
   for (const std::int32_t v : vertices) {
@@ -25,7 +25,7 @@ std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<
 }
 
 /// The columns of a triangle's corners.
-TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
+TriangleColumns columns_over(const LocalWall& wall, const Directions& directions, const ColumnLimits& limits,
                              std::int32_t triangle) {
   TriangleColumns columns;
   for (int i = 0; i < 3; ++i) {
@@ -37,7 +37,7 @@ TriangleColumns columns_over(const WallShare& wall, const Directions& directions
 
 }  // namespace
 
-int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLimits& limits) {
+int shrink_to_good(const LocalWall& wall, const Directions& directions, ColumnLimits& limits) {
   std::vector<std::uint8_t> seen(wall.triangles.size(), 0);
   for (int rounds = 0;; ++rounds) {
     std::vector<double> totals(wall.points.size(), std::numeric_limits<double>::infinity());

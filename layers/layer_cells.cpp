@@ -27,57 +27,56 @@ using mesh::PieceId;
 
 namespace {
 
-/// The place in the front of each piece of the wall on this rank; none of planes that were meshed again.
+/// The place in the cap of each piece of the wall on this rank; none of planes that were meshed again.
 /// Whatever else is there comes first, in its order.
-std::vector<std::optional<std::size_t>> places_in_front(const mesh::DistributedMesh& wall,
-                                                        const mesh::DistributedMesh& front) {
+std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMesh& wall,
+                                                      const mesh::DistributedMesh& cap) {
   std::vector<std::optional<std::size_t>> places(wall.pieces.size());
   std::size_t next = 0;
-  for (std::size_t p = 0; p < places.size() && next < front.pieces.size(); ++p) {
-    const Piece &of_wall = wall.pieces[p], &of_front = front.pieces[next];
-    if (of_wall.triangle_face == of_front.triangle_face && of_wall.cells == of_front.cells)
-      places[p] = next++;
+  for (std::size_t p = 0; p < places.size() && next < cap.pieces.size(); ++p) {
+    const Piece &of_wall = wall.pieces[p], &of_cap = cap.pieces[next];
+    if (of_wall.triangle_face == of_cap.triangle_face && of_wall.cells == of_cap.cells) places[p] = next++;
   }
   return places;
 }
 
-/// What pieces of the volume ask of a vertex of the front.
-struct FrontVertex {
+/// What pieces of the volume ask of a vertex of the cap.
+struct CapVertex {
   std::int32_t count;              ///< of layers before it
   std::int32_t dimension, entity;  ///< its classification; as wide as each other, so that there is no padding
 
   static constexpr auto fields() {
-    return std::tuple(&FrontVertex::count, &FrontVertex::dimension, &FrontVertex::entity);
+    return std::tuple(&CapVertex::count, &CapVertex::dimension, &CapVertex::entity);
   }
 };
-using FrontTable = mesh::DistributedTable<FrontVertex>;
+using CapTable = mesh::DistributedTable<CapVertex>;
 
-FrontTable make_table(const Columns& columns, const NamedFront& front,
-                      const std::vector<std::optional<std::size_t>>& places) {
-  std::vector<const PieceColumns*> columns_of(front.mesh.pieces.size(), nullptr);
+CapTable make_table(const Columns& columns, const NamedFront& cap,
+                    const std::vector<std::optional<std::size_t>>& places) {
+  std::vector<const PieceColumns*> columns_of(cap.mesh.pieces.size(), nullptr);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
   }
-  std::vector<FrontTable::KeyedValue> rows;
-  for (std::size_t p = 0; p < front.mesh.pieces.size(); ++p) {
-    const Piece& piece = front.mesh.pieces[p];
+  std::vector<CapTable::KeyedValue> rows;
+  for (std::size_t p = 0; p < cap.mesh.pieces.size(); ++p) {
+    const Piece& piece = cap.mesh.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (!front.numbering.owned[p][v]) continue;
-      rows.push_back({front.numbering.vertices[p][v],
+      if (!cap.numbering.owned[p][v]) continue;
+      rows.push_back({cap.numbering.vertices[p][v],
                       {columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0,
-                       static_cast<std::int32_t>(piece.vertex_dimension[v]), front.entities[p][v]}});
+                       static_cast<std::int32_t>(piece.vertex_dimension[v]), cap.entities[p][v]}});
     }
   }
-  return {front.mesh.communicator,
-          mesh::even_ranges(front.mesh.communicator.size(), front.numbering.vertex_count), std::move(rows)};
+  return {cap.mesh.communicator, mesh::even_ranges(cap.mesh.communicator.size(), cap.numbering.vertex_count),
+          std::move(rows)};
 }
 
-/// The pieces behind the front: their vertices on it get keys that layers know, and their classification; the
+/// The pieces beyond the cap: their vertices on it get keys that layers know, and their classification; the
 /// triangles that layers lie before are boundary no more.
-class BehindFront {
+class BeyondCap {
 public:
   /// Collective.
-  BehindFront(const mesh::DistributedMesh& wall, const FrontTable& table, const mesh::DistributedMesh& volume)
+  BeyondCap(const mesh::DistributedMesh& wall, const CapTable& table, const mesh::DistributedMesh& volume)
       : _wall(wall) {
     for (const Piece& piece : volume.pieces) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -85,11 +84,11 @@ public:
       }
     }
     geometry::sort_unique(_asked);
-    const FrontTable::Fetched found = table.fetch(_asked);
+    const CapTable::Fetched found = table.fetch(_asked);
     if (found.missing >= 0)
       throw parallel::CollectiveError(
           parallel::FailureKind::bug,
-          fmt::format("layers: the volume has a vertex of the front, {}, that there is not", found.missing));
+          fmt::format("layers: the volume has a vertex of the cap, {}, that there is not", found.missing));
     _rows = found.values;
   }
 
@@ -98,7 +97,7 @@ public:
   }
 
 private:
-  const FrontVertex& row(GlobalIndex number) const {
+  const CapVertex& row(GlobalIndex number) const {
     return _rows[std::lower_bound(_asked.begin(), _asked.end(), number) - _asked.begin()];
   }
 
@@ -112,12 +111,12 @@ private:
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (!is_on_boundary(piece.vertex_dimension[v])) continue;
       const GlobalIndex number = piece.vertex_entity[v];
-      const FrontVertex& of_front = row(number);
+      const CapVertex& of_cap = row(number);
       keys.emplace_back(v, mesh::running_key(number));
-      grows[v] = of_front.count > 0 ? 1 : 0;
+      grows[v] = of_cap.count > 0 ? 1 : 0;
       piece.vertex_dimension[v] =
-          grows[v] ? mesh::CadDimension::region : static_cast<mesh::CadDimension>(of_front.dimension);
-      piece.vertex_entity[v] = grows[v] ? piece.region : of_front.entity;
+          grows[v] ? mesh::CadDimension::region : static_cast<mesh::CadDimension>(of_cap.dimension);
+      piece.vertex_entity[v] = grows[v] ? piece.region : of_cap.entity;
     }
     std::sort(keys.begin(), keys.end());
     piece.shared_vertices.clear(), piece.shared_keys.clear();
@@ -134,7 +133,7 @@ private:
 
   const mesh::DistributedMesh& _wall;
   std::vector<GlobalIndex> _asked;  // ascending
-  std::vector<FrontVertex> _rows;   // of those
+  std::vector<CapVertex> _rows;     // of those
 };
 
 std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, const Piece& piece) {
@@ -146,7 +145,7 @@ std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, c
 
 /// The pieces of the layers over the pieces of the wall on this rank, by piece of the wall, without ids.
 std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, const Columns& columns,
-                                            const NamedFront& front,
+                                            const NamedFront& cap,
                                             const std::vector<std::optional<std::size_t>>& places,
                                             const std::vector<LateralEdge>& laterals,
                                             const LayerCellOptions& options) {
@@ -159,9 +158,9 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
                          [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
     const std::vector<std::uint8_t> bears = bearing_triangles(wall.mesh, piece);
     const LayeredPiece source{piece,
-                              front.mesh.pieces[*places[p]],
+                              cap.mesh.pieces[*places[p]],
                               columns.pieces[p],
-                              front.numbering.vertices[*places[p]],
+                              cap.numbering.vertices[*places[p]],
                               bears,
                               {first, last},
                               wall.mesh.sides_of(piece.common_face()).front,
@@ -206,8 +205,8 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 
 }  // namespace
 
-NamedFront name_front(mesh::DistributedMesh front) {
-  NamedFront named{{std::move(front), {}}, {}};
+NamedFront name_cap(mesh::DistributedMesh cap) {
+  NamedFront named{{std::move(cap), {}}, {}};
   named.numbering = mesh::number_mesh(named.mesh);
   parallel::agree(named.mesh.communicator, [&] {
     if (named.numbering.vertex_count > std::numeric_limits<std::int32_t>::max())
@@ -222,14 +221,14 @@ NamedFront name_front(mesh::DistributedMesh front) {
   return named;
 }
 
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& front,
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
-  const std::vector<std::optional<std::size_t>> places = places_in_front(wall.mesh, front.mesh);
-  BehindFront(wall.mesh, make_table(columns, front, places), volume).join(volume);
+  const std::vector<std::optional<std::size_t>> places = places_in_cap(wall.mesh, cap.mesh);
+  BeyondCap(wall.mesh, make_table(columns, cap, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
   parallel::agree(wall.mesh.communicator,
-                  [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
+                  [&] { made = make_pieces(wall, columns, cap, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));

@@ -68,19 +68,19 @@ private:
   }
 
   void add_node(LocalIndex v, std::int32_t k) {
-    const bool on_wall = k == 0, on_front = k == count(v);
+    const bool on_wall = k == 0, on_cap = k == count(v);
     const LocalIndex here = _piece.vertex_count();
-    const Vec3 p = on_wall    ? _source.wall.point(v)
-                   : on_front ? _source.front.point(v)
-                              : node(_source.wall, _source.columns, v, k);
+    const Vec3 p = on_wall  ? _source.wall.point(v)
+                   : on_cap ? _source.cap.point(v)
+                            : node(_source.wall, _source.columns, v, k);
     _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
     _piece.vertex_dimension.push_back(on_wall ? _source.wall.vertex_dimension[v]
                                               : mesh::CadDimension::region);
     _piece.vertex_entity.push_back(on_wall ? _source.wall.vertex_entity[v] : _source.region);
-    if (!on_front && !_shared[v]) return;
+    if (!on_cap && !_shared[v]) return;
     _piece.shared_vertices.push_back(here);
-    _piece.shared_keys.push_back(on_front ? mesh::running_key(_source.numbers[v])
-                                          : mesh::layer_key(_source.numbers[v], k));
+    _piece.shared_keys.push_back(on_cap ? mesh::running_key(_source.numbers[v])
+                                        : mesh::layer_key(_source.numbers[v], k));
   }
 
   /// The wall's triangles are counter-clockwise seen from outside, cells begin with the triangle as their

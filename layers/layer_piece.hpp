@@ -13,15 +13,15 @@ namespace aeroloom::layers {
 /// A piece of the wall with all that its layers are made of. Refers to what lives elsewhere.
 struct LayeredPiece {
   const mesh::Piece& wall;
-  const mesh::Piece& front;
+  const mesh::Piece& cap;
   const PieceColumns& columns;
-  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the front's vertices
+  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the cap's vertices
   const std::vector<std::uint8_t>& bears;         ///< by triangle
   std::span<const LateralEdge> laterals;          ///< by half-edge
   mesh::RegionId region = 0;
   LayerElements elements = LayerElements::prisms;
 
-  /// Layers over a triangle; 0: it stays boundary of what lies behind the front.
+  /// Layers over a triangle; 0: it stays boundary of what lies beyond the cap.
   std::int32_t layers_over(mesh::LocalIndex triangle) const;
   std::int32_t cells_over(mesh::LocalIndex triangle) const;
 };
@@ -37,7 +37,7 @@ std::vector<TriangleRange> cut_into_ranges(const LayeredPiece& source, std::int6
 /// The vertices of the wall's piece that other pieces may know, or several of the ranges. By vertex.
 std::vector<std::uint8_t> find_shared(const LayeredPiece& source, std::span<const TriangleRange> ranges);
 
-/// The cells over the triangles of a range as a piece without an id. Vertices of the front have the key that
+/// The cells over the triangles of a range as a piece without an id. Vertices of the cap have the key that
 /// the volume's pieces give them, others that may be shared, by find_shared(), keys of their own.
 mesh::Piece make_layer_piece(const LayeredPiece& source, TriangleRange range,
                              const std::vector<std::uint8_t>& shared);

@@ -9,7 +9,7 @@ namespace aeroloom::layers {
 
 /// By patch index of the mesh, with the cells that there are of such elements; sums in the order of pieces.
 /// Collective, the same on every rank and for any number of ranks.
-std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimits& limits,
+std::vector<PatchLayers> report_patches(const LocalWall& wall, const ColumnLimits& limits,
                                         LayerElements elements);
 
 }  // namespace aeroloom::layers

@@ -159,15 +159,15 @@ struct Ends {
   double highest() const { return std::max({totals[0], totals[1], totals[2]}); }
 };
 
-/// Whether front and uppermost prism are good where all columns shrink to a height.
+/// Whether cap and uppermost prism are good where all columns shrink to a height.
 bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least& least, double height) {
-  Level front, prism;
+  Level cap, prism;
   for (int i = 0; i < 3; ++i) {
     const double ratio = ends.totals[i] > height ? height / ends.totals[i] : 1;
-    front[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
+    cap[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
     prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
   }
-  return largest_cosine(front) <= least.cosine &&
+  return largest_cosine(cap) <= least.cosine &&
          corner_determinant(prism, doubled_area(prism), columns) >= least.determinant;
 }
 
@@ -192,7 +192,7 @@ std::int32_t good_layers(const TriangleColumns& columns) {
   return most;
 }
 
-bool has_good_front(const TriangleColumns& columns) {
+bool has_good_cap(const TriangleColumns& columns) {
   return is_good_below(columns, Ends(columns), Least(columns), std::numeric_limits<double>::infinity());
 }
 

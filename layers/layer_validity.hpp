@@ -21,11 +21,11 @@ using TriangleColumns = std::array<CornerColumn, 3>;
 /// all four of pyramids, and tetrahedra themselves; the scaled Jacobian of prisms at least half of that at
 /// vanishing height.
 std::int32_t good_layers(const TriangleColumns& columns);
-/// Whether the smallest angle of the front's triangle is at least 0.6 of the wall triangle's, and the
+/// Whether the smallest angle of the cap's triangle is at least 0.6 of the wall triangle's, and the
 /// uppermost prism has its scaled Jacobian: what most often fails, and quickly told.
-bool has_good_front(const TriangleColumns& columns);
+bool has_good_cap(const TriangleColumns& columns);
 
-/// A height that no column over the triangle may exceed so that front and cells become good, below the
+/// A height that no column over the triangle may exceed so that cap and cells become good, below the
 /// highest of them: the tallest columns fall first. Infinite where all is good. Where columns below it still
 /// are not, the next answer is lower.
 double fitting_height(const TriangleColumns& columns);

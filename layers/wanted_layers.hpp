@@ -1,7 +1,7 @@
 /// What the patches around a vertex ask of its column.
 #pragma once
 
-#include "layers/wall_share.hpp"
+#include "layers/local_wall.hpp"
 
 #include <cstdint>
 #include <tuple>
@@ -24,6 +24,6 @@ struct VertexLayers {
 };
 
 /// By vertex, equal in all pieces. Vertices without layered triangles have no edges. Collective.
-std::vector<VertexLayers> gather_wanted_layers(const WallShare& wall, const LayerOptions& options);
+std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const LayerOptions& options);
 
 }  // namespace aeroloom::layers

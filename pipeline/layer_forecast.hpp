@@ -24,8 +24,8 @@ struct PatchLayerForecast {
   double least_total = 0, most_total = 0;        ///< their heights together
   double cells = 0;
   double area = 0;
-  double squeezed_area = 0;  ///< where gaps are too narrow for the total: layers grow slower
-  double lacking_area = 0;   ///< where they do not hold so many layers of the first height
+  double compressed_area = 0;  ///< where gaps are too narrow for the total: layers grow slower
+  double lacking_area = 0;     ///< where they do not hold so many layers of the first height
   double narrowest_gap = std::numeric_limits<double>::infinity();  ///< of those
   geometry::Vec3 narrowest_at = {};                                ///< on the wall
 };

@@ -107,7 +107,7 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, 
   sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(communicator, sizes)
                                 : surface.field;
-  return {std::move(made.columns), layers::name_front(std::move(made.front)), std::move(field)};
+  return {std::move(made.columns), layers::name_cap(std::move(made.cap)), std::move(field)};
 }
 
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,

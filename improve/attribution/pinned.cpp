@@ -3,7 +3,7 @@
 #include "geometry/angle.hpp"
 #include "geometry/sort_unique.hpp"
 #include "improve/attribution/curve_wedges.hpp"
-#include "improve/attribution/front_vertices.hpp"
+#include "improve/attribution/layer_vertices.hpp"
 #include "improve/attribution/narrow_regions.hpp"
 #include "improve/attribution/sharp_curves.hpp"
 #include "improve/attribution/wall_pairs.hpp"
@@ -62,8 +62,8 @@ public:
     _wedges = measure_wedges(_mesh, _numbering, _edges);
     list_sharp_curves();
     _narrow = find_narrow_edges(_mesh, _numbering, _edges);
-    if (!_surface_may_change) _on_front = find_front_vertices(_mesh);
-    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
+    if (!_surface_may_change) _on_layers = find_layer_vertices(_mesh);
+    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) classify(i);
     return merge();
   }
 
@@ -85,7 +85,7 @@ private:
 
   void collect_edges();
   void list_sharp_curves();
-  void judge(std::size_t piece);
+  void classify(std::size_t piece);
   bool pinned_by_faces(std::size_t piece, const BadTet& bad);
   bool pinned_by_curves(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
@@ -110,11 +110,11 @@ private:
   VertexFaces _vertex_faces;
   WallFinder _walls;
   SharpCurves _sharp_curves;
-  std::vector<std::vector<BadTet>> _bad;             // per piece
-  std::vector<std::vector<std::uint8_t>> _on_front;  // per piece and vertex, where surfaces may not change
-  std::vector<EdgeName> _edges;                      // of bad tetrahedra on all ranks, ascending
-  std::vector<EdgeWedge> _wedges;                    // per edge
-  std::vector<NarrowEdge> _narrow;                   // those of them across narrow regions
+  std::vector<std::vector<BadTet>> _bad;              // per piece
+  std::vector<std::vector<std::uint8_t>> _on_layers;  // per piece and vertex, where surfaces may not change
+  std::vector<EdgeName> _edges;                       // of bad tetrahedra on all ranks, ascending
+  std::vector<EdgeWedge> _wedges;                     // per edge
+  std::vector<NarrowEdge> _narrow;                    // those of them across narrow regions
   std::vector<PinningEntity> _entities;
   std::vector<UnresolvedFeature> _features;
   PinnedReport _report;
@@ -274,7 +274,7 @@ bool PinnedSearch::is_held(std::size_t i, const BadTet& bad) const {
   const Piece& piece = _mesh.pieces[i];
   const LocalIndex* c = piece.cell(bad.tet);
   return std::count_if(c, c + 4, [&](LocalIndex v) {
-           return is_on_boundary(piece.vertex_dimension[v]) || _on_front[i][v] != 0;
+           return is_on_boundary(piece.vertex_dimension[v]) || _on_layers[i][v] != 0;
          }) >= 3;
 }
 
@@ -294,7 +294,7 @@ MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
   return _report.rest;
 }
 
-void PinnedSearch::judge(std::size_t i) {
+void PinnedSearch::classify(std::size_t i) {
   const std::vector<std::array<LocalIndex, 4>> corners = sharp_corners(_mesh.pieces[i]);
   for (const BadTet& bad : _bad[i]) count(kind_of(i, bad, corners), bad.angles);
 }

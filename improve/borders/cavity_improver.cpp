@@ -1,6 +1,6 @@
 #include "improve/borders/cavity_improver.hpp"
 
-#include "improve/borders/scatter.hpp"
+#include "improve/borders/perturbation.hpp"
 #include "improve/improver.hpp"
 #include "improve/limits/examination.hpp"
 #include "improve/limits/local_target.hpp"
@@ -167,7 +167,7 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
 namespace {
 
 /// The worst quality, then how many miss the target: what is greater is better.
-std::pair<double, std::int64_t> judge(const Piece& piece, const mesh::TetQuality& measure) {
+std::pair<double, std::int64_t> score(const Piece& piece, const mesh::TetQuality& measure) {
   std::pair<double, std::int64_t> result{std::numeric_limits<double>::max(), 0};
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const double quality = quality_of(piece, t, measure);
@@ -199,14 +199,14 @@ std::optional<cavities::CavityContent> CavityImprover::improve_by_trials(const c
   order_vertices(cavity);
   build_piece(cavity);
   const Piece start = _piece;
-  auto best = judge(start, _measure);
+  auto best = score(start, _measure);
   std::optional<cavities::CavityContent> result;
   ImproveReport changes;
   for (int trial = 0; trial < trials && best.second < 0; ++trial) {
     _piece = start;
-    if (trial > 0) scatter(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
+    if (trial > 0) perturb(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
     const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::full);
-    const auto now = judge(_piece, _measure);
+    const auto now = score(_piece, _measure);
     if (now <= best) continue;
     best = now;
     changes = mine;

@@ -3,8 +3,8 @@
 #include "geometry/runs.hpp"
 #include "geometry/sort_unique.hpp"
 #include "improve/borders/claims.hpp"
+#include "improve/borders/piece_assignment.hpp"
 #include "improve/borders/piece_update.hpp"
-#include "improve/borders/shares.hpp"
 #include "mesh/data/mixing.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/delivery.hpp"
@@ -196,7 +196,7 @@ struct OwnedCavity {
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per point, ascending
   std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
   std::optional<CavityContent> content;
-  CavityShares shares;  ///< of the content
+  CavityAssignment assignment;  ///< of the content
 };
 
 std::vector<OwnedCavity> assemble(const mesh::DistributedMesh& mesh, WireParts parts) {
@@ -246,15 +246,15 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
   const auto vertex_key = [&](mesh::LocalIndex v) {
     return v < known ? owned.vertex_keys[v] : mesh::placed_key(round, first_added + (v - known));
   };
-  const CavityShares& shares = owned.shares;
+  const CavityAssignment& assignment = owned.assignment;
   std::vector<std::pair<mesh::PieceId, mesh::LocalIndex>> uses;
   for (std::size_t i = 0; i < owned.content->tets.size(); ++i) {
     const auto& t = owned.content->tets[i];
     out.tets.push_back({id,
-                        shares.of_tet[i],
+                        assignment.of_tet[i],
                         owned.cavity.region,
                         {vertex_key(t[0]), vertex_key(t[1]), vertex_key(t[2]), vertex_key(t[3])}});
-    for (const mesh::LocalIndex v : t) uses.emplace_back(shares.of_tet[i], v);
+    for (const mesh::LocalIndex v : t) uses.emplace_back(assignment.of_tet[i], v);
   }
   geometry::sort_unique(uses);
   for (const auto& [piece, v] : uses) {
@@ -273,7 +273,7 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
     const CavityTriangle& t = triangles[i];
     out.triangles.push_back(
         {id,
-         shares.of_triangle[i],
+         assignment.of_triangle[i],
          t.face,
          {vertex_key(t.vertices[0]), vertex_key(t.vertices[1]), vertex_key(t.vertices[2])},
          t.patch});
@@ -362,7 +362,7 @@ CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVert
   parallel::agree(mesh.communicator, [&] {
     for (OwnedCavity& owned : cavities) {
       owned.content = request.replace(owned.cavity);
-      if (owned.content) owned.shares = share_out(owned.cavity, owned.donor, *owned.content);
+      if (owned.content) owned.assignment = assign_to_pieces(owned.cavity, owned.donor, *owned.content);
       const auto added = owned.content ? static_cast<std::int32_t>(owned.content->added.size()) : 0;
       outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }

@@ -44,7 +44,7 @@ private:
   };
   bool allow_edge(const Lengths& before, Vec3 a, Vec3 b) const;
 
-  bool is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
+  bool touches_narrow_region(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
 
   const sizing::SizeField* _field;
   const LocalTarget* _local_target;

@@ -15,8 +15,8 @@ namespace aeroloom::improve {
 /// higher level. The level of a sweep grows with the operations in use (operations.hpp).
 class BadElementQueue {
 public:
-  /// `last_level_beside_strips`: no operation is added there at a higher level.
-  BadElementQueue(const TetMesh& mesh, const LocalTarget& local_target, int last_level_beside_strips);
+  /// `last_level_in_narrow_regions`: no operation is added there at a higher level.
+  BadElementQueue(const TetMesh& mesh, const LocalTarget& local_target, int last_level_in_narrow_regions);
 
   /// Begins a sweep with all tetrahedra below their targets. Returns their number.
   std::int64_t fill();
@@ -59,7 +59,7 @@ private:
 
   const TetMesh& _mesh;
   const LocalTarget& _local_target;
-  int _last_level_beside_strips;
+  int _last_level_in_narrow_regions;
   std::vector<Task> _heap;  ///< worst on top
   std::vector<SlotHistory> _slots;
   std::vector<std::uint32_t> _changed;  ///< per vertex: when something around it changed last

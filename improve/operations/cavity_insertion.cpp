@@ -53,7 +53,7 @@ void CavityInsertion::collect_walls(const TetMesh& mesh) {
   for (const LocalIndex t : _tets) add_walls(mesh, t);
 }
 
-void CavityInsertion::swallow(const TetMesh& mesh, LocalIndex t) {
+void CavityInsertion::absorb(const TetMesh& mesh, LocalIndex t) {
   std::erase_if(_walls, [&](const Wall& w) { return mesh.twin(w.side) >= 0 && mesh.twin(w.side) >> 2 == t; });
   _tets.push_back(t);
   add_walls(mesh, t);
@@ -81,7 +81,7 @@ void CavityInsertion::grow(const TetMesh& mesh) {
         _tets.size() >= best_size + patience) {
       break;
     }
-    swallow(mesh, mesh.twin(worst_open->side) >> 2);
+    absorb(mesh, mesh.twin(worst_open->side) >> 2);
   }
   _tets.resize(best_size);
   collect_walls(mesh);

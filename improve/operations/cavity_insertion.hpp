@@ -40,7 +40,7 @@ private:
   void collect_walls(const TetMesh& mesh);
   void grow(const TetMesh& mesh);
   void add_walls(const TetMesh& mesh, LocalIndex t);
-  void swallow(const TetMesh& mesh, LocalIndex t);
+  void absorb(const TetMesh& mesh, LocalIndex t);
   bool keeps_fixed_vertices(const TetMesh& mesh) const;
   bool contains(LocalIndex t) const;
 

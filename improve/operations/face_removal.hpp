@@ -22,15 +22,15 @@ public:
 
 private:
   /// A face between the two vertices: its tetrahedra on both sides.
-  struct Sandwich {
+  struct FaceTets {
     LocalIndex below, above;
   };
-  double grow(const TetMesh& mesh, const Sandwich& from, LocalIndex u, LocalIndex v, int depth);
-  bool find_neighbour(const TetMesh& mesh, const Sandwich& from, LocalIndex u, LocalIndex v, Sandwich& next,
+  double grow(const TetMesh& mesh, const FaceTets& from, LocalIndex u, LocalIndex v, int depth);
+  bool find_neighbour(const TetMesh& mesh, const FaceTets& from, LocalIndex u, LocalIndex v, FaceTets& next,
                       LocalIndex& apex) const;
 
   LocalIndex _below = 0, _above = 0;  ///< the two vertices
-  std::vector<Sandwich> _faces;
+  std::vector<FaceTets> _faces;
   std::vector<std::array<LocalIndex, 2>> _ring;
 };
 

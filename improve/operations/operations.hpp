@@ -26,6 +26,6 @@ std::span<const ListedOperation> operations();
 int level_of_sweep(int sweep);
 /// The highest level; of operations that are not costly alone, the highest beside strips.
 int last_level();
-int last_level_beside_strips();
+int last_level_in_narrow_regions();
 
 }  // namespace aeroloom::improve

@@ -79,9 +79,9 @@ bool OverConstrainedTrials::remove(TetMesh& mesh, LocalIndex t) {
   // Where some miss the target already, sweeps work on those, and long.
   if (before.bad > 0) return false;
   const mesh::Piece start = copy(mesh);
-  const LocalTarget strips(start, mesh.measure());
+  const LocalTarget narrow_target(start, mesh.measure());
   const LocalTarget everywhere(mesh.measure());
-  const ChangeLimits limits(_field, &strips, _effort);
+  const ChangeLimits limits(_field, &narrow_target, _effort);
   OverConstrainedRemoval removal(limits, least_fraction);
   mesh::Piece piece = start;
   TetMesh untouched(piece, mesh.measure());
@@ -90,7 +90,7 @@ bool OverConstrainedTrials::remove(TetMesh& mesh, LocalIndex t) {
     piece = start;
     TetMesh copied(piece, mesh.measure());
     const std::vector<LocalIndex>& fresh = removal.apply(copied, found[i]);
-    Sweeps sweeps(copied, _effort == Effort::full ? everywhere : strips, limits, _effort);
+    Sweeps sweeps(copied, _effort == Effort::full ? everywhere : narrow_target, limits, _effort);
     sweeps.follow_removal(fresh);
     sweeps.run(sweeps_after);
     if (!is_better(examine(copied), before, mesh.measure().target())) continue;

@@ -33,10 +33,10 @@ public:
         _locator(options.boundary_may_change ? source.locator : nullptr),
         _effort(effort),
         _measure(options.target_angle),
-        _strips(piece, _measure),
-        _local_target(effort == Effort::full ? LocalTarget(_measure) : _strips),
+        _narrow_target(piece, _measure),
+        _local_target(effort == Effort::full ? LocalTarget(_measure) : _narrow_target),
         _mesh(piece, _measure, options.boundary_may_change),
-        _limits(_sizes, &_strips, effort) {
+        _limits(_sizes, &_narrow_target, effort) {
     report.note_before(state_of(_mesh));
   }
 
@@ -75,7 +75,7 @@ private:
   cad::PointLocator* _locator;
   Effort _effort;
   mesh::TetQuality _measure;
-  LocalTarget _strips, _local_target;
+  LocalTarget _narrow_target, _local_target;
   TetMesh _mesh;
   ChangeLimits _limits;
 };

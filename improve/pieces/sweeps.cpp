@@ -17,7 +17,7 @@ constexpr std::int64_t tasks_per_gain = 50;
 Sweeps::Sweeps(TetMesh& mesh, const LocalTarget& local_target, const ChangeLimits& limits, Effort effort,
                cad::PointLocator* locator)
     : _mesh(mesh),
-      _queue(mesh, local_target, last_level_beside_strips()),
+      _queue(mesh, local_target, last_level_in_narrow_regions()),
       _context(mesh, local_target, limits, effort, locator, _queue),
       _operations(operations().size()) {}
 

@@ -25,7 +25,7 @@ struct Limited {
       : communicator(ranks),
         mesh(cube_in_a_box().distribute(ranks, pieces)),
         base(mesh, options),
-        columns(base.wall, options, base.fans, base.directions) {}
+        columns(base.wall, options, base.stars, base.directions) {}
 
   template <class T>
   std::vector<T> at_corner(T there, T elsewhere) const {
@@ -59,14 +59,14 @@ TEST(ColumnLimits, BeginAsThePatchesAsk) {
     EXPECT_GT(limited.columns.count(v), 10);
     EXPECT_EQ(limited.columns.count(v), limited.columns.wanted_count(v));
     EXPECT_EQ(limited.columns.heights(v).growth, 1.2);
-    EXPECT_FALSE(limited.columns.is_squeezed(v));
+    EXPECT_FALSE(limited.columns.is_compressed(v));
     EXPECT_EQ(limited.columns.cause(v), LayerLimit::none);
   }
   EXPECT_EQ(limited.columns.take_changed().size(), static_cast<std::size_t>(n));
   EXPECT_TRUE(limited.columns.take_changed().empty());
 }
 
-TEST(ColumnLimits, TotalsSqueezeTheGrowthBeforeTheCount) {
+TEST(ColumnLimits, TotalsCompressTheGrowthBeforeTheCount) {
   Limited limited(Communicator::world());
   ColumnLimits& columns = limited.columns;
   limited.columns.take_changed();
@@ -80,7 +80,7 @@ TEST(ColumnLimits, TotalsSqueezeTheGrowthBeforeTheCount) {
     EXPECT_LE(columns.total(v), halves[v]);
     EXPECT_GT(columns.total(v), 0.99 * halves[v]);
     EXPECT_EQ(columns.count(v), columns.wanted_count(v));
-    EXPECT_TRUE(columns.is_squeezed(v));
+    EXPECT_TRUE(columns.is_compressed(v));
     EXPECT_EQ(columns.cause(v), LayerLimit::gap);
   }
   // Two layers and a half of the first height: two layers.

@@ -1,4 +1,4 @@
-/// Walls with columns as a test wants them, and the volume that is filled behind their front.
+/// Walls with columns as a test wants them, and the volume that is filled beyond their cap.
 #pragma once
 
 #include "improve/improver.hpp"
@@ -67,14 +67,14 @@ struct Layered {
         end.set_point(v, node(piece, of_piece, v, column.count));
       }
     }
-    front = name_front(std::move(moved));
+    cap = name_cap(std::move(moved));
   }
 
-  /// Tetrahedra behind the front, improved, and the layers before it.
+  /// Tetrahedra beyond the cap, improved, and the layers before it.
   void fill(const sizing::SizeField& field, std::int64_t most_cells_per_piece,
             volume::VolumeOptions options = {}) {
     volume::VolumeReport report;
-    const volume::VolumeInput input{front.mesh, front.numbering, field, options};
+    const volume::VolumeInput input{cap.mesh, cap.numbering, field, options};
     mesh = volume::fill_zones(input, volume::decompose(input), report);
     improve::ImproveOptions improvement;
     improvement.boundary_may_change = false;
@@ -82,7 +82,7 @@ struct Layered {
     tetrahedra = 0;
     for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);
-    append_layers(wall, columns, front, {most_cells_per_piece, elements}, mesh);
+    append_layers(wall, columns, cap, {most_cells_per_piece, elements}, mesh);
     numbering = mesh::number_mesh(mesh);
   }
 
@@ -91,12 +91,12 @@ struct Layered {
   parallel::Communicator communicator;
   mesh::NumberedMesh wall;
   Columns columns;
-  NamedFront front;
+  NamedFront cap;
   mesh::DistributedMesh mesh;
   mesh::Numbering numbering;
   improve::ImproveReport improved;
   LayerElements elements = LayerElements::prisms;
-  std::int64_t tetrahedra = 0;  ///< behind the front
+  std::int64_t tetrahedra = 0;  ///< beyond the cap
 };
 
 }  // namespace aeroloom::layers

@@ -61,7 +61,7 @@ CavityReplacement replace_first(const TetMesh& mesh, std::size_t count) {
   return cavity;
 }
 
-TEST(LocalTarget, RefusesWhatLeavesMoreToMend) {
+TEST(LocalTarget, RefusesWhatLeavesMoreToImprove) {
   mesh::Piece piece = make_strip({0.65, 0.5}, mesh::CadDimension::edge);
   const LocalTarget local_target(piece, measure);
   TetMesh mesh(piece, measure, false);
@@ -100,12 +100,12 @@ TEST(LocalTarget, LetsSevereCasesGetFlatter) {
   EXPECT_TRUE(may_get_flatter(0.9, 0.1, true, Effort::reduced));
 }
 
-TEST(LocalTarget, LetsOthersGetFlatterWhereNothingIsSpared) {
+TEST(LocalTarget, LetsOthersGetFlatterWithFullEffort) {
   EXPECT_FALSE(may_get_flatter(0.45, 0.25, false, Effort::reduced));
   EXPECT_TRUE(may_get_flatter(0.45, 0.25, false, Effort::full));
 }
 
-TEST(LocalTarget, IsTheTargetEverywhereWhereNothingIsSpared) {
+TEST(LocalTarget, IsTheTargetEverywhereWithFullEffort) {
   const LocalTarget local_target(measure);
   EXPECT_EQ(local_target(Corners{0, 1, 2, 3}), measure.target());
   EXPECT_FALSE(local_target.is_limited(Corners{0, 1, 2, 3}));

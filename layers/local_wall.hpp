@@ -22,11 +22,11 @@ enum class WallRole : std::int8_t {
 /// The pieces of this rank, one after another: vertex v of piece p is number first_vertex[p] + v here,
 /// triangles alike. What several pieces know of a vertex has a place for each of them, and equal values in
 /// all.
-struct WallShare {
+struct LocalWall {
   using Corners = std::array<std::int32_t, 3>;
 
   /// Refers to the mesh. Throws CollectiveError where options do not fit it. Collective.
-  WallShare(const mesh::DistributedMesh& mesh, const LayerOptions& options);
+  LocalWall(const mesh::DistributedMesh& mesh, const LayerOptions& options);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(points.size()); }
   std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }

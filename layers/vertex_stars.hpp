@@ -1,7 +1,7 @@
 /// The triangles around each vertex of a wall, those of other pieces included.
 #pragma once
 
-#include "layers/wall_share.hpp"
+#include "layers/local_wall.hpp"
 
 #include <cstdint>
 #include <span>
@@ -10,16 +10,16 @@
 namespace aeroloom::layers {
 
 /// What keeps a column from a vertex, or nothing.
-enum class FanKind : std::int8_t {
-  plain,    ///< one closed fan of triangles that ask for layers, or end them in a plane
-  broken,   ///< several fans, an open one, or an edge of more than two triangles
+enum class StarKind : std::int8_t {
+  plain,    ///< one closed star of triangles that ask for layers, or end them in a plane
+  broken,   ///< several stars, an open one, or an edge of more than two triangles
   ending,   ///< a triangle where layers may not end, or three planes
   off_wall  ///< no triangle asks for layers
 };
 
 /// By vertex of the wall. Equal in all pieces that know it.
-struct Fans {
-  std::vector<FanKind> kinds;
+struct VertexStars {
+  std::vector<StarKind> kinds;
   std::vector<std::int64_t> first;  ///< (vertices + 1)
   /// Unit, into the fluid, of layered triangles: by piece, then triangle. On planes that layers end on, their
   /// mirror images follow: so the most normal direction lies in the plane.
@@ -38,6 +38,6 @@ struct Fans {
 };
 
 /// What pieces know of a shared vertex is brought together once. Collective.
-Fans gather_fans(const WallShare& wall);
+VertexStars gather_stars(const LocalWall& wall);
 
 }  // namespace aeroloom::layers

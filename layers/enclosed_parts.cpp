@@ -1,4 +1,4 @@
-#include "layers/swallowed_parts.hpp"
+#include "layers/enclosed_parts.hpp"
 
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
@@ -41,7 +41,7 @@ void keep_first_of_each_face(std::vector<FacePoint>& points) {
 }
 
 /// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.
-std::vector<FacePoint> points_of_faces(const WallShare& wall) {
+std::vector<FacePoint> points_of_faces(const LocalWall& wall) {
   std::vector<FacePoint> points;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
@@ -85,7 +85,7 @@ bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) 
 
 }  // namespace
 
-std::vector<std::int32_t> find_swallowing_triangles(const WallShare& wall, const std::vector<Vec3>& ends) {
+std::vector<std::int32_t> find_enclosing_triangles(const LocalWall& wall, const std::vector<Vec3>& ends) {
   const std::vector<FacePoint> points = points_of_faces(wall);
   std::vector<Box> boxes;
   boxes.reserve(points.size());
@@ -102,13 +102,13 @@ std::vector<std::int32_t> find_swallowing_triangles(const WallShare& wall, const
       box.add(foot[i]);
       box.add(end[i]);
     }
-    bool swallows = false;
+    bool encloses = false;
     geometry::for_each_overlap(tree, boxes, box, [&](std::int32_t i) {
       const Vec3 point = points[i].point;
-      if (swallows || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
-      swallows = layers_hold(foot, end, point);
+      if (encloses || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
+      encloses = layers_hold(foot, end, point);
     });
-    if (swallows) triangles.push_back(t);
+    if (encloses) triangles.push_back(t);
   }
   return triangles;
 }
