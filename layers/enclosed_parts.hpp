@@ -1,4 +1,4 @@
-/// Parts of the boundary that layers of another part have closed around.
+/// Finds parts of the boundary that lie inside the layers of another part.
 #pragma once
 
 #include "layers/local_wall.hpp"
@@ -8,10 +8,10 @@
 
 namespace aeroloom::layers {
 
-/// Triangles of this rank whose layers hold a point of a CAD face that is not theirs. A cap that meets
-/// nothing can have a whole part behind it: then every face of that part is there, so one point of each face
-/// tells. Where a cap meets a part, this says nothing. `ends`: of the columns, by vertex of the wall.
-/// Collective.
+/// The triangles of this rank whose layers contain a point of a CAD face that is not their own. A cap without
+/// intersections may enclose a whole part of the boundary. All faces of that part are then inside, so one
+/// point per face is tested. Says nothing where the cap intersects the part. `ends`: upper ends of the
+/// columns, by vertex of the wall. Collective.
 std::vector<std::int32_t> find_enclosing_triangles(const LocalWall& wall,
                                                    const std::vector<geometry::Vec3>& ends);
 

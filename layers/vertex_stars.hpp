@@ -1,4 +1,4 @@
-/// The triangles around each vertex of a wall, those of other pieces included.
+/// The star of each wall vertex: all triangles around it, those of other pieces included.
 #pragma once
 
 #include "layers/local_wall.hpp"
@@ -9,24 +9,24 @@
 
 namespace aeroloom::layers {
 
-/// What keeps a column from a vertex, or nothing.
+/// Whether a star allows a column, and if not, why.
 enum class StarKind : std::int8_t {
-  plain,    ///< one closed star of triangles that ask for layers, or end them in a plane
-  broken,   ///< several stars, an open one, or an edge of more than two triangles
-  ending,   ///< a triangle where layers may not end, or three planes
-  off_wall  ///< no triangle asks for layers
+  plain,    ///< one closed fan of triangles with layers or on planes that layers end on
+  broken,   ///< several fans, an open one, or an edge of more than two triangles
+  ending,   ///< a triangle does not let layers end on it, or three planes meet
+  off_wall  ///< no triangle has requested layers
 };
 
-/// By vertex of the wall. Equal in all pieces that know it.
+/// By vertex of the wall. Equal in all pieces with a vertex.
 struct VertexStars {
   std::vector<StarKind> kinds;
   std::vector<std::int64_t> first;  ///< (vertices + 1)
-  /// Unit, into the fluid, of layered triangles: by piece, then triangle. On planes that layers end on, their
-  /// mirror images follow: so the most normal direction lies in the plane.
+  /// Unit normals, into the fluid, of the triangles with layers: by piece, then triangle. On planes that
+  /// layers end on, their mirror images follow. So the most normal direction lies in the plane.
   std::vector<geometry::Vec3> normals;
   std::vector<std::int64_t> first_plane;  ///< (vertices + 1)
   std::vector<geometry::Vec3>
-      plane_normals;  ///< of the planes through a vertex that layers end on: two at most
+      plane_normals;  ///< normals of the planes at a vertex that layers end on; at most two
 
   std::span<const geometry::Vec3> normals_at(std::int32_t vertex) const {
     return std::span(normals).subspan(first[vertex], first[vertex + 1] - first[vertex]);
@@ -37,7 +37,7 @@ struct VertexStars {
   }
 };
 
-/// What pieces know of a shared vertex is brought together once. Collective.
+/// Collects the stars, once over all pieces. Collective.
 VertexStars gather_stars(const LocalWall& wall);
 
 }  // namespace aeroloom::layers
