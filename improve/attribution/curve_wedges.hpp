@@ -1,4 +1,4 @@
-/// The angles that the boundary encloses at edges between vertices on curves.
+/// The angles that the boundary encloses at mesh edges on CAD curves.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
@@ -11,7 +11,7 @@
 
 namespace aeroloom::attribution {
 
-/// An edge between vertices on curves, as one region sees it.
+/// An edge between vertices on curves, seen from one region.
 struct EdgeName {
   mesh::GlobalIndex low, high;  ///< its vertices
   std::int64_t region;
@@ -20,19 +20,19 @@ struct EdgeName {
   auto operator<=>(const EdgeName&) const = default;
 };
 
-/// The angle of a region's tetrahedra around an edge, and the CAD faces on either side.
+/// The angle of a region at an edge, and the CAD faces on either side.
 struct EdgeWedge {
-  double angle = 0;                           ///< degrees, of all tetrahedra of the region there
-  std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces of the region's boundary triangles; -1: unknown
+  double angle = 0;                           ///< degrees; sum over the tetrahedra of the region
+  std::array<std::int32_t, 2> faces{-1, -1};  ///< CAD faces of the boundary triangles there; -1: unknown
 };
 
 EdgeName name_edge(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex>& names, mesh::LocalIndex a,
                    mesh::LocalIndex b);
 
-/// The number of an edge in an ascending list, -1 where it is not in it.
+/// The number of an edge in an ascending list, or -1.
 std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge);
 
-/// Of each edge of the list (ascending, the same on every rank). Collective; the same on every rank.
+/// Measures each edge of the list (ascending, equal on all ranks). Collective; equal on all ranks.
 std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
                                       const std::vector<EdgeName>& edges);
 

@@ -1,4 +1,4 @@
-/// Another start for local improvement: vertices thrown a little at random.
+/// Random perturbation of vertices, to give local improvement another start.
 #pragma once
 
 #include "mesh/data/piece.hpp"
@@ -7,9 +7,9 @@
 
 namespace aeroloom::improve {
 
-/// Moves the vertices inside that are not shared, each along every axis by up to `fraction` of its shortest
-/// edge, or not at all where that would invert a tetrahedron. Numbers come from a hash of `seed`, vertex and
-/// axis: the same seed moves the same piece in the same way.
+/// Moves each interior vertex that is not shared by up to `fraction` of its shortest edge along each axis.
+/// Moves that would invert a tetrahedron are left out. Random numbers come from a hash of seed, vertex and
+/// axis, so equal seeds give equal moves.
 void perturb(mesh::Piece& piece, double fraction, std::uint64_t seed);
 
 }  // namespace aeroloom::improve

@@ -1,4 +1,4 @@
-/// Which piece gets which tetrahedron of a replaced cavity. Used by rounds.cpp.
+/// Assignment of the new tetrahedra of a cavity to pieces. Used by rounds.cpp.
 #pragma once
 
 #include "improve/borders/rounds.hpp"
@@ -8,12 +8,13 @@
 namespace aeroloom::cavities {
 
 struct CavityAssignment {
-  std::vector<mesh::PieceId> of_tet;       ///< per tetrahedron of the content
-  std::vector<mesh::PieceId> of_triangle;  ///< per triangle of the surface mesh: that of its tetrahedron
+  std::vector<mesh::PieceId> of_tet;       ///< per new tetrahedron
+  std::vector<mesh::PieceId> of_triangle;  ///< per triangle of the surface mesh, as its tetrahedron
 };
 
-/// Each piece that gave to the cavity takes what is nearest to the part of the cavity's boundary it gave, in
-/// steps from tetrahedron to tetrahedron; so it stays about as large as it was. `donor`: per old tetrahedron.
+/// Assigns each new tetrahedron to one of the pieces that had tetrahedra in the cavity. It goes to the piece
+/// whose part of the cavity boundary is nearest, in steps across faces. So pieces keep about their size.
+/// `donor`: the piece of each old tetrahedron.
 CavityAssignment assign_to_pieces(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
                                   const CavityContent& content);
 
