@@ -15,7 +15,7 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// The row of one piece in what is known of an edge.
+/// What one piece knows of an edge.
 struct PieceEdge {
   std::int64_t edge, piece;
   double angle;                       ///< degrees that its tetrahedra enclose
@@ -38,7 +38,7 @@ void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
   if (faces[1] >= 0 && faces[0] > faces[1]) std::swap(faces[0], faces[1]);
 }
 
-void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, const std::vector<EdgeName>& edges,
+void measure_edges(const Piece& piece, const std::vector<GlobalIndex>& names, const std::vector<EdgeName>& edges,
                std::vector<PieceEdge>& rows) {
   std::vector<PieceEdge> mine;
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -95,7 +95,7 @@ std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const m
   std::vector<PieceEdge> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-      add_edges(mesh.pieces[i], numbering.vertices[i], edges, mine);
+      measure_edges(mesh.pieces[i], numbering.vertices[i], edges, mine);
   }
   std::vector<PieceEdge> all = mesh.communicator.all_gather_items<PieceEdge>(mine);
   std::sort(all.begin(), all.end(), [](const PieceEdge& a, const PieceEdge& b) {

@@ -54,7 +54,7 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
       const std::array<Vec3, 4> p = points_of(piece, t);
       const double quality = measure(p[0], p[1], p[2], p[3]);
       if (quality >= local_target(v)) continue;
-      // Beside a strip what was tried inside a piece is not tried again.
+      // In narrow regions what was tried inside a piece is not tried again.
       if (local_target.is_limited(v) && !local_target.is_severe(quality)) {
         if (shift > 0) continue;
         if (beside.empty()) beside = near_borders(piece);

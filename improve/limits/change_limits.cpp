@@ -11,7 +11,7 @@ constexpr double least = 0.3,
                  most = 3;  // of the size, the former also of the mean edge before; docs/improvement.md
 
 constexpr double decent_ratio = 0.5;  // below this a mean ratio must not fall; chosen, not measured
-constexpr double flattening = 0.3;    // of the ratio before, where a severe case beside a strip gets better
+constexpr double flattening = 0.3;    // of the ratio before, where a severe case in a narrow region improves
 constexpr double full_effort_flattening = 0.5;  // where any does, with full effort
 
 double ratio_of(const std::array<Vec3, 4>& p) {

@@ -10,8 +10,8 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 
-/// Of the target: a lower one must hold where a strip counts as one. Triangles up to five times as long
-/// as wide are improved like others.
+/// Of the target: a surface triangle is narrow if it lowers the target below this. Triangles up to five times
+/// as long as wide are improved like others.
 constexpr double narrow = 0.9;
 /// Times the worst before: what a severe case must get to where it leaves more to improve than there was.
 /// Chosen, not measured.
