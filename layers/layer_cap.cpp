@@ -104,7 +104,7 @@ CapClearing::CapClearing(const LocalWall& wall, const Directions& directions,
   const bool has_planes = _kept.size() < on_plane.size();
   if (has_planes && !remesh_planes)
     throw parallel::CollectiveError(parallel::FailureKind::bug,
-                                    "layers end on planes that nobody meshes again");
+                                    "layers end on planes, but none can be meshed again");
 }
 
 void CapClearing::lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault,

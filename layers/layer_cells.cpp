@@ -88,7 +88,8 @@ public:
     if (found.missing >= 0)
       throw parallel::CollectiveError(
           parallel::FailureKind::bug,
-          fmt::format("layers: the volume has a vertex of the cap, {}, that there is not", found.missing));
+          fmt::format("layers: the volume has vertex {} of the layer cap, which does not exist",
+                      found.missing));
     _rows = found.values;
   }
 

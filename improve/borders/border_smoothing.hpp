@@ -9,9 +9,9 @@
 
 namespace aeroloom::improve {
 
-/// Moves the shared interior vertices by the rule of MeanRatioSmoothing: along the gradient of the sum of
-/// inverse mean ratios, if the average mean ratio is below MeanRatioSmoothing::good_enough, and only if the
-/// worst TetQuality around the vertex does not fall. Each piece sums over its own tetrahedra at a vertex. The
+/// Moves the shared interior vertices by the rule of MeanRatioSmoothing, along the gradient of the sum of
+/// inverse mean ratios. A vertex moves if the average mean ratio is below MeanRatioSmoothing::good_enough,
+/// unless the worst TetQuality around it would fall. Each piece sums over its own tetrahedra at a vertex. The
 /// sums are added in the order of pieces, so the result does not depend on ranks. Vertices move in two groups
 /// chosen by their keys, each at once (Jacobi). If a tetrahedron would get worse than its moving vertices
 /// allow, these stay. `passes`: moves of each group. `shared` must belong to the mesh and stays valid.

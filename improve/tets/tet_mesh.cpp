@@ -252,7 +252,7 @@ void TetMesh::order_cells() {
   }
 }
 
-// Vertices that a cavity has swallowed.
+// Vertices that only replaced tetrahedra used.
 void TetMesh::remove_unused_vertices() {
   std::vector<LocalIndex> renumbered(_incident.size(), -1);
   LocalIndex kept = 0;
