@@ -54,7 +54,7 @@ void CavityRounds::run_round(cavities::CavityExtent extent, int trials) {
   };
   _bad.update(_mesh, cavities::replace_cavities(_mesh, _shared, {_claims, extent, improve}));
   _shared = mesh::SharedVertices(_mesh);
-  _shared.drop_unshared(_mesh);  // cavities name more than borders
+  _shared.drop_unshared(_mesh);  // a round names more vertices than those on borders
   ++_shift;
 }
 

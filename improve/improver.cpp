@@ -21,7 +21,7 @@
 namespace aeroloom::improve {
 namespace {
 
-/// As improve_piece(), or what came of it in an earlier run; of pieces of the lattice what they are.
+/// As improve_piece(), or its stored result of an earlier run. Pieces of the lattice stay as they are.
 ImproveReport improve_or_find(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source,
                               parallel::TaskStore* tasks) {
   if (const auto lattice = options.enabled ? look_at_lattice(piece, options) : std::nullopt) {
@@ -51,7 +51,7 @@ struct MeshImprover {
   parallel::TaskStore* tasks;
   const parallel::Communicator communicator = mesh.communicator;
   StageRecord record = {};
-  /// Nothing where borders stayed as they were and no tetrahedron is below target.
+  /// Nothing if smoothing moved no vertex and no tetrahedron is below target.
   std::optional<CavityRounds> rounds = {};
 
   void balance() {

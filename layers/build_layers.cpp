@@ -13,12 +13,12 @@
 namespace aeroloom::layers {
 namespace {
 
-/// A gap in which a column has all the room it wants.
+/// The smallest gap that does not limit a column.
 double ample_gap_of(const ColumnLimits& limits, std::int32_t v) {
   return ample_gap(limits.total(v), limits.mean_edge(v));
 }
 
-/// The balls that tell whether columns have room. Only the lowest piece that knows a vertex asks.
+/// The balls that measure the gaps of columns. Only the lowest piece with a vertex needs one.
 std::vector<TouchingBall> balls_on(const LocalWall& wall, const Directions& directions,
                                    const ColumnLimits& limits) {
   std::vector<TouchingBall> balls(wall.points.size());
@@ -29,7 +29,7 @@ std::vector<TouchingBall> balls_on(const LocalWall& wall, const Directions& dire
   return balls;
 }
 
-/// No column takes more than its room in the gap.
+/// Limits totals to the room in the gaps.
 void limit_by_gaps(const LocalWall& wall, const Directions& directions, ColumnLimits& limits) {
   std::vector<double> gaps = find_gaps(wall, balls_on(wall, directions, limits));
   wall.spread(gaps);

@@ -47,7 +47,7 @@ Compressed compress(const Heights& heights, std::int32_t count, double limit) {
 
 namespace {
 
-/// Leaves room for what is opposite, which has layers as well.
+/// Leaves room for the layers on the opposite wall.
 constexpr double most_of_gap = 0.4;
 
 }  // namespace

@@ -9,14 +9,14 @@
 namespace aeroloom::layers {
 namespace {
 
-/// By how much more than an edge the totals at its ends may differ: where layers grow slower than 1.2 they
-/// are 0.7 g / (g - 1) edges high together when the last is as high as an edge asks, and spread alike.
+/// The largest difference of totals along an edge, over its length. It rises for growths g below 1.2: layers
+/// that end isotropic are 0.7 g / (g - 1) edges high, and change over that distance.
 double slope_of(double growth) {
   constexpr double ratio_at_1_2 = 6;  // g / (g - 1)
   return std::max(1.0, growth / (growth - 1) / ratio_at_1_2);
 }
 
-/// First heights count along the normals of the triangles: columns that lean are longer, up to this ratio.
+/// First heights are measured along the normals of triangles. Leaning columns are longer, up to this ratio.
 constexpr double most_lengthening = 2;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();

@@ -20,8 +20,8 @@ constexpr double kept_visibility = 0.9;
 /// Smoothing reaches about as many edges from a ridge as columns are high. Chosen, not measured.
 constexpr int smoothing_sweeps = 8;
 
-/// The direction between the present one and the mean of its neighbours' that is farthest on the way of those
-/// tried and keeps the visibility; along the planes of the vertex.
+/// Moves a direction towards the mean of its neighbours, as far as the visibility allows of the steps tried.
+/// The result lies in the planes of the vertex.
 Vec3 move_towards(Vec3 mean, Vec3 present, double least, const VertexStars& stars, std::int32_t v) {
   for (const double step : {0.5, 0.25, 0.125}) {
     const Vec3 moved = normalized(along_planes((1 - step) * present + step * mean, stars.planes_at(v)));

@@ -22,7 +22,7 @@ struct FacePoint {
   std::int32_t face;
   mesh::PieceId piece;
   mesh::LocalIndex vertex;
-  std::int32_t unused = 0;  ///< in the place of padding
+  std::int32_t unused = 0;  ///< avoids padding
   Vec3 point;
 
   static constexpr auto fields() {
@@ -40,7 +40,7 @@ void keep_first_of_each_face(std::vector<FacePoint>& points) {
                         [](const FacePoint& a, const FacePoint& b) { return a.face == b.face; });
 }
 
-/// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.
+/// The first vertex in the first piece of every CAD face. One row per face and rank is sent.
 std::vector<FacePoint> points_of_faces(const LocalWall& wall) {
   std::vector<FacePoint> points;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
@@ -70,8 +70,8 @@ bool holds(const std::array<Vec3, 4>& tetrahedron, Vec3 point) {
          sign * geometry::orient3d(a, b, c, point) >= 0;
 }
 
-/// The space between a triangle and the ends of its columns. Diagonals of its sides go by the order of the
-/// corners' places, which both triangles beside a side see alike: so nothing falls between them.
+/// Whether the layers over a triangle contain a point. The diagonals of lateral faces follow from the order
+/// of corner coordinates, equal for both triangles at an edge. So no point falls between them.
 bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) {
   std::array<int, 3> order{0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int i, int j) {

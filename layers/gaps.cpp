@@ -16,11 +16,11 @@ namespace {
 using geometry::Box;
 using geometry::Vec3;
 
-/// Balls whose box travels as one. Chosen, not measured.
+/// Balls whose common box is sent to other ranks. Chosen, not measured.
 constexpr int balls_per_batch = 256;
 constexpr int boxes_per_leaf_of_gaps = 4;  // chosen, not measured
 
-/// A triangle for the balls of a rank.
+/// A triangle on its way to a rank with balls.
 struct NearTriangle {
   Vec3 corners[3];
   Vec3 plane;  ///< normal out of the fluid where layers end on the triangle's plane, else zero
@@ -31,7 +31,7 @@ struct NearTriangle {
   }
 };
 
-/// Where balls of a rank are.
+/// A box around balls of a rank.
 struct BallBatch {
   Box box;
   std::int64_t rank;
@@ -60,7 +60,7 @@ Vec3 nearest_point(Vec3 p, const Vec3 (&t)[3]) {
   return t[0] + (of_b / sum) * ab + (of_c / sum) * ac;
 }
 
-/// What diameter_beside is not below for any triangle in the box.
+/// A lower bound of diameter_beside for all triangles in the box.
 double least_diameter(const TouchingBall& ball, const Box& box) {
   double squared = 0, ahead = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -120,8 +120,8 @@ std::vector<NearTriangle> fetch_triangles(const LocalWall& wall, const std::vect
                            [](const NearTriangle& t) { return static_cast<parallel::Rank>(t.rank); });
 }
 
-/// Columns may run along a plane that layers end on, and what stands opposite is their own mirror image. A
-/// column that leans towards it meets that at twice the distance from the plane in its direction.
+/// Next to a plane that layers end on, the opposite column is the mirror image. A column that leans towards
+/// the plane meets it at twice the distance to the plane in its direction.
 double gap_before(const TouchingBall& ball, const NearTriangle& triangle) {
   const double through = diameter_beside(ball, triangle.corners);
   if (triangle.plane == Vec3{} || through == ball.diameter) return through;
@@ -159,7 +159,7 @@ std::vector<double> find_gaps(const LocalWall& wall, const std::vector<TouchingB
   for (std::size_t b = 0; b < balls.size(); ++b) {
     const TouchingBall& ball = balls[b];
     if (ball.diameter == 0) continue;
-    // Rounding must not decide which triangles are looked at: the tree depends on ranks.
+    // Rounding must not decide which triangles are tested: the tree depends on ranks.
     constexpr double beyond_rounding = 1 + 1e-9;
     double bound = beyond_rounding * ball.diameter;
     gaps[b] = ball.diameter;

@@ -27,8 +27,8 @@ using mesh::PieceId;
 
 namespace {
 
-/// The place in the cap of each piece of the wall on this rank; none of planes that were meshed again.
-/// Whatever else is there comes first, in its order.
+/// The place in the cap of each local piece of the wall; nothing for planes that were meshed again. All
+/// others come first, in order.
 std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMesh& wall,
                                                       const mesh::DistributedMesh& cap) {
   std::vector<std::optional<std::size_t>> places(wall.pieces.size());
@@ -40,7 +40,7 @@ std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMes
   return places;
 }
 
-/// What pieces of the volume ask of a vertex of the cap.
+/// What pieces of the volume need to know of a cap vertex.
 struct CapVertex {
   std::int32_t count;              ///< of layers before it
   std::int32_t dimension, entity;  ///< its classification; as wide as each other, so that there is no padding
@@ -71,8 +71,8 @@ CapTable make_table(const Columns& columns, const NamedFront& cap,
           std::move(rows)};
 }
 
-/// The pieces beyond the cap: their vertices on it get keys that layers know, and their classification; the
-/// triangles that layers lie before are boundary no more.
+/// Connects the pieces outside the cap to the layers. Cap vertices get the keys used by layers, and their CAD
+/// classification. Triangles under layers are removed from the boundary.
 class BeyondCap {
 public:
   /// Collective.
@@ -173,8 +173,8 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
   return made;
 }
 
-/// Vertices off the wall that lie on a boundary face are on its plane; where two planes meet, on that of the
-/// lower number. All pieces agree. Collective.
+/// Classifies vertices off the wall that lie on a boundary face on its plane; of two planes the lower number
+/// counts. All pieces agree. Collective.
 void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& volume) {
   struct Place {
     std::int32_t dimension, entity;

@@ -83,8 +83,8 @@ private:
                                         : mesh::layer_key(_source.numbers[v], k));
   }
 
-  /// The wall's triangles are counter-clockwise seen from outside, cells begin with the triangle as their
-  /// opposite corners see it.
+  /// Wall triangles are counter-clockwise seen from outside. Cells start with the triangle as seen from
+  /// inside.
   void add_cell(const Triangle& v, std::int32_t k) {
     const auto live = std::count_if(v.begin(), v.end(), [&](LocalIndex each) { return count(each) >= k; });
     const auto layer = static_cast<std::int16_t>(k);
@@ -94,7 +94,7 @@ private:
       _of_prisms.push_back(layer);
       return;
     }
-    // Turned until the two columns that go on, or the one, come first.
+    // Rotated until the columns that continue come first.
     Triangle w = v;
     while (count(w[0]) < k || (live == 2 && count(w[1]) < k)) std::rotate(w.begin(), w.begin() + 1, w.end());
     const LocalIndex last = at(w[2], k);
@@ -149,8 +149,8 @@ private:
     }
   }
 
-  /// What lies over an edge, seen from outside of the cells: quadrilaterals where both columns go on, a
-  /// triangle in each layer where one does.
+  /// The lateral faces over an edge, seen from outside the cells: quadrilaterals if both columns continue,
+  /// triangles if one does.
   void add_lateral(const LateralEdge& edge) {
     const Triangle v = corners_of(_source.wall, edge.half_edge / 3);
     const LocalIndex p = v[edge.half_edge % 3], q = v[(edge.half_edge + 1) % 3];

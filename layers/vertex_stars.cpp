@@ -13,7 +13,7 @@ namespace {
 using geometry::Vec3;
 using mesh::VertexName;
 
-/// A triangle as a corner of it sees it: the other two in its order, and whose triangle it is.
+/// A triangle seen from one of its corners: the other two corners in order, and where it comes from.
 struct StarTriangle {
   Vec3 normal;
   VertexName next, previous;
@@ -25,7 +25,7 @@ struct StarTriangle {
   }
 };
 
-/// A triangle at the rendezvous of its vertex, which is known here by that number.
+/// A triangle sent to the rank that collects the star of its vertex. `vertex` is its number here.
 struct StarGuest {
   mesh::SharedVertexKey key;
   std::int64_t vertex;
@@ -36,7 +36,7 @@ struct StarGuest {
   }
 };
 
-/// What comes back: a triangle around a vertex of this rank.
+/// A triangle of the star of a local vertex, sent back.
 struct StarAnswer {
   std::int64_t vertex;
   StarTriangle triangle;
@@ -50,7 +50,7 @@ Vec3 normal_of(const LocalWall& wall, std::int32_t t) {
   return normalized(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
 }
 
-/// The triangles of one piece as their corners see them.
+/// The triangles of one piece seen from their corners.
 class PieceStars {
 public:
   PieceStars(const LocalWall& wall, std::size_t position)
@@ -75,7 +75,8 @@ private:
   std::vector<VertexName> _names;
 };
 
-/// Whether each triangle's last edge is another one's first, and one way round leads through all of them.
+/// Whether the triangles form one closed fan: each one's last edge is the first of another, and one turn
+/// passes all.
 bool is_closed_star(std::span<const StarTriangle> star) {
   std::size_t at = 0;
   for (std::size_t step = 0; step < star.size(); ++step) {

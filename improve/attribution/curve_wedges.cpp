@@ -38,8 +38,8 @@ void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
   if (faces[1] >= 0 && faces[0] > faces[1]) std::swap(faces[0], faces[1]);
 }
 
-void measure_edges(const Piece& piece, const std::vector<GlobalIndex>& names, const std::vector<EdgeName>& edges,
-               std::vector<PieceEdge>& rows) {
+void measure_edges(const Piece& piece, const std::vector<GlobalIndex>& names,
+                   const std::vector<EdgeName>& edges, std::vector<PieceEdge>& rows) {
   std::vector<PieceEdge> mine;
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* c = piece.cell(t);

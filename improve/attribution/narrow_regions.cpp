@@ -26,7 +26,7 @@ constexpr double narrow_fraction = 0.4;
 /// surface/tips/needles.cpp.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
-/// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.
+/// The name of a curve: its number, or a negative number made from two CAD vertices joined by one segment.
 using CurveName = std::int64_t;
 
 CurveName name_of_segment(std::int32_t a, std::int32_t b) {
@@ -75,7 +75,7 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
   }
 }
 
-/// Curves are known by their edges: those at which triangles of two CAD faces meet.
+/// A mesh edge is on a curve if triangles of two CAD faces meet at it.
 std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
                                               const mesh::Numbering& numbering) {
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
@@ -115,7 +115,7 @@ public:
   NarrowTriangleTest(const Piece& piece, const std::vector<CurveAtVertex>& curves)
       : _piece(piece), _curves(curves) {}
 
-  /// Whether a and b lie on one curve of the face and c on another, which has neither and runs along.
+  /// Whether a and b lie on one curve of the face, and c on another that runs along it.
   bool joins_two_curves(LocalIndex a, LocalIndex b, LocalIndex c, std::int32_t face) {
     list(a, face, _at_a);
     list(b, face, _at_b);
@@ -197,7 +197,7 @@ std::vector<NarrowEdge> find_narrow_edges(const mesh::DistributedMesh& mesh, con
       const LocalIndex c = narrow.corners[2];
       for (const LocalIndex a : {narrow.corners[0], narrow.corners[1]}) {
         const GlobalIndex ga = numbering.vertices[i][a], gc = numbering.vertices[i][c];
-        // The triangles are in pieces of one side of a face; its edges are meant as any region sees them.
+        // Only one side of a face has triangles in its pieces; edges count for the regions of both sides.
         const EdgeName first{std::min(ga, gc), std::max(ga, gc), std::numeric_limits<std::int64_t>::min()};
         for (auto found = std::lower_bound(edges.begin(), edges.end(), first);
              found != edges.end() && found->low == first.low && found->high == first.high; ++found) {

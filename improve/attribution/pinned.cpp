@@ -25,9 +25,9 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// Estimates for wedges hold up to this factor: curves are no lines, faces no planes. Chosen, not measured.
+/// Estimates for wedges hold up to this factor, since curves and faces are curved. Chosen, not measured.
 constexpr double wedge_slack = 2;
-/// Degrees by which rounding may set the two measures of an angle apart, at most.
+/// Degrees; the two measures of an angle differ by less, from rounding.
 constexpr double angle_slack = 1e-6;
 
 /// The largest angle that goes with a target for the smallest one, 138 degrees with 28 (docs/improvement.md).
@@ -141,7 +141,7 @@ void PinnedSearch::collect_edges() {
   geometry::sort_unique(_edges);
 }
 
-/// Edges that belong to bad tetrahedra are all there are: whatever fills less than the target is bad.
+/// Edges of bad tetrahedra suffice: what fills less than the target angle is bad.
 void PinnedSearch::list_sharp_curves() {
   std::vector<SharpSegment> mine;
   std::vector<std::int32_t> of_a, of_b, both;
@@ -228,7 +228,7 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
   return false;
 }
 
-/// Behind the first row of a wedge: as narrow as the wedge is so far from its curve, and no flatter.
+/// In later rows of a wedge: about as narrow as the wedge at that distance from its curve, and no flatter.
 bool PinnedSearch::pinned_by_wedge(std::size_t i, const BadTet& bad, const WallPair& walls) {
   const Piece& piece = _mesh.pieces[i];
   const auto p = points(piece, bad.tet);
@@ -305,7 +305,7 @@ void PinnedSearch::total(MissedTarget& kind) const {
   kind.largest_angle = _mesh.communicator.maximum(kind.largest_angle);
 }
 
-/// Tetrahedra of the same face become one entry, on each rank before they travel.
+/// Merges tetrahedra of the same faces into one entry, on each rank before they are sent.
 void PinnedSearch::merge_features() {
   const auto merge = [](std::vector<UnresolvedFeature> rows) {
     std::sort(rows.begin(), rows.end(), [](const UnresolvedFeature& a, const UnresolvedFeature& b) {

@@ -20,7 +20,7 @@ using mesh::Piece;
 using mesh::SharedVertexKey;
 
 constexpr int group_count = 2;
-/// Steps that are looked at together: the wanted one, its half, its quarter.
+/// Steps that are tried at once: the wanted one, its half, its quarter.
 constexpr int trial_count = 3;
 
 int group_of(SharedVertexKey vertex_key) {
@@ -120,7 +120,7 @@ private:
   std::vector<LocalIndex> _cells;
 };
 
-/// A vertex on its way, in one piece.
+/// A vertex to be moved, in one piece.
 struct Mover {
   std::size_t copy;     ///< in SharedVertices
   std::uint32_t piece;  ///< in mesh.pieces
@@ -144,7 +144,7 @@ public:
     }
   }
 
-  /// Returns how many of the moves are counted here.
+  /// Returns the number of moves counted on this rank.
   std::int64_t move(int group) {
     choose(group);
     find_steps();
@@ -310,8 +310,8 @@ bool BorderSmoothing::allows(const Piece& piece, const std::vector<std::int32_t>
   return _measure(p[0], p[1], p[2], p[3]) >= least && geometry::has_positive_volume(p[0], p[1], p[2], p[3]);
 }
 
-// Who moves alone was tried already. Where several move, none does unless all may; then fewer move, and so
-// on.
+// A single move was checked by try_steps(). Where several vertices of a tetrahedron move, either all may or
+// none does. This repeats with the remaining ones.
 void BorderSmoothing::withdraw() {
   while (true) {
     std::vector<Veto> entries;

@@ -69,8 +69,8 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
   return count;
 }
 
-// Other tetrahedra have their vertices in common with the walls: faces that are no triangles of the surface
-// mesh. Vertices on CAD curves may be known in other pieces.
+// Other tetrahedra share faces with the cavity that are not on the surface mesh; their vertices stay. So do
+// vertices on CAD curves, which other pieces may have.
 void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   std::vector<mesh::TetFace> walls = mesh::boundary_faces(cavity.tets);
   std::vector<std::array<LocalIndex, 3>> free;
@@ -121,8 +121,7 @@ void CavityImprover::build_piece(const cavities::Cavity& cavity) {
   }
 }
 
-// Vertices inside are new ones in the content; those on the CAD are known by it as long as they stay where
-// they are.
+// Interior vertices count as new ones. Vertices on the CAD keep their names while they stay in place.
 cavities::CavityContent CavityImprover::build_content(const cavities::Cavity& cavity) const {
   cavities::CavityContent result;
   std::vector<LocalIndex> named(_piece.vertex_count());

@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Vec3;
 
-/// 1 for the vertices of tetrahedra that different cavities claim.
+/// 1 for vertices of tetrahedra that two cavities claim.
 std::vector<char> find_contested(const mesh::Piece& piece, const std::vector<CavityId>& claims) {
   std::vector<char> contested(piece.vertex_count(), 0);
   for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
@@ -30,8 +30,8 @@ std::vector<char> find_contested(const mesh::Piece& piece, const std::vector<Cav
 }  // namespace
 
 CavityId cavity_at(Vec3 p, double size, double width, int shift) {
-  // Shares of a cell: far from each other in every direction, so that few places are at borders twice. Half a
-  // cell, and what the golden section makes of one.
+  // Offsets of the grid in cell widths, from halves and the golden section. They differ much in each
+  // direction, so that few places are at borders twice.
   constexpr double step[3] = {0.5, 0.382, 0.618}, level_step = 0.38;
   const double level = std::floor(std::log2(width * size) / 3 + level_step * shift);
   const double edge = std::exp2(3 * (level + 1 - level_step * shift));

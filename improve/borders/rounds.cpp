@@ -20,7 +20,7 @@
 namespace aeroloom::cavities {
 namespace {
 
-/// The fate of a cavity, the same on every rank.
+/// What happened to a cavity; equal on all ranks.
 struct Outcome {
   CavityId cavity;
   std::int32_t replaced;  ///< 0: it stays as it was
@@ -203,7 +203,7 @@ std::vector<OwnedCavity> assemble(const mesh::DistributedMesh& mesh, WireParts p
   const CavityTable table = list_cavities(mesh, parts.tets);
   auto [tets, vertices, triangles] =
       deliver(mesh, std::move(parts), [&](const auto& item) { return table.owner(item.cavity); });
-  // Within a piece the order of tetrahedra is kept: it depends on no rank.
+  // Tetrahedra keep their order within a piece, so that it does not depend on ranks.
   std::stable_sort(tets.begin(), tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.piece < b.piece;
   });

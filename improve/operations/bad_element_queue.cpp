@@ -52,7 +52,7 @@ void BadElementQueue::push(LocalIndex t) {
 bool BadElementQueue::is_worth_trying(LocalIndex t, int level) const {
   const SlotHistory& slot = _slots[t];
   if (slot.attempt == 0) return true;
-  // In narrow regions every try moves what the next one finds, little comes of it, and no other operation
+  // In narrow regions a try rarely succeeds, but changes what the next one finds, and no other operation
   // follows.
   if (slot.attempt_level >= _last_level_in_narrow_regions && skips_costly(t)) return false;
   if (slot.attempt_level < level) return true;

@@ -11,8 +11,8 @@ constexpr int rounds = 3;            // of growing the cavity and placing the po
 constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain; chosen, not measured
 constexpr double flat = 0.1;         // of the target: tetrahedra of less than about a degree
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
-// Of the target: what a cavity that stays below it has to gain. Without a floor, one that adds tetrahedra
-// is followed by others without end.
+// Of the target: the least gain of a cavity that stays below the target. Without it, each new vertex would be
+// followed by another.
 constexpr double gain_when_moved = 0.05;
 constexpr double gain_when_added = 0.12;
 
@@ -59,9 +59,8 @@ void CavityInsertion::absorb(const TetMesh& mesh, LocalIndex t) {
   add_walls(mesh, t);
 }
 
-// The neighbour over the worst wall that has one joins, whether that helps at once or not: where a wall
-// runs through the point, only the tetrahedra on both sides of it together help. The best state on the way is
-// kept.
+// Adds the neighbour across the worst face, whether that helps at once or not. If a face runs through the
+// point, only both its tetrahedra together help. The best state on the way is kept.
 void CavityInsertion::grow(const TetMesh& mesh) {
   std::size_t best_size = _tets.size();
   double best = -std::numeric_limits<double>::max();
@@ -144,7 +143,7 @@ bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, int start,
   return start == 0 && is_flat && start_at_neighbour(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
 }
 
-// From inside a tetrahedron that lies flat on the boundary every cone is flat.
+// Inside a tetrahedron that is flat on the boundary all cones are flat.
 bool CavityInsertion::start_at_neighbour(const TetMesh& mesh, LocalIndex t) {
   _tets.assign(1, t);
   bool on_boundary = false;

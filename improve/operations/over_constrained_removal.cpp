@@ -99,7 +99,7 @@ void OverConstrainedRemoval::consider(const TetMesh& mesh) {
   if (is_good(mesh, _trial)) _found.push_back({_trial, {}});
 }
 
-/// The trial's new tetrahedra are the cones of a vertex, which starts from there.
+/// The trial's new tetrahedra are cones of a new vertex, which is optimised from this place.
 void OverConstrainedRemoval::consider_vertex(TetMesh& mesh, Vec3 place) {
   _trial.before = mesh.worst_of(_trial.old_tets);
   _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));

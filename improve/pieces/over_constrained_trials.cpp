@@ -76,7 +76,7 @@ std::int64_t OverConstrainedTrials::run(TetMesh& mesh) {
 bool OverConstrainedTrials::remove(TetMesh& mesh, LocalIndex t) {
   collect(mesh, t);
   const State before = examine(mesh, _tets);
-  // Where some miss the target already, sweeps work on those, and long.
+  // If some miss the target already, sweeps would work on those for long.
   if (before.bad > 0) return false;
   const mesh::Piece start = copy(mesh);
   const LocalTarget narrow_target(start, mesh.measure());

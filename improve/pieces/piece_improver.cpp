@@ -12,8 +12,7 @@
 namespace aeroloom::improve {
 namespace {
 
-/// Sweeps over what misses the target once over-constrained tetrahedra are gone, which gives it other
-/// surroundings.
+/// Sweeps after the removal of over-constrained tetrahedra, which changes the surroundings of bad ones.
 constexpr int sweeps_after_removal = 3;
 
 BadState state_of(const TetMesh& mesh) {

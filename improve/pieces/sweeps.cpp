@@ -36,7 +36,7 @@ void Sweeps::run(int most) {
 
 Sweeps::Gains Sweeps::sweep(int level) {
   Gains done{_queue.fill(), 0};
-  // A change may leave others below the target, without end where every gain is small.
+  // A change may leave other tetrahedra below the target, endlessly if gains are small.
   for (std::int64_t tries = tries_per_task * done.tasks + least_tries; tries > 0; --tries) {
     const std::optional<LocalIndex> t = _queue.pop(level);
     if (!t) break;
