@@ -10,20 +10,14 @@
 
 namespace aeroloom::benchmarks {
 
-struct CaseSurface {
-  surface::SurfaceMesh surface;
-  mesh::Numbering numbering;
-};
-
 /// Collective.
-inline CaseSurface mesh_surface(const parallel::Communicator& communicator, const cases::Case& input) {
+inline surface::SurfaceMesh mesh_surface(const parallel::Communicator& communicator,
+                                         const cases::Case& input) {
   cad::DomainReport domain;
   const cad::Model model = domain::load_domain(communicator, input.domain, domain);
   const domain::SizedDomain sized =
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
-  CaseSurface result{surface::mesh_surface(communicator, sized.model, sized.field, input.surface), {}};
-  result.numbering = mesh::number_mesh(result.surface.mesh);
-  return result;
+  return surface::mesh_surface(sized.model, sized.field, input.surface);
 }
 
 }  // namespace aeroloom::benchmarks

@@ -40,21 +40,21 @@ Angles measure_angles(const mesh::DistributedMesh& filled) {
   return angles;
 }
 
-mesh::DistributedMesh fill(const benchmarks::CaseSurface& from, const volume::VolumeOptions& options) {
-  const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, options};
+mesh::DistributedMesh fill(const surface::SurfaceMesh& from, const volume::VolumeOptions& options) {
+  const volume::VolumeInput task{from, options};
   volume::VolumeReport report;
   return volume::fill_zones(task, volume::decompose(task), report);
 }
 
 void run(const Communicator& communicator, const cases::Case& input) {
-  const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
+  const surface::SurfaceMesh from = benchmarks::mesh_surface(communicator, input);
   mesh::DistributedMesh filled = fill(from, input.volume);
   const Angles before = measure_angles(filled);
   improve::ImproveReport total;
   const double start = parallel::cpu_seconds();
   for (mesh::Piece& piece : filled.pieces) {
     const improve::ImproveReport report =
-        improve::improve_piece(piece, input.improve, {nullptr, &from.surface.field});
+        improve::improve_piece(piece, input.improve, {nullptr, &from.field});
     total.bad_before += report.bad_before;
     total.bad_after += report.bad_after;
     total.smoothed += report.smoothed;

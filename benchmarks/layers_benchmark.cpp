@@ -90,17 +90,17 @@ void print_figures(const Communicator& communicator, const benchmarks::LayerFigu
 }
 
 void run(const Communicator& communicator, const cases::Case& input, double first, const std::string& patch) {
-  const benchmarks::CaseSurface made = benchmarks::mesh_surface(communicator, input);
-  const mesh::NumberedMesh wall = mesh::split_pieces(made.surface.mesh, layers::wall_piece_triangles, {});
-  const layers::LayerOptions options = options_for(wall.mesh, first, patch);
+  const surface::SurfaceMesh made = benchmarks::mesh_surface(communicator, input);
+  const mesh::NumberedMesh wall = mesh::split_pieces(made, layers::wall_piece_triangles, {});
+  const layers::LayerOptions options = options_for(wall, first, patch);
   parallel::StageClock clock;
   clock.begin("layers");
   const layers::Layers layers = layers::build_layers(wall, options);
   clock.end();
   const parallel::StageSummary stage = clock.summarise(communicator).back();
   const double cpu_used = stage.cpu_seconds_mean * communicator.size();
-  const std::string hash = mesh::hash_mesh(layers.cap, wall.numbering);
-  print_figures(communicator, {wall.mesh, layers, options});
+  const std::string hash = mesh::hash_mesh({layers.cap, wall.numbering});
+  print_figures(communicator, {wall, layers, options});
   if (!communicator.is_root()) return;
   const layers::PatchLayers sum = sum_of(layers.report);
   const auto cells = static_cast<double>(sum.prisms + sum.pyramids + sum.tetrahedra);
@@ -128,7 +128,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
     const layers::PatchLayers& patch = layers.report.patches[p];
     if (patch.area == 0) continue;
     std::printf("       %s: triangles=%lld area=%.4g full=%.2f isotropic=%.2f empty=%.2f squeezed=%.2f\n",
-                wall.mesh.patches[p].c_str(), static_cast<long long>(patch.triangles), patch.area,
+                wall.patches[p].c_str(), static_cast<long long>(patch.triangles), patch.area,
                 100 * patch.full_area / patch.area, 100 * patch.isotropic_area / patch.area,
                 100 * patch.empty_area / patch.area, 100 * patch.compressed_area / patch.area);
   }

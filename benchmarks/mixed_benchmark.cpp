@@ -117,16 +117,14 @@ mesh::DistributedMesh through_checkpoint(const mesh::DistributedMesh& mesh, cons
 }
 
 /// Breaks one cell, and wants hash, validity and quality to tell.
-void require_found_out(mesh::DistributedMesh mesh, const mesh::Numbering& numbering,
-                       const std::string& hash) {
+void require_found_out(mesh::NumberedMesh mesh, const std::string& hash) {
   for (mesh::Piece& piece : mesh.pieces) {
     if (piece.id != 0) continue;
     for (int k = 0; k < 3; ++k) std::swap(piece.prisms[k], piece.prisms[k + 3]);
   }
-  require(mesh::hash_mesh(mesh, numbering) != hash, "the hash of a broken mesh is the same");
-  require(!mesh::check_volume_mesh(mesh, numbering, nullptr).valid(), "a prism inside out counts as valid");
-  const mesh::MixedQuality quality =
-      mesh::measure_quality(mesh, numbering, mesh::link_faces(mesh, numbering));
+  require(mesh::hash_mesh(mesh) != hash, "the hash of a broken mesh is the same");
+  require(!mesh::check_volume_mesh(mesh, nullptr).valid(), "a prism inside out counts as valid");
+  const mesh::MixedQuality quality = mesh::measure_quality(mesh, mesh::link_faces(mesh));
   require(quality.worst_of(mesh::Measure::volume, 0) < 0, "a prism inside out counts as good");
   for (mesh::Piece& piece : mesh.pieces) {
     if (piece.id == 0) piece.coordinates[3 * static_cast<std::size_t>(piece.shared_vertices.at(0))] += 1e-6;
@@ -150,29 +148,26 @@ void run(const Communicator& communicator, int squares, const std::string& folde
       "assemble", [&] { return io::assemble(communicator, raw_share(communicator, squares), "mixed", 0); });
   const mesh::GlobalIndex cells = file.mesh.cell_count();
   mesh::NumberedMesh cut = steps.time("repartition", [&] {
-    return mesh::repartition(*file.mesh.pieces, *file.mesh.numbering,
-                             static_cast<mesh::PieceId>(cells / cells_per_piece + 2));
+    return mesh::repartition(*file.mesh.pieces, static_cast<mesh::PieceId>(cells / cells_per_piece + 2));
   });
-  const mesh::Numbering numbering = steps.time("numbering", [&] { return mesh::number_mesh(cut.mesh); });
-  const std::string hash = steps.time("hash", [&] { return mesh::hash_mesh(cut.mesh, numbering); });
+  cut = steps.time("numbering", [&] { return mesh::number_mesh(std::move(cut)); });
+  const std::string hash = steps.time("hash", [&] { return mesh::hash_mesh(cut); });
   const mesh::ValidityReport validity =
-      steps.time("validity", [&] { return mesh::check_volume_mesh(cut.mesh, numbering, nullptr); });
+      steps.time("validity", [&] { return mesh::check_volume_mesh(cut, nullptr); });
   require(validity.valid(), validity.valid() ? "" : validity.violations.front().c_str());
-  const mesh::MixedQuality quality = steps.time("quality", [&] {
-    return mesh::measure_quality(cut.mesh, numbering, mesh::link_faces(cut.mesh, numbering));
-  });
-  require_found_out(cut.mesh, numbering, hash);
+  const mesh::MixedQuality quality =
+      steps.time("quality", [&] { return mesh::measure_quality(cut, mesh::link_faces(cut)); });
+  require_found_out(cut, hash);
   const auto same = [&](const mesh::DistributedMesh& other) {
-    return mesh::hash_mesh(other, mesh::number_mesh(other)) == hash;
+    return mesh::hash_mesh(mesh::number_mesh(other)) == hash;
   };
   std::vector<parallel::Rank> owner;
-  for (mesh::PieceId id = 0; id < cut.mesh.piece_count; ++id)
-    owner.push_back((5 * id + 1) % communicator.size());
-  steps.time("migration", [&] { return mesh::migrate(cut.mesh, owner), 0; });
-  require(same(cut.mesh), "migration has changed the mesh");
-  require_all_missed(cut.mesh);
+  for (mesh::PieceId id = 0; id < cut.piece_count; ++id) owner.push_back((5 * id + 1) % communicator.size());
+  steps.time("migration", [&] { return mesh::migrate(cut, owner), 0; });
+  require(same(cut), "migration has changed the mesh");
+  require_all_missed(cut);
   const mesh::DistributedMesh back =
-      steps.time("checkpoint", [&] { return through_checkpoint(cut.mesh, folder); });
+      steps.time("checkpoint", [&] { return through_checkpoint(cut, folder); });
   require(same(back), "the checkpoint has changed the mesh");
   std::int64_t bytes = 0;
   for (const mesh::Piece& piece : back.pieces) bytes += mesh::bytes_at_rest(piece);
@@ -181,7 +176,7 @@ void run(const Communicator& communicator, int squares, const std::string& folde
   std::printf(
       "RESULT ranks=%d cells=%lld pieces=%d%s bytes_per_cell=%.1f volume=%.15g min_scaled_jacobian=%.6g "
       "hash=%s\n",
-      communicator.size(), static_cast<long long>(cells), cut.mesh.piece_count, steps.text().c_str(),
+      communicator.size(), static_cast<long long>(cells), cut.piece_count, steps.text().c_str(),
       static_cast<double>(bytes) / static_cast<double>(cells), quality.volume,
       quality.worst_of(mesh::Measure::scaled_jacobian, 0), hash.c_str());
 }

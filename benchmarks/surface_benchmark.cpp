@@ -93,14 +93,14 @@ struct Sharp {
 };
 
 Sharp measure_sharp(const surface::SurfaceMesh& surface) {
-  const Communicator& communicator = surface.mesh.communicator;
+  const Communicator& communicator = surface.communicator;
   using Place = std::tuple<cad::FaceId, double, double, double>;
   std::set<Place> listed;
   for (const surface::ListedCorner& c : surface.report.sharp_corners) {
     listed.insert({c.face, c.point.x, c.point.y, c.point.z});
   }
   Sharp sharp;
-  for (const mesh::Piece& piece : surface.mesh.pieces) {
+  for (const mesh::Piece& piece : surface.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
       const geometry::Vec3 p[3] = {piece.point(v[0]), piece.point(v[1]), piece.point(v[2])};
@@ -232,21 +232,19 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
       domain::size_domain(communicator, model, input.sizing, domain::Simplification::of(input));
   clock.end();
   clock.begin("surface");
-  const surface::SurfaceMesh surface =
-      surface::mesh_surface(communicator, sized.model, sized.field, input.surface);
+  const surface::SurfaceMesh surface = surface::mesh_surface(sized.model, sized.field, input.surface);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
   const parallel::StageSummary& stage = stages.back();
   const double sizing = stages[1].cpu_seconds_mean * communicator.size();
-  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  const auto validity = mesh::check_surface_mesh(surface.mesh, numbering);
-  const std::string hash = mesh::hash_mesh(surface.mesh, numbering);
-  const Shape shape = measure(surface.mesh, surface.field);
-  const auto quality = mesh::summarise_quality(surface.mesh, numbering);
+  const auto validity = mesh::check_surface_mesh(surface);
+  const std::string hash = mesh::hash_mesh(surface);
+  const Shape shape = measure(surface, surface.field);
+  const auto quality = mesh::summarise_quality(surface);
   const Sharp apart = measure_sharp(surface);
-  const Decomposition decomposition = inspect_pieces(surface.mesh);
-  const benchmarks::SurfaceDetails details(surface.mesh);
-  if (request.write) io::write_surface(surface.mesh, numbering, input.output.directory, "surface");
+  const Decomposition decomposition = inspect_pieces(surface);
+  const benchmarks::SurfaceDetails details(surface);
+  if (request.write) io::write_surface(surface, input.output.directory, "surface");
   if (!communicator.is_root()) return;
   if (!request.details.empty())
     details.write(request.details, surface.report.cut_angles, stage.cpu_seconds_of_ranks);
@@ -271,7 +269,7 @@ void run(const Communicator& communicator, const cases::Case& input, const Reque
       "cut_edges=%.0f imbalance=%.3f cut_angles_by_10=%d,%d,%d,%d,%d,%d\n"
       "       joined_faces=%zu sharp_corners=%zu min_angle_apart=%.2f below_20_apart=%lld "
       "below_10_apart=%lld forced_needles=%lld,%lld,%.4g other_needles=%lld,%lld,%.4g hash=%s\n",
-      communicator.size(), surface.mesh.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
+      communicator.size(), surface.piece_count, triangles, validity.valid(), stage.wall_seconds, total,
       sizing, stage.cpu_seconds_max, stage.cpu_seconds_max / stage.cpu_seconds_mean,
       stage.serial_seconds * communicator.size() / total, triangles / total, surface.report.load_error_90,
       surface.report.mending_rounds, quality.min_dihedral.minimum, quality.mean_ratio.mean,

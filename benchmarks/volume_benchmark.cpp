@@ -17,8 +17,8 @@ using namespace aeroloom;
 using parallel::Communicator;
 
 void run(const Communicator& communicator, const cases::Case& input) {
-  const benchmarks::CaseSurface from = benchmarks::mesh_surface(communicator, input);
-  const volume::VolumeInput task{from.surface.mesh, from.numbering, from.surface.field, input.volume};
+  const surface::SurfaceMesh from = benchmarks::mesh_surface(communicator, input);
+  const volume::VolumeInput task{from, input.volume};
   parallel::StageClock clock;
   clock.begin("decompose");
   volume::Decomposition decomposition = volume::decompose(task);
@@ -26,17 +26,17 @@ void run(const Communicator& communicator, const cases::Case& input) {
   const volume::DecompositionReport parts = decomposition.report();
   volume::VolumeReport report;
   clock.begin("volume");
-  const mesh::DistributedMesh filled = volume::fill_zones(task, std::move(decomposition), report);
+  mesh::DistributedMesh made = volume::fill_zones(task, std::move(decomposition), report);
   clock.end();
   const std::vector<parallel::StageSummary> stages = clock.summarise(communicator);
-  const mesh::Numbering numbering = mesh::number_mesh(filled);
-  const bool valid = mesh::check_volume_mesh(filled, numbering, &from.surface.mesh).valid();
-  const auto quality = mesh::summarise_quality(filled, numbering);
-  const std::string hash = mesh::hash_mesh(filled, numbering);
+  const mesh::NumberedMesh filled = mesh::number_mesh(std::move(made));
+  const bool valid = mesh::check_volume_mesh(filled, &from).valid();
+  const auto quality = mesh::summarise_quality(filled);
+  const std::string hash = mesh::hash_mesh(filled);
   if (!communicator.is_root()) return;
   const parallel::StageSummary &points = stages[0], &filling = stages[1];
   const double cpu = (points.cpu_seconds_mean + filling.cpu_seconds_mean) * communicator.size();
-  const auto tetrahedra = static_cast<double>(numbering.cell_count);
+  const auto tetrahedra = static_cast<double>(filled.numbering.cell_count);
   std::printf(
       "RESULT ranks=%d zones=%d blocks=%lld lattice_points=%lld overlap=%.3f imbalance=%.3f tets=%.0f "
       "valid=%d "

@@ -69,8 +69,7 @@ struct MeshImprover {
   }
 
   void improve_pieces() {
-    parallel::agree(communicator, [&] {
-      const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
+    parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
       parallel::Progress progress("improve", static_cast<std::int64_t>(mesh.pieces.size()), "tetrahedra");
       for (mesh::Piece& piece : mesh.pieces) {
         const double begin = parallel::cpu_seconds();

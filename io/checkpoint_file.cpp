@@ -20,7 +20,7 @@ using parallel::Communicator;
 using parallel::Digest;
 
 constexpr std::uint64_t magic = 0x54504b43'4f524541;  // "AEROCKPT"
-constexpr std::uint64_t version = 1;
+constexpr std::uint64_t version = 2;
 
 /// The beginning of the file.
 struct Preamble {
@@ -101,9 +101,9 @@ Bytes read_header(const std::string& path, Preamble& preamble) {
 /// On every rank; empty where there is no file.
 Bytes share_header(const Communicator& communicator, const std::string& path) {
   Bytes bytes;
-  parallel::agree(communicator, [&] {
+  parallel::on_root(communicator, [&] {
     Preamble preamble;
-    if (communicator.is_root()) bytes = read_header(path, preamble);
+    bytes = read_header(path, preamble);
   });
   communicator.broadcast(bytes);
   return bytes;
@@ -118,9 +118,7 @@ Header plan(const Communicator& communicator, const CheckpointLabel& label, cons
       mine.push_back({item.number, static_cast<std::int64_t>(bytes.size()), parallel::digest_of(bytes)});
     }
   });
-  Header header{label, communicator.all_gather_items<SavedItem>(mine)};
-  std::sort(header.rows.begin(), header.rows.end(),
-            [](const SavedItem& a, const SavedItem& b) { return a.number < b.number; });
+  Header header{label, communicator.gather_sorted(mine, &SavedItem::number)};
   std::vector<SavedItem> common{
       {-1, static_cast<std::int64_t>(draft.common.size()), parallel::digest_of(draft.common)}};
   communicator.broadcast_items(common);
@@ -163,9 +161,7 @@ void write_checkpoint(const Communicator& communicator, const std::string& path,
     }
   };
   parallel::write_shared_file(communicator, fresh, work, parallel::Named::when_written);
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) std::filesystem::rename(fresh, path);
-  });
+  parallel::on_root(communicator, [&] { std::filesystem::rename(fresh, path); });
 }
 
 std::optional<CheckpointLabel> read_checkpoint_label(const Communicator& communicator,

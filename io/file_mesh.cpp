@@ -170,16 +170,15 @@ Block faces_of_piece(const mesh::DistributedMesh& mesh, const mesh::Piece& piece
   return block;
 }
 
-FilePart part_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, std::size_t i,
-                 const SplitPatches& split) {
+FilePart part_of(const mesh::NumberedMesh& mesh, std::size_t i, const SplitPatches& split) {
   const mesh::Piece& piece = mesh.pieces[i];
   FilePart part;
   part.id = piece.id;
   part.piece = &piece;
   part.coordinates = piece.coordinates;
-  part.numbers = numbering.vertices[i];
+  part.numbers = mesh.numbering.vertices[i];
   part.layers = piece.layers;
-  part.owned = numbering.owned[i];
+  part.owned = mesh.numbering.owned[i];
   part.owned_count = static_cast<LocalIndex>(std::count(part.owned.begin(), part.owned.end(), 1));
   for (const CellShape shape : cell_shapes)
     part.cells[static_cast<std::size_t>(shape)] = cells_of(piece, shape);
@@ -192,15 +191,16 @@ void require(bool condition, std::int32_t part, const char* what) {
   if (!condition) throw std::logic_error(fmt::format("part {}: {}", part, what));
 }
 
-void require_fitting(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering) {
-  if (numbering.vertices.size() != mesh.pieces.size() || numbering.owned.size() != mesh.pieces.size())
+void require_fitting(const mesh::NumberedMesh& mesh) {
+  if (mesh.numbering.vertices.size() != mesh.pieces.size() ||
+      mesh.numbering.owned.size() != mesh.pieces.size())
     throw std::logic_error("the numbering does not belong to the mesh");
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const mesh::Piece& piece = mesh.pieces[i];
     mesh::require_consistent_arrays(piece);
     const auto vertices = static_cast<std::size_t>(piece.vertex_count());
-    require(numbering.vertices[i].size() == vertices && numbering.owned[i].size() == vertices, piece.id,
-            "arrays of vertices differ in length");
+    require(mesh.numbering.vertices[i].size() == vertices && mesh.numbering.owned[i].size() == vertices,
+            piece.id, "arrays of vertices differ in length");
     for (const FaceShape shape : face_shapes) {
       for (const std::int32_t patch : mesh::patches_of(piece, shape))
         require(patch >= 0 && static_cast<std::size_t>(patch) < mesh.patches.size(), piece.id,
@@ -263,17 +263,15 @@ ShapeCounts FileMesh::counts(CountedFaces faces) const {
   return counts;
 }
 
-FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering) {
+FileMesh file_mesh_of(const mesh::NumberedMesh& mesh) {
   const parallel::Communicator& communicator = mesh.communicator;
-  parallel::agree(communicator, [&] { require_fitting(mesh, numbering); });
+  parallel::agree(communicator, [&] { require_fitting(mesh); });
   FileMesh result;
   result.pieces = &mesh;
-  result.numbering = &numbering;
   result.part_count = mesh.piece_count;
   result.regions = mesh.regions.empty() ? std::vector<std::string>{"fluid"} : mesh.regions;
   SplitPatches split = split_patches(mesh);
-  for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-    result.parts.push_back(part_of(mesh, numbering, i, split));
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) result.parts.push_back(part_of(mesh, i, split));
   result.patches = std::move(split.patches);
   const bool layers_here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
                                        [](const mesh::Piece& piece) { return !piece.layers.empty(); });
@@ -283,15 +281,15 @@ FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& 
   return result;
 }
 
-FileMesh file_mesh_of(mesh::NumberedMesh mesh) {
+FileMesh file_mesh_of(mesh::NumberedMesh&& mesh) {
   const auto held = std::make_shared<const mesh::NumberedMesh>(std::move(mesh));
-  FileMesh result = file_mesh_of(held->mesh, held->numbering);
+  FileMesh result = file_mesh_of(*held);
   result.held = held;
   return result;
 }
 
 FileMesh repartition(const FileMesh& mesh, std::int32_t parts, mesh::PieceRegions regions) {
-  return file_mesh_of(mesh::repartition(*mesh.pieces, *mesh.numbering, parts, regions));
+  return file_mesh_of(mesh::repartition(*mesh.pieces, parts, regions));
 }
 
 }  // namespace aeroloom::io

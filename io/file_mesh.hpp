@@ -98,9 +98,8 @@ enum class CountedFaces { all, boundary };
 
 /// The parts of one mesh that are on this rank: views of its pieces, no coordinates or cells are copied.
 struct FileMesh {
-  const mesh::DistributedMesh* pieces = nullptr;  ///< what the parts look into, and must live on unchanged
-  const mesh::Numbering* numbering = nullptr;
-  std::shared_ptr<const mesh::NumberedMesh> held;  ///< both, where nobody else holds them
+  const mesh::NumberedMesh* pieces = nullptr;      ///< what the parts look into, and must live on unchanged
+  std::shared_ptr<const mesh::NumberedMesh> held;  ///< the same, where nobody else holds it
 
   std::int32_t part_count = 0;         ///< of the whole mesh
   std::vector<FilePart> parts;         ///< on this rank, ascending id
@@ -120,11 +119,11 @@ struct FileMesh {
 };
 
 /// The layout of a mesh, a part each piece. A patch with faces between regions and others becomes two, the
-/// former called NAME_interior. `mesh` and `numbering` must outlive the result, which holds them itself where
-/// it gets both. Throws CollectiveError (bug) where the arrays of a piece do not fit together, or owned
-/// vertices are not numbered one after another. Collective.
-FileMesh file_mesh_of(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering);
-FileMesh file_mesh_of(mesh::NumberedMesh mesh);
+/// former called NAME_interior. `mesh` must outlive the result, which holds it where it is given away. Throws
+/// CollectiveError (bug) where the arrays of a piece do not fit together, or owned vertices are not numbered
+/// one after another. Collective.
+FileMesh file_mesh_of(const mesh::NumberedMesh& mesh);
+FileMesh file_mesh_of(mesh::NumberedMesh&& mesh);
 
 /// A mesh of a file in `parts` parts (mesh/transfer/repartition.hpp). Collective.
 FileMesh repartition(const FileMesh& mesh, std::int32_t parts,

@@ -210,8 +210,7 @@ public:
     uses.reserve(found.size());
     for (const BoundaryFace& face : found) uses.push_back(use_of(face));
     geometry::sort_unique(uses);
-    uses = communicator.all_gather_items(std::span<const Use>(uses));
-    std::sort(uses.begin(), uses.end());
+    uses = communicator.gather_sorted(uses);
     const auto given = static_cast<std::int32_t>(_patches.size());
     for (std::int32_t p = 0; p < given; ++p) {
       if (std::binary_search(uses.begin(), uses.end(), Use{p, none, none})) {

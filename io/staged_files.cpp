@@ -59,8 +59,7 @@ void write_together(const parallel::Communicator& communicator, const std::strin
                     const std::string& name, const std::function<void(const std::string& staging)>& work) {
   const fs::path place = folder.empty() ? "." : folder;
   const fs::path staging = staging_of(place, name);
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     try {
       fs::create_directories(place);
       fs::remove_all(staging);
@@ -75,9 +74,7 @@ void write_together(const parallel::Communicator& communicator, const std::strin
   };
   try {
     work(staging.string());
-    parallel::agree(communicator, [&] {
-      if (communicator.is_root()) publish(staging, place);
-    });
+    parallel::on_root(communicator, [&] { publish(staging, place); });
   } catch (const parallel::CollectiveError& error) {
     discard();
     const std::string where = folder.empty() ? "" : folder + "/";

@@ -46,8 +46,8 @@ void limit_by_gaps(const LocalWall& wall, const Directions& directions, ColumnLi
 Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
                     const PlaneRemesher& remesh_planes) {
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
-  parallel::add_pieces(static_cast<std::int64_t>(wall.mesh.pieces.size()));
-  const LocalWall walls(wall.mesh, options);
+  parallel::add_pieces(static_cast<std::int64_t>(wall.pieces.size()));
+  const LocalWall walls(wall, options);
   const VertexStars stars = gather_stars(walls);
   const Directions directions = find_directions(walls, stars);
   ColumnLimits limits(walls, options, stars, directions);

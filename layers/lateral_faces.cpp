@@ -27,8 +27,8 @@ struct WallEdge {
 /// Edges between CAD faces, whose ends other pieces know, with a column at an end.
 std::vector<WallEdge> edges_of_faces(const mesh::NumberedMesh& wall, const Columns& columns) {
   std::vector<WallEdge> edges;
-  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
-    const mesh::Piece& piece = wall.mesh.pieces[p];
+  for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
+    const mesh::Piece& piece = wall.pieces[p];
     const std::vector<GlobalIndex>& numbers = wall.numbering.vertices[p];
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
@@ -41,7 +41,7 @@ std::vector<WallEdge> edges_of_faces(const mesh::NumberedMesh& wall, const Colum
         const auto [low, high] = std::minmax(numbers[a], numbers[b]);
         edges.push_back({{low, high},
                          {piece.id, 3 * t + i, piece.triangle_face[t], patch},
-                         bears_layers(wall.mesh, patch) ? 1 : 0});
+                         bears_layers(wall, patch) ? 1 : 0});
       }
     }
   }
@@ -51,7 +51,7 @@ std::vector<WallEdge> edges_of_faces(const mesh::NumberedMesh& wall, const Colum
 }  // namespace
 
 std::vector<LateralEdge> find_lateral_edges(const mesh::NumberedMesh& wall, const Columns& columns) {
-  const mesh::Rendezvous meeting(wall.mesh.communicator, edges_of_faces(wall, columns), &WallEdge::ends,
+  const mesh::Rendezvous meeting(wall.communicator, edges_of_faces(wall, columns), &WallEdge::ends,
                                  &WallEdge::place);
   std::vector<LateralEdge> found =
       meeting.answer<LateralEdge>([](std::span<const mesh::Guest<WallEdge>> group, const auto& reply) {

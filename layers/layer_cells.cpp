@@ -9,9 +9,7 @@
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -40,57 +38,47 @@ std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMes
   return places;
 }
 
-/// What pieces of the volume need to know of a cap vertex.
-struct CapVertex {
-  std::int32_t count;              ///< of layers before it
-  std::int32_t dimension, entity;  ///< its classification; as wide as each other, so that there is no padding
+/// The number of layers under each cap vertex.
+using CountTable = mesh::DistributedTable<std::int32_t>;
 
-  static constexpr auto fields() {
-    return std::tuple(&CapVertex::count, &CapVertex::dimension, &CapVertex::entity);
-  }
-};
-using CapTable = mesh::DistributedTable<CapVertex>;
-
-CapTable make_table(const Columns& columns, const NamedFront& cap,
-                    const std::vector<std::optional<std::size_t>>& places) {
-  std::vector<const PieceColumns*> columns_of(cap.mesh.pieces.size(), nullptr);
+CountTable make_table(const Columns& columns, const mesh::NumberedMesh& cap,
+                      const std::vector<std::optional<std::size_t>>& places) {
+  std::vector<const PieceColumns*> columns_of(cap.pieces.size(), nullptr);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
   }
-  std::vector<CapTable::KeyedValue> rows;
-  for (std::size_t p = 0; p < cap.mesh.pieces.size(); ++p) {
-    const Piece& piece = cap.mesh.pieces[p];
+  std::vector<CountTable::KeyedValue> rows;
+  for (std::size_t p = 0; p < cap.pieces.size(); ++p) {
+    const Piece& piece = cap.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (!cap.numbering.owned[p][v]) continue;
-      rows.push_back({cap.numbering.vertices[p][v],
-                      {columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0,
-                       static_cast<std::int32_t>(piece.vertex_dimension[v]), cap.entities[p][v]}});
+      rows.push_back({cap.numbering.vertices[p][v], columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0});
     }
   }
-  return {cap.mesh.communicator, mesh::even_ranges(cap.mesh.communicator.size(), cap.numbering.vertex_count),
+  return {cap.communicator, mesh::even_ranges(cap.communicator.size(), cap.numbering.vertex_count),
           std::move(rows)};
 }
 
-/// Connects the pieces outside the cap to the layers. Cap vertices get the keys used by layers, and their CAD
-/// classification. Triangles under layers are removed from the boundary.
+/// Connects the pieces outside the cap to the layers. Cap vertices get the keys used by layers. Those off the
+/// wall are now inside the region. Triangles under layers are removed from the boundary.
 class BeyondCap {
 public:
   /// Collective.
-  BeyondCap(const mesh::DistributedMesh& wall, const CapTable& table, const mesh::DistributedMesh& volume)
+  BeyondCap(const mesh::DistributedMesh& wall, const CountTable& table, const mesh::DistributedMesh& volume)
       : _wall(wall) {
     for (const Piece& piece : volume.pieces) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-        if (is_on_boundary(piece.vertex_dimension[v])) _asked.push_back(piece.vertex_entity[v]);
+        if (is_on_boundary(piece.vertex_dimension[v])) _asked.push_back(number_of(piece, v));
       }
     }
     geometry::sort_unique(_asked);
-    const CapTable::Fetched found = table.fetch(_asked);
+    const CountTable::Fetched found = table.fetch(_asked);
     if (found.missing >= 0)
       throw parallel::CollectiveError(
           parallel::FailureKind::bug,
           fmt::format("layers: the volume has vertex {} of the layer cap, which does not exist",
                       found.missing));
-    _rows = found.values;
+    _counts = found.values;
   }
 
   void join(mesh::DistributedMesh& volume) const {
@@ -98,8 +86,11 @@ public:
   }
 
 private:
-  const CapVertex& row(GlobalIndex number) const {
-    return _rows[std::lower_bound(_asked.begin(), _asked.end(), number) - _asked.begin()];
+  static GlobalIndex number_of(const Piece& piece, LocalIndex v) {
+    return piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v];
+  }
+  std::int32_t count(GlobalIndex number) const {
+    return _counts[std::lower_bound(_asked.begin(), _asked.end(), number) - _asked.begin()];
   }
 
   void join(Piece& piece) const {
@@ -111,14 +102,14 @@ private:
     }
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (!is_on_boundary(piece.vertex_dimension[v])) continue;
-      const GlobalIndex number = piece.vertex_entity[v];
-      const CapVertex& of_cap = row(number);
+      const GlobalIndex number = number_of(piece, v);
       keys.emplace_back(v, mesh::running_key(number));
-      grows[v] = of_cap.count > 0 ? 1 : 0;
-      piece.vertex_dimension[v] =
-          grows[v] ? mesh::CadDimension::region : static_cast<mesh::CadDimension>(of_cap.dimension);
-      piece.vertex_entity[v] = grows[v] ? piece.region : of_cap.entity;
+      if (count(number) == 0) continue;
+      grows[v] = 1;
+      piece.vertex_dimension[v] = mesh::CadDimension::region;
+      piece.vertex_entity[v] = piece.region;
     }
+    piece.surface_numbers = {};
     std::sort(keys.begin(), keys.end());
     piece.shared_vertices.clear(), piece.shared_keys.clear();
     for (const auto& [vertex, key] : keys) {
@@ -133,8 +124,8 @@ private:
   }
 
   const mesh::DistributedMesh& _wall;
-  std::vector<GlobalIndex> _asked;  // ascending
-  std::vector<CapVertex> _rows;     // of those
+  std::vector<GlobalIndex> _asked;    // ascending
+  std::vector<std::int32_t> _counts;  // of those
 };
 
 std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, const Piece& piece) {
@@ -146,25 +137,25 @@ std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, c
 
 /// The pieces of the layers over the pieces of the wall on this rank, by piece of the wall, without ids.
 std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, const Columns& columns,
-                                            const NamedFront& cap,
+                                            const mesh::NumberedMesh& cap,
                                             const std::vector<std::optional<std::size_t>>& places,
                                             const std::vector<LateralEdge>& laterals,
                                             const LayerCellOptions& options) {
-  std::vector<std::vector<Piece>> made(wall.mesh.pieces.size());
+  std::vector<std::vector<Piece>> made(wall.pieces.size());
   for (std::size_t p = 0; p < made.size(); ++p) {
     if (!places[p]) continue;
-    const Piece& piece = wall.mesh.pieces[p];
+    const Piece& piece = wall.pieces[p];
     const auto [first, last] =
         std::equal_range(laterals.begin(), laterals.end(), LateralEdge{piece.id, 0, 0, 0},
                          [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
-    const std::vector<std::uint8_t> bears = bearing_triangles(wall.mesh, piece);
+    const std::vector<std::uint8_t> bears = bearing_triangles(wall, piece);
     const LayeredPiece source{piece,
-                              cap.mesh.pieces[*places[p]],
+                              cap.pieces[*places[p]],
                               columns.pieces[p],
                               cap.numbering.vertices[*places[p]],
                               bears,
                               {first, last},
-                              wall.mesh.sides_of(piece.common_face()).front,
+                              wall.sides_of(piece.common_face()).front,
                               options.elements};
     const std::vector<TriangleRange> ranges = cut_into_ranges(source, options.most_cells_per_piece);
     const std::vector<std::uint8_t> shared = find_shared(source, ranges);
@@ -206,34 +197,18 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 
 }  // namespace
 
-NamedFront name_cap(mesh::DistributedMesh cap) {
-  NamedFront named{{std::move(cap), {}}, {}};
-  named.numbering = mesh::number_mesh(named.mesh);
-  parallel::agree(named.mesh.communicator, [&] {
-    if (named.numbering.vertex_count > std::numeric_limits<std::int32_t>::max())
-      throw std::runtime_error("layers: the surface has more vertices than 2^31");
-    for (std::size_t p = 0; p < named.mesh.pieces.size(); ++p) {
-      Piece& piece = named.mesh.pieces[p];
-      named.entities.push_back(piece.vertex_entity);
-      for (LocalIndex v = 0; v < piece.vertex_count(); ++v)
-        piece.vertex_entity[v] = static_cast<std::int32_t>(named.numbering.vertices[p][v]);
-    }
-  });
-  return named;
-}
-
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& cap,
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
-  const std::vector<std::optional<std::size_t>> places = places_in_cap(wall.mesh, cap.mesh);
-  BeyondCap(wall.mesh, make_table(columns, cap, places), volume).join(volume);
+  const std::vector<std::optional<std::size_t>> places = places_in_cap(wall, cap);
+  BeyondCap(wall, make_table(columns, cap, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
-  parallel::agree(wall.mesh.communicator,
+  parallel::agree(wall.communicator,
                   [&] { made = make_pieces(wall, columns, cap, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
-  const std::vector<GlobalIndex> first = mesh::first_by_piece(wall.mesh, counts);
+  const std::vector<GlobalIndex> first = mesh::first_by_piece(wall, counts);
   for (std::size_t p = 0; p < made.size(); ++p) {
     auto id = static_cast<PieceId>(volume.piece_count + first[p]);
     for (Piece& piece : made[p]) {
@@ -244,7 +219,7 @@ void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const
   volume.piece_count += static_cast<PieceId>(first.back());
   mesh::SharedVertices shared(volume);
   shared.drop_unshared(volume);
-  if (wall.mesh.communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0)
+  if (wall.communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0)
     classify_on_planes(shared, volume);
 }
 

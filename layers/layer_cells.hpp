@@ -10,24 +10,14 @@
 
 namespace aeroloom::layers {
 
-/// The layer cap as boundary of the volume mesh. While the volume is meshed and improved, the entity in a
-/// vertex's classification is its global number. The dimension keeps its meaning, so nothing moves these
-/// vertices.
-struct NamedFront : mesh::NumberedMesh {
-  std::vector<std::vector<std::int32_t>> entities;  ///< CAD entities, by piece and vertex
-};
-
-/// Throws CollectiveError if the cap has more vertices than an entity id can count. Collective.
-NamedFront name_cap(mesh::DistributedMesh cap);
-
 struct LayerCellOptions {
   std::int64_t most_cells_per_piece = 0;  ///< exceeded only by the cells over a single triangle
   LayerElements elements = LayerElements::prisms;
 };
 
-/// Appends the layer cells to the tetrahedra outside a named cap. The boundary of these tetrahedra is still
-/// the cap. Pieces of the cap are those of the wall in the same order; planes that were meshed again come
-/// last.
+/// Appends the layer cells to the tetrahedra outside the layer cap. The boundary of these tetrahedra is still
+/// the cap. `Piece::surface_numbers` holds the cap's vertex numbers and is removed. Pieces of the cap are
+/// those of the wall in the same order; planes that were meshed again come last.
 ///
 /// Layer k over a wall triangle lies between nodes min(k - 1, count) and min(k, count) of its columns, as
 /// columns.hpp describes. If only tetrahedra are wanted, each cell is cut (Dompierre, Labbe, Vallet and
@@ -40,10 +30,9 @@ struct LayerCellOptions {
 /// cell.
 ///
 /// Wall triangles with a column at a corner become boundary of the layer cells. Other boundary triangles
-/// stay. Planes that layers end on get lateral quadrilaterals and triangles. Vertices get their CAD
-/// classification back. Nodes above the wall are classified on their region, or on the plane that layers end
-/// on. Collective.
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const NamedFront& cap,
+/// stay. Planes that layers end on get lateral quadrilaterals and triangles. Nodes above the wall are
+/// classified on their region, or on the plane that layers end on. Collective.
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume);
 
 /// Whether triangles of the patch get layer cells: those of walls do.

@@ -1,7 +1,6 @@
 #include "layers/layer_report.hpp"
 
 #include <algorithm>
-#include <span>
 #include <tuple>
 
 namespace aeroloom::layers {
@@ -81,8 +80,7 @@ std::vector<PatchLayers> report_patches(const LocalWall& wall, const ColumnLimit
         rows.push_back({patches[i], static_cast<std::int32_t>(i), wall.mesh.pieces[p].id});
     }
   }
-  rows = wall.mesh.communicator.all_gather_items(std::span<const PieceRow>(rows));
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+  rows = wall.mesh.communicator.gather_sorted(rows, &PieceRow::piece);
   std::vector<PatchLayers> patches(wall.mesh.patches.size());
   for (const PieceRow& row : rows) add_row(row.layers, patches[row.patch]);
   return patches;

@@ -301,8 +301,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   parallel::StageClock clock;
   clock.begin("geometry");
   parallel::Bytes bytes;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     record.diagnosis = domain::diagnose_sandboxed(input.domain);
     record.diagnosis.failure = cases::with_keys(std::move(record.diagnosis.failure));
     if (record.diagnosis.domain) bytes = record.diagnosis.domain->model.serialise();
@@ -320,13 +319,11 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
     record.forecast = forecast_run(communicator, patches, input, clock);
-    parallel::agree(communicator, [&] {
-      if (communicator.is_root())
-        record.contacts = find_face_contacts(model, shown_contacts, record.contact_count);
+    parallel::on_root(communicator, [&] {
+      record.contacts = find_face_contacts(model, shown_contacts, record.contact_count);
     });
   }
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     print_record(input, record, communicator.size());
     // The question whether the case is fit has been answered: a file that cannot be written does not change
     // the answer.

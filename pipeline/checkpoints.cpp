@@ -257,9 +257,7 @@ void Checkpoints::remove_needless(SavedStage kept) {
   for (auto s = static_cast<std::size_t>(kept) + 1; s < saved_stages; ++s) {
     const auto later = static_cast<SavedStage>(s);
     if (is_of_this_case(later)) continue;
-    parallel::agree(_communicator, [&] {
-      if (_communicator.is_root()) std::filesystem::remove(path_of(later));
-    });
+    parallel::on_root(_communicator, [&] { std::filesystem::remove(path_of(later)); });
   }
   remove_volume_of(kept);
 }
@@ -276,9 +274,7 @@ void Checkpoints::remove_left_over(SavedStage found) {
 /// Removes the volume once an improved one is kept.
 void Checkpoints::remove_volume_of(SavedStage kept) {
   if (kept != SavedStage::improve) return;
-  parallel::agree(_communicator, [&] {
-    if (_communicator.is_root()) std::filesystem::remove(path_of(SavedStage::volume));
-  });
+  parallel::on_root(_communicator, [&] { std::filesystem::remove(path_of(SavedStage::volume)); });
 }
 
 }  // namespace aeroloom::pipeline

@@ -5,7 +5,6 @@
 #include "mesh/quality/quality.hpp"
 #include "pipeline/finished_volume.hpp"
 
-#include <algorithm>
 #include <tuple>
 
 namespace aeroloom::pipeline {
@@ -37,8 +36,7 @@ std::vector<report::FaceRow> table_of_faces(const cad::Model& model, const mesh:
     }
     mine.push_back({piece.id, piece.common_face(), area, piece.cell_count()});
   }
-  std::vector<PieceRow> rows = communicator.all_gather_items<PieceRow>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PieceRow& a, const PieceRow& b) { return a.piece < b.piece; });
+  std::vector<PieceRow> rows = communicator.gather_sorted(mine, &PieceRow::piece);
   std::vector<report::FaceRow> faces;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const cad::Face& face = model.face(f);
@@ -76,16 +74,14 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  require_valid(what, mesh::check_surface_mesh(surface.mesh, surface.numbering));
-  record.surface_quality = mesh::summarise_quality(surface.mesh, surface.numbering);
-  record.face_table = table_of_faces(surface.model, surface.mesh);
+  require_valid(what, mesh::check_surface_mesh(surface));
+  record.surface_quality = mesh::summarise_quality(surface);
+  record.face_table = table_of_faces(surface.model, surface);
   record.patches = table_of_patches(surface.model, record.face_table, surface.patch_types);
 }
 
-void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record) {
-  surface.mesh = mesh::boundary_mesh(volume, numbering);
-  surface.numbering = mesh::number_mesh(surface.mesh);
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface, report::RunRecord& record) {
+  static_cast<mesh::NumberedMesh&>(surface) = mesh::number_mesh(mesh::boundary_mesh(volume));
   inspect_surface("the improved surface mesh", surface, record);
 }
 

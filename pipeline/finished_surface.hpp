@@ -12,10 +12,8 @@
 
 namespace aeroloom::pipeline {
 
-/// The finished surface with its sizes, and the model that it is of.
-struct FinishedSurface : mesh::NumberedMesh {
-  sizing::SizeField field;
-  surface::SurfaceReport report;
+/// The finished surface and the model that it is of.
+struct FinishedSurface : surface::SurfaceMesh {
   cad::Model model;
   std::vector<mesh::PatchType> patch_types;  ///< by patch of the model
   bool bounds_volume = true;  ///< false where layers end on planes: the volume has other triangles there
@@ -26,7 +24,6 @@ struct FinishedSurface : mesh::NumberedMesh {
 void inspect_surface(const std::string& what, const FinishedSurface& surface, report::RunRecord& record);
 
 /// The surface follows a volume whose boundary was improved. Collective.
-void adopt_boundary(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                    FinishedSurface& surface, report::RunRecord& record);
+void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface, report::RunRecord& record);
 
 }  // namespace aeroloom::pipeline

@@ -7,7 +7,6 @@
 #include "pipeline/case/layer_gate.hpp"
 #include "pipeline/stage_log.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -36,17 +35,16 @@ std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& vol
 }
 
 /// Tells the elements that the CAD forces from those that improvement could not mend.
-void list_pinned(const cases::Case& input, const mesh::DistributedMesh& volume,
-                 const mesh::Numbering& numbering, const mesh::CellsOutside& suspects,
-                 report::RunRecord& record) {
-  record.pinned = attribution::find_pinned(volume, numbering, input.improve.target_angle, suspects,
+void list_pinned(const cases::Case& input, const mesh::NumberedMesh& volume,
+                 const mesh::CellsOutside& suspects, report::RunRecord& record) {
+  record.pinned = attribution::find_pinned(volume, input.improve.target_angle, suspects,
                                            input.improve.boundary_may_change);
   log_pinned(record);
 }
 
 /// Measures that compare neighbours and edges. Collective.
-mesh::MixedQuality measure_cells(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering) {
-  return mesh::measure_quality(volume, numbering, mesh::link_faces(volume, numbering));
+mesh::MixedQuality measure_cells(const mesh::NumberedMesh& volume) {
+  return mesh::measure_quality(volume, mesh::link_faces(volume));
 }
 
 }  // namespace
@@ -70,22 +68,21 @@ improve::ImproveReport improve_volume(const cases::Case& input, const improve::M
   return report;
 }
 
-mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
-                                const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                                report::RunRecord& record) {
+mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::NumberedMesh& volume,
+                                const mesh::DistributedMesh* surface, report::RunRecord& record) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, numbering, surface);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(volume, surface);
   require_valid("the volume mesh", validity);
   record.mesh_volume = validity.volume;
-  const mesh::MeshCounts counts = mesh::count_mesh(volume, numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(volume);
   record.counts = counts;
   record.regions_filled = table_of_regions(volume, validity.region_volumes);
   mesh::CellsOutside suspects;
   if (input.improve.enabled) suspects.limits = attribution::suspect_angles(input.improve.target_angle);
-  record.quality = mesh::summarise_quality(volume, numbering, &suspects);
-  if (input.gate.asks_for_cells()) record.cells = measure_cells(volume, numbering);
-  if (input.improve.enabled) list_pinned(input, volume, numbering, suspects, record);
-  record.hash = mesh::hash_mesh(volume, numbering);
+  record.quality = mesh::summarise_quality(volume, &suspects);
+  if (input.gate.asks_for_cells()) record.cells = measure_cells(volume);
+  if (input.improve.enabled) list_pinned(input, volume, suspects, record);
+  record.hash = mesh::hash_mesh(volume);
   return counts;
 }
 
@@ -116,10 +113,8 @@ std::vector<report::PatchRow> table_of_patches(const mesh::DistributedMesh& volu
         mine.push_back({piece.id, static_cast<std::int32_t>(p), rows[p].area, rows[p].triangles});
     }
   }
-  std::vector<PatchArea> rows = communicator.all_gather_items<PatchArea>(mine);
-  std::sort(rows.begin(), rows.end(), [](const PatchArea& a, const PatchArea& b) {
-    return std::tie(a.piece, a.patch) < std::tie(b.piece, b.patch);
-  });
+  std::vector<PatchArea> rows = communicator.gather_sorted(
+      mine, [](const PatchArea& each) { return std::tie(each.piece, each.patch); });
   std::vector<report::PatchRow> patches;
   for (std::size_t p = 0; p < volume.patches.size(); ++p) {
     const auto type = p < volume.patch_types.size() ? volume.patch_types[p] : mesh::PatchType::wall;

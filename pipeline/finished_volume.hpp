@@ -24,9 +24,8 @@ improve::ImproveReport improve_volume(const cases::Case& input, const improve::M
 
 /// Checks the mesh that the last stage left, and puts its counts, regions, quality, pinned elements and hash
 /// on record; `surface` may be null. Returns the counts. Collective. Throws as require_valid().
-mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::DistributedMesh& volume,
-                                const mesh::Numbering& numbering, const mesh::DistributedMesh* surface,
-                                report::RunRecord& record);
+mesh::MeshCounts inspect_volume(const cases::Case& input, const mesh::NumberedMesh& volume,
+                                const mesh::DistributedMesh* surface, report::RunRecord& record);
 
 /// Adds the volumes of the regions of the model, for comparison.
 void add_cad_volumes(const cad::Model& model, std::vector<report::RegionRow>& regions);

@@ -148,8 +148,7 @@ void require_memory(const parallel::Communicator& communicator, const domain::Si
                     bytes_per_tetrahedron * sized.findings.counts.tetrahedra};
   if (input.layers.given) {
     double cells = 0, bytes = 0;
-    parallel::agree(communicator, [&] {
-      if (!communicator.is_root()) return;
+    parallel::on_root(communicator, [&] {
       const LayerForecast layers = forecast_layers(sized.model, types, input, sized.field);
       cells = layers.cells();
       bytes = layers.bytes();

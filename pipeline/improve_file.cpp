@@ -50,22 +50,20 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   record.face_names = volume.faces;
   warn_of_layers(volume);
   run_stage(record, "improve", report::ExitCode::volume, [&] { improve_volume(fixed, {}, volume, record); });
-  const mesh::Numbering numbering = run_stage(record, "inspect", report::ExitCode::volume, [&] {
-    mesh::Numbering finished = mesh::number_mesh(volume);
-    inspect_volume(fixed, volume, finished, nullptr, record);
-    record.patches = table_of_patches(volume);
-    return finished;
+  const mesh::NumberedMesh finished = run_stage(record, "inspect", report::ExitCode::volume, [&] {
+    mesh::NumberedMesh numbered = mesh::number_mesh(std::move(volume));
+    inspect_volume(fixed, numbered, nullptr, record);
+    record.patches = table_of_patches(numbered);
+    return numbered;
   });
   run_stage(record, "output", report::ExitCode::files, [&] {
     if (!wants_vtk(input.output) && !input.output.pictures)
-      return write_outputs(volume, numbering, nullptr, input.output);
-    const mesh::DistributedMesh surface = mesh::boundary_mesh(volume, numbering);
-    const mesh::Numbering surface_numbers = mesh::number_mesh(surface);
-    const SurfaceView view{surface, surface_numbers};
-    write_outputs(volume, numbering, &view, input.output);
+      return write_outputs(finished, nullptr, input.output);
+    const mesh::NumberedMesh surface = mesh::number_mesh(mesh::boundary_mesh(finished));
+    write_outputs(finished, &surface, input.output);
     if (!input.output.pictures) return;
-    record.pictures = report::pictures_or_warning(communicator, &volume,
-                                                  {surface, surface_numbers, volume.patch_types, ""});
+    record.pictures =
+        report::pictures_or_warning(communicator, &finished, {surface, finished.patch_types, ""});
   });
   require_quality(input, record);
 }

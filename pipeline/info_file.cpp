@@ -2,6 +2,7 @@
 
 #include "io/file_formats.hpp"
 #include "io/read_mesh.hpp"
+#include "mesh/data/bounds.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/domain/sandboxed_cad.hpp"
@@ -24,16 +25,11 @@ using parallel::Communicator;
 constexpr int info_schema_version = 1;
 
 geometry::Box bounds_of(const io::FileMesh& mesh) {
-  const Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
   for (const io::FilePart& part : mesh.parts) {
     for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
   }
-  box.low = {communicator.minimum(box.low.x), communicator.minimum(box.low.y),
-             communicator.minimum(box.low.z)};
-  box.high = {communicator.maximum(box.high.x), communicator.maximum(box.high.y),
-              communicator.maximum(box.high.z)};
-  return box;
+  return mesh::box_over_ranks(mesh.pieces->communicator, box);
 }
 
 /// Rank 0 prints what it knows; what is no UTF-8 in names of a file is replaced.
@@ -72,8 +68,7 @@ void show_case(const Communicator& communicator, const InfoRequest& request) {
 }
 
 void show_cad(const Communicator& communicator, const InfoRequest& request) {
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     const cad::CadFacts facts = domain::look_sandboxed(request.file);
     show(communicator, request, info_json(facts), info_text(facts));
   });

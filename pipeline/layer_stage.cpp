@@ -88,14 +88,14 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 }  // namespace
 
 LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, report::RunRecord& record) {
-  const parallel::Communicator communicator = surface.mesh.communicator;
-  surface.mesh.patch_types = surface.patch_types;
+  const parallel::Communicator communicator = surface.communicator;
+  surface.patch_types = surface.patch_types;
   const layers::LayerOptions options =
-      cases::layer_options(input.layers, input.sizing, surface.mesh.patches, surface.patch_types);
-  const surface::PlanesToRemesh planes{faces_of_planes(surface.mesh, options), input.surface};
+      cases::layer_options(input.layers, input.sizing, surface.patches, surface.patch_types);
+  const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
-      mesh::split_pieces(surface.mesh, layers::wall_piece_triangles, planes.faces);
+      mesh::split_pieces(surface, layers::wall_piece_triangles, planes.faces);
   const auto remesh = [&](mesh::DistributedMesh& front) {
     surface::PlaneConflicts conflicts = surface::remesh_planes(surface.model, surface.field, planes, front);
     return std::move(conflicts.vertices);
@@ -103,11 +103,11 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface, 
   layers::Layers made = layers::build_layers(surface, options, remesh);
   record.layers.emplace(report::LayerRecord{options, std::move(made.report)});
   log_layers(record);
-  const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface.mesh, made.columns, surface.field);
+  const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface, made.columns, surface.field);
   sizing::SizeField field = communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
-                                ? surface.field.refined(communicator, sizes)
+                                ? surface.field.refined(sizes)
                                 : surface.field;
-  return {std::move(made.columns), layers::name_cap(std::move(made.cap)), std::move(field)};
+  return {std::move(made.columns), {mesh::number_mesh(std::move(made.cap)), std::move(field)}};
 }
 
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,

@@ -10,8 +10,7 @@ namespace aeroloom::pipeline {
 /// The layers on a surface, and what the volume starts from: their front, and sizes that go with it.
 struct LayeredSurface {
   layers::Columns columns;
-  layers::NamedFront front;
-  sizing::SizeField field;
+  sizing::SizedSurface front;
 };
 
 /// Columns on the walls of the surface; planes that layers end on are meshed again. Collective. Throws

@@ -81,9 +81,7 @@ parallel::FileDescriptor lock_folder(const std::string& folder, const std::strin
 
 OutputLock::OutputLock(const parallel::Communicator& communicator, const std::string& folder)
     : _path((std::filesystem::path(folder) / ".lock").string()) {
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) _file = lock_folder(folder, _path);
-  });
+  parallel::on_root(communicator, [&] { _file = lock_folder(folder, _path); });
 }
 
 OutputLock::~OutputLock() {

@@ -86,13 +86,10 @@ std::string dump(const Json& json) {
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
                          const cases::QualityGate& gate) {
   const io::Assembled file = io::read_mesh(communicator, request.file, 0);
-  const mesh::DistributedMesh& pieces = *file.mesh.pieces;
-  const mesh::Numbering& numbering = *file.mesh.numbering;
-  const mesh::MixedQuality quality =
-      mesh::measure_quality(pieces, numbering, mesh::link_faces(pieces, numbering));
+  const mesh::NumberedMesh& pieces = *file.mesh.pieces;
+  const mesh::MixedQuality quality = mesh::measure_quality(pieces, mesh::link_faces(pieces));
   std::string missed = cases::missed_limits(gate, quality);
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     const std::string json = dump(report_json(request.file, file, quality, missed));
     if (!request.json_file.empty()) report::write_text(request.json_file, json);
     if (request.print_json) {

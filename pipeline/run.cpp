@@ -50,9 +50,7 @@ std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
 }
 
 /// The finished volume.
-struct InspectedVolume {
-  mesh::DistributedMesh mesh;
-  mesh::Numbering numbering;
+struct InspectedVolume : mesh::NumberedMesh {
   mesh::MeshCounts counts = {};
 };
 
@@ -70,8 +68,7 @@ public:
     domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return size(domain); });
     FinishedSurface surface =
         stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, std::move(sized)); });
-    const report::PictureSource pictured{surface.mesh, surface.numbering, surface.patch_types,
-                                         domain.model.unit_name()};
+    const report::PictureSource pictured{surface, surface.patch_types, domain.model.unit_name()};
     VolumeProduct volume =
         report::with_pictures_of_failure(_communicator, pictured, _input.output, _record.pictures, [&] {
           VolumeStages stages(_communicator, _input, _record, *_checkpoints);
@@ -79,8 +76,7 @@ public:
           if (_input.layers.given)
             layered =
                 stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface, _record); });
-          const VolumeBoundary boundary = layered ? VolumeBoundary{layered->front, layered->field}
-                                                  : VolumeBoundary{surface, surface.field};
+          const sizing::SizedSurface& boundary = layered ? layered->front : surface;
           VolumeStart start =
               stage("decompose", ExitCode::volume, [&] { return stages.decompose(boundary); });
           VolumeProduct filled =
@@ -136,10 +132,8 @@ private:
   cad::Model find_or_load_domain() {
     if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
       std::optional<cad::Domain> domain;
-      parallel::agree(_communicator, [&] {
-        const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-        domain = unpack_domain_product(std::move(*found));
-      });
+      parallel::collectively(_communicator, parallel::ScopedCpu::As::repeated,
+                             [&] { domain = unpack_domain_product(std::move(*found)); });
       if (_communicator.is_root()) _record.domain = std::move(domain->report);
       return std::move(domain->model);
     }
@@ -208,14 +202,13 @@ private:
     const bool simplified = is_simplified(sized);
     if (std::optional<surface::SurfaceMesh> known = find_surface(domain.model, sized)) {
       if (is_simplified(sized) != simplified) note_sizes(sized);
-      parallel::add_pieces(static_cast<std::int64_t>(known->mesh.pieces.size()));
+      parallel::add_pieces(static_cast<std::int64_t>(known->pieces.size()));
       return finish_surface(domain, sized.model, std::move(*known));
     }
     surface::SurfaceMesh made = build_surface_or_advise(domain.model, sized);
     FinishedSurface finished = finish_surface(domain, sized.model, std::move(made));
     _checkpoints->keep(SavedStage::surface, [&] {
-      return pack_surface(_communicator, {finished.mesh, finished.field, finished.report, sized,
-                                          is_simplified(sized) != simplified});
+      return pack_surface(_communicator, {finished, sized, is_simplified(sized) != simplified});
     });
     return finished;
   }
@@ -236,12 +229,7 @@ private:
   FinishedSurface finish_surface(const cases::TypedPatches& domain, const cad::Model& model,
                                  surface::SurfaceMesh surface) {
     _record.surface = surface.report;
-    mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-    FinishedSurface finished{{std::move(surface.mesh), std::move(numbering)},
-                             std::move(surface.field),
-                             std::move(surface.report),
-                             model,
-                             types_of(model.patches(), domain)};
+    FinishedSurface finished{std::move(surface), model, types_of(model.patches(), domain)};
     inspect_surface("the surface mesh", finished, _record);
     log_surface(_record);
     if (_communicator.is_root()) log_needles(_record);
@@ -249,7 +237,7 @@ private:
   }
 
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized) {
-    return surface::mesh_surface(_communicator, sized.model, sized.field, _input.surface,
+    return surface::mesh_surface(sized.model, sized.field, _input.surface,
                                  _checkpoints->tasks(SavedStage::surface));
   }
 
@@ -291,25 +279,21 @@ private:
   // --- the finished mesh
 
   InspectedVolume inspect(VolumeProduct volume, FinishedSurface& surface) {
-    mesh::Numbering numbering = mesh::number_mesh(volume.mesh);
-    InspectedVolume finished{std::move(volume.mesh), std::move(numbering)};
-    if (volume.improve.changed_triangles > 0)
-      adopt_boundary(finished.mesh, finished.numbering, surface, _record);
-    finished.counts = inspect_volume(_input, finished.mesh, finished.numbering,
-                                     surface.bounds_volume ? &surface.mesh : nullptr, _record);
+    InspectedVolume finished{mesh::number_mesh(std::move(volume.mesh))};
+    if (volume.improve.changed_triangles > 0) adopt_boundary(finished, surface, _record);
+    finished.counts = inspect_volume(_input, finished, surface.bounds_volume ? &surface : nullptr, _record);
     add_cad_volumes(surface.model, _record.regions_filled);
     const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
-    _record.conformity = attribution::measure_conformity(finished.mesh, surface.field);
-    finished.mesh.patch_types = surface.patch_types;
+    _record.conformity = attribution::measure_conformity(finished, surface.field);
+    finished.patch_types = surface.patch_types;
     return finished;
   }
 
   void write(const InspectedVolume& volume, const FinishedSurface& surface,
              const report::PictureSource& pictured) {
-    const SurfaceView view{surface.mesh, surface.numbering, surface.bounds_volume};
     {
       const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-      write_outputs(volume.mesh, volume.numbering, &view, _input.output);
+      write_outputs(volume, surface.bounds_volume ? &surface : nullptr, _input.output);
     }
     if (_input.output.formats.size() == 1 && wants_vtk(_input.output)) note_files(volume.counts.cells);
     if (_communicator.is_root()) {
@@ -318,7 +302,7 @@ private:
         parallel::log_warning("quality gate: " + coarse);
     }
     if (_input.output.pictures)
-      _record.pictures = report::pictures_or_warning(_communicator, &volume.mesh, pictured);
+      _record.pictures = report::pictures_or_warning(_communicator, &volume, pictured);
   }
 
   /// Puts files on record as tasks that cost equally much, what all ranks have spent on them together.

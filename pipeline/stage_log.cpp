@@ -67,15 +67,15 @@ void warn_of_units(const report::RunRecord& record, const cases::OutputOptions& 
 
 namespace {
 
-void log_closed_tips(const report::RunRecord& record) {
-  const std::vector<surface::ClosedTip>& tips = record.surface.closed_tips;
-  if (tips.empty()) return;
+void log_closed_cusps(const report::RunRecord& record) {
+  const std::vector<surface::ClosedCusp>& cusps = record.surface.closed_cusps;
+  if (cusps.empty()) return;
   const auto farthest = std::max_element(
-      tips.begin(), tips.end(),
-      [](const surface::ClosedTip& a, const surface::ClosedTip& b) { return a.moved < b.moved; });
+      cusps.begin(), cusps.end(),
+      [](const surface::ClosedCusp& a, const surface::ClosedCusp& b) { return a.moved < b.moved; });
   log_info(fmt::format(
-      "surface: {} tip(s) of faces between tangent curves closed, by at most {:.3g} (face '{}' at {})",
-      tips.size(), farthest->moved, record.face_names.at(farthest->face),
+      "surface: {} cusp(s) of faces between tangent curves closed, by at most {:.3g} (face '{}' at {})",
+      cusps.size(), farthest->moved, record.face_names.at(farthest->face),
       geometry::place_text(farthest->point)));
 }
 
@@ -87,7 +87,7 @@ void log_surface(const report::RunRecord& record) {
                   "average",
                   record.surface.triangles, record.surface.pieces,
                   record.surface_quality->min_dihedral.minimum, record.surface_quality->mean_ratio.mean));
-  log_closed_tips(record);
+  log_closed_cusps(record);
 }
 
 /// Triangles below ten degrees: how many the CAD forces, and where the others are.

@@ -107,12 +107,13 @@ domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, Che
 
 // The common part of rank 0 counts: others pack none of what each node holds once.
 CheckpointDraft pack_surface(const parallel::Communicator& communicator, const SurfaceProduct& product) {
-  SurfaceRecord record{digest_of(product.sized), {}, product.report, {}, product.mesh};
+  SurfaceRecord record{digest_of(product.sized), {}, product.surface.report, {}, product.surface};
   if (communicator.is_root()) {
     if (product.sizes_are_other) record.sizes = pack_sizes(product.sized).common;
-    if (product.field.digest() != product.sized.field.digest()) record.field = product.field.pack();
+    const sizing::SizeField& field = product.surface.field;
+    if (field.digest() != product.sized.field.digest()) record.field = field.pack();
   }
-  return {to_wire(record), draft_pieces(product.mesh)};
+  return {to_wire(record), draft_pieces(product.surface)};
 }
 
 std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator& communicator,
@@ -121,9 +122,11 @@ std::optional<surface::SurfaceMesh> unpack_surface(const parallel::Communicator&
   auto record = from_wire<SurfaceRecord>(content.common);
   if (!record.sizes.empty()) sized = unpack_sizes(communicator, {std::move(record.sizes), {}}, domain);
   if (record.sized != digest_of(sized)) return std::nullopt;
+  mesh::DistributedMesh mesh = make_mesh(communicator, std::move(record.mesh), std::move(content.items));
   return surface::SurfaceMesh{
-      make_mesh(communicator, std::move(record.mesh), std::move(content.items)), std::move(record.report),
-      record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)};
+      {mesh::number_mesh(std::move(mesh)),
+       record.field.empty() ? sized.field : sizing::SizeField::unpack(communicator, record.field)},
+      std::move(record.report)};
 }
 
 CheckpointDraft pack_volume(const VolumeProduct& product) {

@@ -26,9 +26,7 @@ domain::SizedDomain unpack_sizes(const parallel::Communicator& communicator, io:
 
 /// A surface with the model that it was made of, and its sizes.
 struct SurfaceProduct {
-  const mesh::DistributedMesh& mesh;
-  const sizing::SizeField& field;  ///< left out where it is the one of the sized domain
-  const surface::SurfaceReport& report;
+  const surface::SurfaceMesh& surface;  ///< its field is left out where it is the one of the sized domain
   const domain::SizedDomain& sized;
   bool sizes_are_other;  ///< than those of the stage before: they come along
 };

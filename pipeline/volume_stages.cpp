@@ -21,9 +21,8 @@ namespace {
                                      const volume::VolumeFailure& failure, const std::string& file) {
   std::string outcome = "the triangles are in " + file;
   try {
-    parallel::agree(communicator, [&] {
-      if (communicator.is_root()) io::write_triangles(failure.points(), failure.triangles(), file);
-    });
+    parallel::on_root(communicator,
+                      [&] { io::write_triangles(failure.points(), failure.triangles(), file); });
   } catch (const parallel::CollectiveError& error) {
     outcome = fmt::format("the triangles cannot be written: {}", error.what());
   }
@@ -32,7 +31,7 @@ namespace {
 
 }  // namespace
 
-VolumeStart VolumeStages::decompose(const VolumeBoundary& boundary) {
+VolumeStart VolumeStages::decompose(const sizing::SizedSurface& boundary) {
   VolumeStart start;
   if (_input.improve.enabled) start.improved = _checkpoints.find(SavedStage::improve);
   if (!start.improved) start.filled = _checkpoints.find(SavedStage::volume);
@@ -44,7 +43,7 @@ VolumeStart VolumeStages::decompose(const VolumeBoundary& boundary) {
   return start;
 }
 
-VolumeProduct VolumeStages::fill(const VolumeBoundary& boundary, VolumeStart& start) {
+VolumeProduct VolumeStages::fill(const sizing::SizedSurface& boundary, VolumeStart& start) {
   if (start.improved) {
     _record.resumed.emplace_back("volume");
     return {};
@@ -64,7 +63,7 @@ VolumeProduct VolumeStages::fill(const VolumeBoundary& boundary, VolumeStart& st
   return product;
 }
 
-VolumeProduct VolumeStages::improve(const cad::Model& model, const VolumeBoundary& boundary,
+VolumeProduct VolumeStages::improve(const cad::Model& model, const sizing::SizedSurface& boundary,
                                     VolumeStart& start, VolumeProduct filled) {
   if (start.improved) {
     VolumeProduct improved = adopt(*std::exchange(start.improved, std::nullopt), "improve");
@@ -96,13 +95,12 @@ void VolumeStages::keep(SavedStage saved, const VolumeProduct& product) {
   _checkpoints.keep(saved, [&] { return pack_volume(product); });
 }
 
-volume::VolumeInput VolumeStages::input_of(const VolumeBoundary& boundary) {
-  return {boundary.surface.mesh, boundary.surface.numbering, boundary.field, _input.volume,
-          _checkpoints.tasks(SavedStage::volume)};
+volume::VolumeInput VolumeStages::input_of(const sizing::SizedSurface& boundary) {
+  return {boundary, _input.volume, _checkpoints.tasks(SavedStage::volume), _input.layers.given};
 }
 
-mesh::DistributedMesh VolumeStages::fill_zones(const VolumeBoundary& boundary, volume::Decomposition zones,
-                                               volume::VolumeReport& report) {
+mesh::DistributedMesh VolumeStages::fill_zones(const sizing::SizedSurface& boundary,
+                                               volume::Decomposition zones, volume::VolumeReport& report) {
   try {
     return volume::fill_zones(input_of(boundary), std::move(zones), report);
   } catch (const volume::VolumeFailure& failure) {

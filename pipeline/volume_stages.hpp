@@ -12,12 +12,6 @@
 
 namespace aeroloom::pipeline {
 
-/// The surface that a volume is filled within, with its sizes. Refers to what lives elsewhere.
-struct VolumeBoundary {
-  const mesh::NumberedMesh& surface;
-  const sizing::SizeField& field;
-};
-
 /// What the stages of the volume begin with: zones to fill, or what an earlier run has made of them. One of
 /// the three is there; the stage that takes it leaves it empty.
 struct VolumeStart {
@@ -33,18 +27,18 @@ public:
                report::RunRecord& record, Checkpoints& checkpoints)
       : _communicator(communicator), _input(input), _record(record), _checkpoints(checkpoints) {}
 
-  VolumeStart decompose(const VolumeBoundary& boundary);
+  VolumeStart decompose(const sizing::SizedSurface& boundary);
   /// Nothing where an earlier run has the improved volume.
-  VolumeProduct fill(const VolumeBoundary& boundary, VolumeStart& start);
+  VolumeProduct fill(const sizing::SizedSurface& boundary, VolumeStart& start);
   /// Improved, where the case asks for that.
-  VolumeProduct improve(const cad::Model& model, const VolumeBoundary& boundary, VolumeStart& start,
+  VolumeProduct improve(const cad::Model& model, const sizing::SizedSurface& boundary, VolumeStart& start,
                         VolumeProduct filled);
 
 private:
   VolumeProduct adopt(io::CheckpointContent content, const char* stage);
   void keep(SavedStage saved, const VolumeProduct& product);
-  volume::VolumeInput input_of(const VolumeBoundary& boundary);
-  mesh::DistributedMesh fill_zones(const VolumeBoundary& boundary, volume::Decomposition zones,
+  volume::VolumeInput input_of(const sizing::SizedSurface& boundary);
+  mesh::DistributedMesh fill_zones(const sizing::SizedSurface& boundary, volume::Decomposition zones,
                                    volume::VolumeReport& report);
 
   const parallel::Communicator& _communicator;

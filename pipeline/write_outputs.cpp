@@ -67,41 +67,38 @@ void write_volume(const io::FileMesh& mesh, io::FileFormat format, const cases::
   }
 }
 
-/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions. Both
-/// are of the volume where that has another boundary.
-void write_surfaces(const SurfaceView& surface, const io::FileMesh& volume, const std::string& folder,
+/// Writes surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions.
+void write_surfaces(const mesh::NumberedMesh* surface, const io::FileMesh& volume, const std::string& folder,
                     io::Compression compression) {
-  if (!surface.is_boundary) {
+  const bool has_inner_faces = volume.pieces->has_inner_faces();
+  if (surface == nullptr) {
     io::write_surface(volume, folder, "surface", compression);
-    if (surface.mesh.has_inner_faces()) {
+    if (has_inner_faces)
       io::write_surface(volume, folder, "interfaces", compression, io::SurfaceFaces::between_regions);
-    }
     return;
   }
-  if (!surface.mesh.has_inner_faces()) {
-    io::write_surface(surface.mesh, surface.numbering, folder, "surface", compression);
-    return;
-  }
+  if (!has_inner_faces) return io::write_surface(*surface, folder, "surface", compression);
   for (const bool inner : {false, true}) {
-    const mesh::DistributedMesh part = mesh::part_of_surface(
-        surface.mesh, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside);
-    io::write_surface(part, mesh::number_mesh(part), folder, inner ? "interfaces" : "surface", compression);
+    mesh::DistributedMesh part = mesh::part_of_surface(
+        *surface, inner ? mesh::SurfacePart::between_regions : mesh::SurfacePart::outside);
+    io::write_surface(mesh::number_mesh(std::move(part)), folder, inner ? "interfaces" : "surface",
+                      compression);
   }
 }
 
 }  // namespace
 
-void write_outputs(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                   const SurfaceView* surface, const cases::OutputOptions& output) {
+void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* surface,
+                   const cases::OutputOptions& output) {
   const parallel::Communicator& communicator = volume.communicator;
-  const io::FileMesh mesh = io::file_mesh_of(volume, numbering);
+  const io::FileMesh mesh = io::file_mesh_of(volume);
   io::write_together(communicator, output.directory, "mesh", [&](const std::string& staging) {
     cases::OutputOptions staged = output;
     staged.directory = staging;
     for (const io::FileFormat format : output.formats) {
       if (io::row_of(format).folder.empty()) write_volume(mesh, format, output, path_of(staged, format));
     }
-    if (surface != nullptr && wants_vtk(output)) write_surfaces(*surface, mesh, staging, output.compression);
+    if (wants_vtk(output)) write_surfaces(surface, mesh, staging, output.compression);
     // Last, for what may fail has not: these folders are their user's, too.
     for (const io::FileFormat format : output.formats) {
       if (!io::row_of(format).folder.empty()) write_volume(mesh, format, output, path_of(output, format));

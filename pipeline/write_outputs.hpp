@@ -13,19 +13,13 @@
 
 namespace aeroloom::pipeline {
 
-/// A surface and its numbers.
-struct SurfaceView {
-  const mesh::DistributedMesh& mesh;
-  const mesh::Numbering& numbering;
-  bool is_boundary = true;  ///< of the volume
-};
-
 /// Writes the volume as `mesh` with its extension to the output directory, in all formats of the case one
-/// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. With VTK files,
-/// and where a surface is given: surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies
-/// between regions where there is any. All appear together, or none does. Collective; throws CollectiveError.
-void write_outputs(const mesh::DistributedMesh& volume, const mesh::Numbering& numbering,
-                   const SurfaceView* surface, const cases::OutputOptions& output);
+/// after another, each streamed from the pieces; OpenFOAM's case gets a folder `openfoam`. With VTK files:
+/// surface.pvtp, the boundary of the domain, and interfaces.pvtp with what lies between regions where there
+/// is any, of `surface`, or else of the volume. All appear together, or none does. Collective; throws
+/// CollectiveError.
+void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* surface,
+                   const cases::OutputOptions& output);
 
 /// Files of meshes as runs name them, of any format, that are in the output directory now. Rank 0 calls it.
 class EarlierFiles {

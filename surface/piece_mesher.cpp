@@ -1,16 +1,14 @@
 #include "surface/piece_mesher.hpp"
 
 #include "cad/model/evaluation/face_width.hpp"
-#include "surface/charts/support_mesher.hpp"
-#include "surface/tips/pointed_tips.hpp"
+#include "surface/charts/chart_mesher.hpp"
+#include "surface/cusps/apexes.hpp"
 
 #include <algorithm>
 #include <numbers>
 
 namespace aeroloom::surface {
 namespace {
-
-using geometry::Vec3;
 
 /// CAD vertices, edges and the face itself, distinguished by the names of vertices.
 void classify_border_vertex(cad::FaceId face, mesh::SharedVertexKey vertex_key, mesh::Piece& piece) {
@@ -26,7 +24,8 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   mesh::Piece piece;
   piece.kind = mesh::CellKind::triangle;
   piece.coordinates.reserve(3 * mesh.points.size());
-  for (const Vec3& p : mesh.points) piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
+  for (const geometry::Vec3& p : mesh.points)
+    piece.coordinates.insert(piece.coordinates.end(), {p.x, p.y, p.z});
   for (const auto& t : mesh.triangles) piece.cells.insert(piece.cells.end(), t.begin(), t.end());
   for (std::int32_t v = 0; v < vertices.border_count(); ++v) {
     classify_border_vertex(mesh.face, vertices.vertex_keys[v], piece);
@@ -35,10 +34,10 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   piece.shared_keys = vertices.vertex_keys;
   piece.vertex_dimension.resize(mesh.points.size(), mesh::CadDimension::face);
   piece.vertex_entity.resize(mesh.points.size(), mesh.face);
-  for (const FaceMesh::Tip& tip : mesh.tips) {
-    if (tip.vertex == cad::no_entity) continue;
-    piece.vertex_dimension[tip.at] = mesh::CadDimension::vertex;
-    piece.vertex_entity[tip.at] = tip.vertex;
+  for (const FaceMesh::ApexVertex& apex : mesh.apexes) {
+    if (apex.vertex == cad::no_entity) continue;
+    piece.vertex_dimension[apex.at] = mesh::CadDimension::vertex;
+    piece.vertex_entity[apex.at] = apex.vertex;
   }
   piece.triangle_face.assign(mesh.triangles.size(), mesh.face);
   piece.triangle_patch.assign(mesh.triangles.size(), model.face(mesh.face).patch);
@@ -47,33 +46,33 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
 
 }  // namespace
 
-cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options) {
+cad::Facets chart_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options) {
   // Facets may leave the surface by a small fraction of the model, and of the face's own width: a curved
   // strip must not fold over itself.
   constexpr double fraction_of_model = 1e-3, fraction_of_width = 0.03, least_fraction_of_model = 1e-6;
   const double scale = model.is_far_field(face) ? model.bounds().diagonal() : model.body_bounds().diagonal();
   const double deflection = std::clamp(fraction_of_width * cad::mean_width(model, face),
                                        least_fraction_of_model * scale, fraction_of_model * scale);
-  return model.facets(face, deflection, options.support_angle * std::numbers::pi / 180);
+  return model.facets(face, deflection, options.facet_angle * std::numbers::pi / 180);
 }
 
-Subface subface_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                        const sizing::SizeField& field, const SurfaceOptions& options) {
-  Subface subface;
-  subface.support =
-      build_support(model, face, curves, support_facets(model, face, options), field, subface.vertices);
-  subface.load = predict_triangles(subface.support, field);
-  return subface;
+PieceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                             const sizing::SizeField& field, const SurfaceOptions& options) {
+  PieceProblem problem;
+  problem.surface =
+      build_chart_surface(model, face, curves, chart_facets(model, face, options), field, problem.vertices);
+  problem.load = predict_triangles(problem.surface, field);
+  return problem;
 }
 
-mesh::Piece mesh_piece(const cad::Model& model, const Subface& subface, const sizing::SizeField& field,
+mesh::Piece mesh_piece(const cad::Model& model, const PieceProblem& problem, const sizing::SizeField& field,
                        const SurfaceOptions& options) {
-  const SupportMeshing meshing{.chart_spread = options.chart_spread,
-                               .remeshing = {.sweeps = options.smoothing_sweeps}};
-  FaceMesh mesh = mesh_support(model, field, subface.support, subface.vertices, meshing);
-  cap_pointed_tips(field, find_pointed_tips(model, subface.support), mesh);
-  split_tips_of_two_faces(model, subface.vertices, mesh);
-  return piece_of(model, subface.vertices, mesh);
+  const ChartMeshing meshing{.chart_spread = options.chart_spread,
+                             .remeshing = {.sweeps = options.smoothing_sweeps}};
+  FaceMesh mesh = mesh_charts(model, field, problem.surface, problem.vertices, meshing);
+  cap_apexes(field, find_apexes(model, problem.surface), mesh);
+  split_apexes_of_two_faces(model, problem.vertices, mesh);
+  return piece_of(model, problem.vertices, mesh);
 }
 
 }  // namespace aeroloom::surface

@@ -1,25 +1,26 @@
-/// A CAD face as a piece: its support, and what meshing a piece makes of it.
+/// Meshes one surface piece, and prepares a whole CAD face as a piece.
 #pragma once
 
 #include "mesh/data/piece.hpp"
 #include "surface/curves/curves.hpp"
-#include "surface/division/subface.hpp"
+#include "surface/division/piece_problem.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 
 namespace aeroloom::surface {
 
-/// The facets a face's support is made of: they turn by at most options.support_angle and leave the surface
-/// by a small fraction of the model and of the face's width.
-cad::Facets support_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options);
+/// The facets that the parametric triangulation of a face is built from. They turn by at most
+/// options.facet_angle. Their distance from the surface is at most a small fraction of the model and of the
+/// width of the face.
+cad::Facets chart_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options);
 
 /// A whole face as one piece. Throws SurfaceError or cad::CadError.
-Subface subface_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                        const sizing::SizeField& field, const SurfaceOptions& options);
+PieceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                             const sizing::SizeField& field, const SurfaceOptions& options);
 
-/// The triangle piece of a subface, id 0. A function of the arguments alone: the same bits alone or in a run
-/// with others. Not collective. Throws FaceConflict, SurfaceError or cad::CadError.
-mesh::Piece mesh_piece(const cad::Model& model, const Subface& subface, const sizing::SizeField& field,
+/// The triangles of a piece, as a mesh piece with id 0. The result depends on the arguments alone, whatever
+/// other pieces are meshed. Not collective. Throws FaceConflict, SurfaceError or cad::CadError.
+mesh::Piece mesh_piece(const cad::Model& model, const PieceProblem& problem, const sizing::SizeField& field,
                        const SurfaceOptions& options);
 
 }  // namespace aeroloom::surface

@@ -3,7 +3,8 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
-#include "surface/charts/support_mesher.hpp"
+#include "parallel/observation/timers.hpp"
+#include "surface/charts/chart_mesher.hpp"
 #include "surface/piece_mesher.hpp"
 #include "surface/surface_error.hpp"
 
@@ -39,15 +40,14 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Mode
       _model(model),
       _options(options),
       _tasks(tasks),
-      _dealer(communicator, model, options),
+      _distributor(communicator, model, options),
       _parts(model.face_count(), 0) {}
 
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
   for (const auto& loop : _model.face(face).loops) {
-    for (const cad::Coedge& use : loop) {
+    for (const cad::Coedge& use : loop)
       counts.push_back(curves.first_interior[use.edge + 1] - curves.first_interior[use.edge]);
-    }
   }
   return counts;
 }
@@ -75,18 +75,16 @@ std::vector<FaceId> PiecePool::changed_faces(const CurveMesh& curves, const Size
   std::vector<std::int32_t> kept(_model.face_count(), 0);
   {
     const ScopedCpu cpu(ScopedCpu::As::task);
-    for (const auto& [key, meshed] : _meshed) {
+    for (const auto& [key, meshed] : _meshed)
       kept[key[0]] += is_unchanged(curves, field, key[0], meshed) ? 1 : 0;
-    }
   }
   std::vector<std::array<std::int32_t, 2>> mine;
   for (FaceId f = 0; f < _model.face_count(); ++f) {
     if (kept[f] > 0) mine.push_back({f, kept[f]});
   }
   std::fill(kept.begin(), kept.end(), 0);
-  for (const auto& [face, count] : _communicator.all_gather_items<std::array<std::int32_t, 2>>(mine)) {
+  for (const auto& [face, count] : _communicator.all_gather_items<std::array<std::int32_t, 2>>(mine))
     kept[face] += count;
-  }
   for (FaceId f = 0; f < _model.face_count(); ++f) {
     if (_parts[f] == 0 || kept[f] != _parts[f]) changed.push_back(f);
   }
@@ -105,15 +103,14 @@ double PiecePool::seconds_per_triangle() const {
   return load > 0 && seconds > 0 ? of_curve * seconds / load : usual;
 }
 
-/// The faces as subfaces, spread over the ranks. What one takes, most of it in the CAD library, cannot be
-/// told before: it is measured, and who has had more gets fewer pieces.
-Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const CurveMesh& curves,
-                                        const SizeField& field) {
-  Subfaces subfaces;
+/// The faces as piece problems, spread over the ranks. What one takes, most of it in the CAD library, cannot
+/// be told before: it is measured, and who has had more gets fewer pieces.
+PieceProblems PiecePool::make_face_problems(const std::vector<FaceId>& faces, const CurveMesh& curves,
+                                            const SizeField& field) {
+  PieceProblems problems;
   _costs.clear();
   const double of_triangle = seconds_per_triangle();
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
+  parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<double> loads;
     for (const FaceId face : faces) {
       const auto counts = edge_vertices(curves, face);
@@ -122,8 +119,8 @@ Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const 
     const auto owners = parallel::assign_largest_first(loads, _communicator.size());
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
       const double begin = parallel::cpu_seconds();
-      const SubfaceKey key{faces[task], 0, 0};
-      subfaces.emplace(key, subface_of_face(_model, faces[task], curves, field, _options));
+      const PieceKey key{faces[task], 0, 0};
+      problems.emplace(key, problem_of_face(_model, faces[task], curves, field, _options));
       const double seconds = parallel::cpu_seconds() - begin;
       _costs[key] = seconds / of_triangle;
       parallel::note_task({.kind = parallel::TaskKind::face,
@@ -133,20 +130,20 @@ Subfaces PiecePool::make_whole_subfaces(const std::vector<FaceId>& faces, const 
                            .burden = _costs[key]});
     }
   });
-  return subfaces;
+  return problems;
 }
 
 void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
-  _dealer.leave_whole(faces);
+  _distributor.leave_whole(faces);
   for (const FaceId face : faces) _parts[face] = 0;
 }
 
-double PiecePool::predict(const Subfaces& subfaces, const SizeField& field) const {
+double PiecePool::predict(const PieceProblems& problems, const SizeField& field) const {
   // Whole numbers: their sum does not depend on who has which.
   std::int64_t triangles = 0;
   const ScopedCpu cpu(ScopedCpu::As::task);
-  for (const auto& [key, subface] : subfaces)
-    triangles += std::llround(integrate_triangles(subface.support, field));
+  for (const auto& [key, problem] : problems)
+    triangles += std::llround(integrate_triangles(problem.surface, field));
   for (const auto& [key, meshed] : _meshed) triangles += meshed.piece.cell_count();
   return static_cast<double>(_communicator.sum(triangles));
 }
@@ -155,42 +152,43 @@ double PiecePool::most_triangles() const {
   return std::max(few_triangles, _options.most_growth * _first);
 }
 
-/// Depends on the subface and the field; model and options are the context of the store.
-mesh::Piece PiecePool::mesh_or_find(const Subface& subface, const SizeField& field,
+/// Depends on the piece problem and the field; model and options are the context of the store.
+mesh::Piece PiecePool::mesh_or_find(const PieceProblem& problem, const SizeField& field,
                                     const parallel::Digest& of_field) const {
-  if (_tasks == nullptr) return mesh_piece(_model, subface, field, _options);
+  if (_tasks == nullptr) return mesh_piece(_model, problem, field, _options);
   const parallel::Digest key = parallel::Digester()
                                    .value(of_field.low)
                                    .value(of_field.high)
-                                   .bytes(parallel::to_wire(subface))
+                                   .bytes(parallel::to_wire(problem))
                                    .result();
   if (const std::optional<parallel::Bytes> known = _tasks->find(key))
     return parallel::from_wire<mesh::Piece>(*known);
-  mesh::Piece piece = mesh_piece(_model, subface, field, _options);
+  mesh::Piece piece = mesh_piece(_model, problem, field, _options);
   _tasks->keep(key, parallel::to_wire(piece));
   return piece;
 }
 
-void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curves, const SizeField& field,
-                              Conflicts& conflicts) {
+void PiecePool::mesh_problems(const TaskDistribution& distribution, const CurveMesh& curves,
+                              const SizeField& field, Conflicts& conflicts) {
   const parallel::Digest of_field = _tasks == nullptr ? parallel::Digest{} : field.digest();
-  parallel::Progress progress("surface", static_cast<std::int64_t>(dealt.subfaces.size()), "triangles");
-  for (const auto& [key, subface] : dealt.subfaces) {
+  parallel::Progress progress("surface", static_cast<std::int64_t>(distribution.problems.size()),
+                              "triangles");
+  for (const auto& [key, problem] : distribution.problems) {
     const ScopedCpu cpu(ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds();
     try {
-      Meshed meshed{mesh_or_find(subface, field, of_field),
+      Meshed meshed{mesh_or_find(problem, field, of_field),
                     {},
                     edge_vertices(curves, key[0]),
-                    subface.load,
-                    dealt.places.at(key)};
+                    problem.load,
+                    distribution.places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       parallel::note_task({parallel::TaskKind::surface_piece, key[0],
-                           load_of_piece(subface.load, static_cast<double>(subface.support.triangles.size())),
+                           load_of_piece(problem.load, static_cast<double>(problem.surface.triangles.size())),
                            parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
-      if (conflicts.complaint.empty()) conflicts.complaint = conflict.what();
+      if (conflicts.message.empty()) conflicts.message = conflict.what();
       if (is_divided(key[0])) {
         conflicts.undivided.push_back(key[0]);
       } else {
@@ -199,7 +197,7 @@ void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curve
       }
     } catch (const SurfaceError& error) {
       if (!is_divided(key[0])) throw;
-      if (conflicts.complaint.empty()) conflicts.complaint = error.what();
+      if (conflicts.message.empty()) conflicts.message = error.what();
       conflicts.undivided.push_back(key[0]);
     }
     const auto made = _meshed.find(key);
@@ -209,23 +207,22 @@ void PiecePool::mesh_subfaces(const DealtSubfaces& dealt, const CurveMesh& curve
 
 Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   const std::vector<FaceId> faces = changed_faces(curves, field);
-  std::erase_if(_meshed, [&](const auto& entry) {
+  const auto has_changed = [&](const auto& entry) {
     return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
-  });
-  std::erase_if(_angles, [&](const auto& entry) {
-    return std::binary_search(faces.begin(), faces.end(), entry.first[0]);
-  });
-  Subfaces subfaces = make_whole_subfaces(faces, curves, field);
+  };
+  std::erase_if(_meshed, has_changed);
+  std::erase_if(_angles, has_changed);
+  PieceProblems problems = make_face_problems(faces, curves, field);
   Conflicts conflicts;
-  conflicts.predicted = predict(subfaces, field);
+  conflicts.predicted = predict(problems, field);
   if (!_started) _first = conflicts.predicted;
   _started = true;
   if (conflicts.predicted > most_triangles()) return conflicts;
-  DealtSubfaces dealt = _dealer.deal(std::move(subfaces), _costs, field);
+  TaskDistribution distribution = _distributor.distribute(std::move(problems), _costs, field);
   for (const FaceId face : faces) _parts[face] = 0;
-  for (const auto& [key, place] : dealt.places) ++_parts[key[0]];
-  _angles.merge(dealt.angles);
-  parallel::agree(_communicator, [&] { mesh_subfaces(dealt, curves, field, conflicts); });
+  for (const auto& [key, place] : distribution.places) ++_parts[key[0]];
+  _angles.merge(distribution.angles);
+  parallel::agree(_communicator, [&] { mesh_problems(distribution, curves, field, conflicts); });
   return conflicts;
 }
 
@@ -241,9 +238,7 @@ mesh::DistributedMesh PiecePool::assemble() const {
     first.push_back(first.back() + _parts[f]);
   }
   surface.piece_count = first.back();
-  for (cad::RegionId r = 0; r < _model.region_count(); ++r) {
-    surface.regions.push_back(_model.region_name(r));
-  }
+  for (cad::RegionId r = 0; r < _model.region_count(); ++r) surface.regions.push_back(_model.region_name(r));
   for (const auto& [key, meshed] : _meshed) {
     surface.pieces.push_back(meshed.piece);
     surface.pieces.back().id = first[key[0]] + meshed.place;
@@ -254,21 +249,17 @@ mesh::DistributedMesh PiecePool::assemble() const {
 std::vector<CutAngle> PiecePool::cut_angles() const {
   std::vector<CutAngle> mine;
   for (const auto& [key, angles] : _angles) mine.insert(mine.end(), angles.begin(), angles.end());
-  std::vector<CutAngle> all = _communicator.all_gather_items<CutAngle>(mine);
-  std::sort(all.begin(), all.end(), [](const CutAngle& a, const CutAngle& b) {
-    return std::tie(a.face, a.degrees, a.point.x, a.point.y, a.point.z) <
-           std::tie(b.face, b.degrees, b.point.x, b.point.y, b.point.z);
+  std::vector<CutAngle> all = _communicator.gather_sorted(mine, [](const CutAngle& each) {
+    return std::tie(each.face, each.degrees, each.point.x, each.point.y, each.point.z);
   });
   return all;
 }
 
 double PiecePool::load_error_90() const {
   std::vector<double> errors;
-  for (const auto& [key, meshed] : _meshed) {
+  for (const auto& [key, meshed] : _meshed)
     errors.push_back(std::abs(meshed.load / static_cast<double>(meshed.piece.cell_count()) - 1));
-  }
-  errors = _communicator.all_gather_items<double>(errors);
-  std::sort(errors.begin(), errors.end());
+  errors = _communicator.gather_sorted(errors);
   return errors.empty() ? 0 : errors[errors.size() * 9 / 10];
 }
 

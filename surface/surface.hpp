@@ -1,6 +1,6 @@
-/// All that host programs need of the surface stage. From a model and a size field it makes a closed
-/// triangulation of all CAD faces, and meshes planar faces again where boundary layers have moved their
-/// boundaries.
+/// All headers of the surface stage for host programs. From a model and a size field it makes a closed
+/// triangulation of all CAD faces. It also remeshes planar faces whose boundaries were moved by boundary
+/// layers.
 #pragma once
 
 #include "surface/plane_remesher.hpp"

@@ -5,7 +5,7 @@
 
 namespace aeroloom::surface {
 
-/// A face that cannot be meshed. The message names the face and its patch, the place, the size there and the
+/// A face cannot be meshed. The message names the face and its patch, the place, the size there and the
 /// remedy.
 class SurfaceError : public std::runtime_error {
 public:

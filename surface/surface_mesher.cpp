@@ -4,13 +4,13 @@
 #include "mesh/checks/intersection.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "surface/curves/curves.hpp"
+#include "surface/cusps/cusps.hpp"
+#include "surface/cusps/needle_remedies.hpp"
 #include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
-#include "surface/surface_error.hpp"
-#include "surface/tips/cusp_tips.hpp"
-#include "surface/tips/needle_remedies.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,17 +26,14 @@ namespace aeroloom::surface {
 namespace {
 
 using sizing::SizeField;
-using sizing::SizeSource;
 
 /// The CAD face of each piece of the whole mesh, on every rank. Collective.
 std::vector<cad::FaceId> faces_of_pieces(const mesh::DistributedMesh& surface) {
-  const parallel::Communicator& communicator = surface.communicator;
   std::vector<std::array<std::int32_t, 2>> mine;
   for (const mesh::Piece& piece : surface.pieces) mine.push_back({piece.id, piece.common_face()});
   std::vector<cad::FaceId> faces(surface.piece_count, cad::no_entity);
-  for (const auto& [piece, face] : communicator.all_gather_items<std::array<std::int32_t, 2>>(mine)) {
+  for (const auto& [piece, face] : surface.communicator.all_gather_items<std::array<std::int32_t, 2>>(mine))
     faces[piece] = face;
-  }
   return faces;
 }
 
@@ -73,8 +70,9 @@ std::vector<CrossedTriangle> list_crossed(const std::vector<mesh::TriangleHit>& 
 }
 
 /// The two faces that intersect over the largest area: that of the triangles of one of them, the smaller one.
-std::string complain(const cad::Model& model, const SizeField& field,
-                     const std::vector<mesh::TriangleHit>& hits, const std::vector<cad::FaceId>& faces) {
+std::string describe_worst(const cad::Model& model, const SizeField& field,
+                           const std::vector<mesh::TriangleHit>& hits,
+                           const std::vector<cad::FaceId>& faces) {
   const std::vector<CrossedTriangle> crossed = list_crossed(hits, faces);
   const CrossedTriangle* worst = nullptr;
   double worst_area = -1;
@@ -86,12 +84,11 @@ std::string complain(const cad::Model& model, const SizeField& field,
     const double area = std::min(areas[0], areas[1]);
     if (area > worst_area) worst = &first, worst_area = area;
   }
-  const geometry::Vec3 at = worst->place;
   return fmt::format(
       "triangles of faces '{}' and '{}' intersect near {}, over an area of about {:.3g} in all, size {:.4g} "
       "there",
-      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, geometry::place_text(at),
-      worst_area, field(at));
+      model.face(worst->faces[0]).name, model.face(worst->faces[1]).name, geometry::place_text(worst->place),
+      worst_area, field(worst->place));
 }
 
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
@@ -110,30 +107,17 @@ Conflicts find_conflicts(const cad::Model& model, const SizeField& field,
       conflicts.remedies.push_back({hit.center, 0.5 * field(hit.center)});
     }
   }
-  conflicts.complaint = complain(model, field, hits, faces);
+  conflicts.message = describe_worst(model, field, hits, faces);
   return conflicts;
 }
 
-/// The remedies of all ranks, the same on every rank; the complaint of the lowest rank that has one.
-Conflicts gather_conflicts(const parallel::Communicator& communicator, const Conflicts& mine) {
-  Conflicts all;
-  all.predicted = mine.predicted;
-  all.remedies = communicator.all_gather_items<SizeSource>(mine.remedies);
-  all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
-  const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.complaint)));
-  for (const parallel::Bytes& text : texts) {
-    if (all.complaint.empty()) all.complaint.assign(reinterpret_cast<const char*>(text.data()), text.size());
-  }
-  return all;
-}
-
 /// `tried`: what was, or would have been.
-[[noreturn]] void give_up(const std::string& complaint, const std::string& tried) {
+[[noreturn]] void give_up(const std::string& message, const std::string& tried) {
   throw SurfaceError(fmt::format(
       "surface: {}{}. Remedy: smaller SizingOptions::minimum or "
       "SizingOptions::curvature_angle, or repair the geometry there (overlapping or self-intersecting faces "
       "cannot be meshed)",
-      complaint, tried));
+      message, tried));
 }
 
 std::int64_t count_unforced(const std::vector<NeedleGroup>& groups) {
@@ -144,22 +128,17 @@ std::int64_t count_unforced(const std::vector<NeedleGroup>& groups) {
 
 std::vector<ListedCorner> list_corners(const cad::Model& model, const CurveMesh& curves) {
   std::vector<ListedCorner> corners;
-  for (const SharpCorner& corner : curves.sharp_corners) {
+  for (const SharpCorner& corner : curves.sharp_corners)
     corners.push_back({corner.face, model.vertex(corner.vertex), corner.degrees});
-  }
   return corners;
 }
 
 /// The rounds of one run: until no conflict is left, then until no more needles can be mended.
 class SurfaceRounds {
 public:
-  SurfaceRounds(const parallel::Communicator& communicator, const cad::Model& model, const SizeField& field,
-                const CutOptions& options, parallel::TaskStore* tasks)
-      : _communicator(communicator),
-        _model(model),
-        _options(options),
-        _pool(communicator, model, options, tasks),
-        _field(field) {}
+  SurfaceRounds(const cad::Model& model, const SizeField& field, const CutOptions& options,
+                parallel::TaskStore* tasks)
+      : _model(model), _options(options), _pool(field.communicator(), model, options, tasks), _field(field) {}
 
   SurfaceMesh run() {
     try {
@@ -176,16 +155,16 @@ private:
   /// Whether this was the last round.
   bool mesh_once() {
     parallel::begin_round();
-    const CurveMesh curves = discretise_curves(_communicator, _model, _field, _short_legs);
-    Conflicts conflicts = gather_conflicts(_communicator, _pool.mesh(curves, _field));
+    const CurveMesh curves = discretise_curves(_model, _field, _short_legs);
+    Conflicts conflicts = gather_conflicts(_pool.mesh(curves, _field));
     if (conflicts.predicted > _pool.most_triangles()) return end_early(conflicts.predicted);
-    mesh::DistributedMesh surface(_communicator);
-    if (conflicts.complaint.empty()) {
+    mesh::DistributedMesh surface(_field.communicator());
+    if (conflicts.message.empty()) {
       surface = _pool.assemble();
-      _closed_tips = close_cusp_tips(_model, curves, sizing::closing_gap(_field.options()), surface);
+      _closed_cusps = close_cusps(_model, curves, sizing::closing_gap(_field.options()), surface);
       conflicts = find_conflicts(_model, _field, surface, _pool);
     }
-    if (!conflicts.complaint.empty()) return !mend(conflicts);
+    if (!conflicts.message.empty()) return !mend(conflicts);
     const NeedleRemedies remedies = accept(curves, std::move(surface));
     if (remedies.empty()) return true;
     std::vector<cad::VertexId> short_legs;
@@ -196,11 +175,25 @@ private:
     return false;
   }
 
+  /// The remedies of all ranks, the same on every rank; the message of the lowest rank that has one.
+  Conflicts gather_conflicts(const Conflicts& mine) const {
+    const parallel::Communicator& communicator = _field.communicator();
+    Conflicts all;
+    all.predicted = mine.predicted;
+    all.remedies = communicator.all_gather_items<sizing::SizeSource>(mine.remedies);
+    all.undivided = communicator.all_gather_items<cad::FaceId>(mine.undivided);
+    const auto texts = communicator.all_gather(parallel::to_bytes(std::span<const char>(mine.message)));
+    for (const parallel::Bytes& text : texts) {
+      if (all.message.empty()) all.message.assign(reinterpret_cast<const char*>(text.data()), text.size());
+    }
+    return all;
+  }
+
   /// The sources are the same on every rank: one gives them.
   void lower_sizes(std::span<const sizing::SizeSource> sources) {
     if (sources.empty()) return;
-    const auto own = _communicator.is_root() ? sources : std::span<const sizing::SizeSource>();
-    _field = _field.refined(_communicator, own);
+    const bool gives = _field.communicator().is_root();
+    _field = _field.refined(gives ? sources : std::span<const sizing::SizeSource>());
   }
 
   /// Nothing was meshed: sizes have fallen so far that it would be too much.
@@ -209,7 +202,7 @@ private:
         "; sizes that might part them would take about {:.2g} triangles, after {:.2g} in the first round; "
         "{:.2g} are allowed",
         triangles, _pool.first_triangles(), _pool.most_triangles());
-    if (!_accepted) give_up(_last_complaint, tried);
+    if (!_accepted) give_up(_last_message, tried);
     parallel::log_verbose(fmt::format(
         "surface: needles stay as they are: without them there would be about {:.2g} triangles", triangles));
     return true;
@@ -220,12 +213,12 @@ private:
     const bool can_go_on = !conflicts.remedies.empty() || !conflicts.undivided.empty();
     if (_rounds >= _options.mending_rounds || !can_go_on) {
       if (_accepted) return false;
-      give_up(conflicts.complaint,
+      give_up(conflicts.message,
               fmt::format(", after {} rounds of local refinement", _options.mending_rounds));
     }
-    _last_complaint = conflicts.complaint;
+    _last_message = conflicts.message;
     parallel::log_verbose(fmt::format("surface: {}; sizes fall in {} places, {} faces stay whole",
-                                      conflicts.complaint, conflicts.remedies.size(),
+                                      conflicts.message, conflicts.remedies.size(),
                                       conflicts.undivided.size()));
     _pool.leave_whole(conflicts.undivided);
     lower_sizes(conflicts.remedies);
@@ -252,17 +245,17 @@ private:
     }
     SurfaceReport report = describe(curves, surface);
     report.needles = std::move(groups);
-    _accepted = SurfaceMesh{std::move(surface), std::move(report), _field};
+    _accepted = SurfaceMesh{{mesh::number_mesh(std::move(surface)), _field}, std::move(report)};
     return remedies;
   }
 
   SurfaceReport describe(const CurveMesh& curves, const mesh::DistributedMesh& surface) const {
     SurfaceReport report;
     for (const mesh::Piece& piece : surface.pieces) report.triangles += piece.cell_count();
-    report.triangles = _communicator.sum(report.triangles);
+    report.triangles = surface.communicator.sum(report.triangles);
     report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
     report.sharp_corners = list_corners(_model, curves);
-    report.closed_tips = _closed_tips;
+    report.closed_cusps = _closed_cusps;
     report.pieces = surface.piece_count;
     report.divided_faces = _pool.divided_faces();
     report.cut_angles = _pool.cut_angles();
@@ -271,30 +264,28 @@ private:
     return report;
   }
 
-  const parallel::Communicator& _communicator;
   const cad::Model& _model;
   const CutOptions& _options;
   PiecePool _pool;
   SizeField _field;
   std::vector<cad::VertexId> _short_legs;  // ascending
-  std::vector<ClosedTip> _closed_tips;     // of this round
+  std::vector<ClosedCusp> _closed_cusps;   // of this round
   int _rounds = 0, _needle_rounds = 0;
-  std::string _last_complaint;
+  std::string _last_message;
   std::optional<SurfaceMesh> _accepted;  // the last one without conflicts
 };
 
 }  // namespace
 
-SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                         const SizeField& field, const SurfaceOptions& options, parallel::TaskStore* tasks) {
-  return mesh_surface_with_cuts(communicator, model, field, {options}, tasks);
+SurfaceMesh mesh_surface(const cad::Model& model, const SizeField& field, const SurfaceOptions& options,
+                         parallel::TaskStore* tasks) {
+  return mesh_surface_with_cuts(model, field, {options}, tasks);
 }
 
-SurfaceMesh mesh_surface_with_cuts(const parallel::Communicator& communicator, const cad::Model& model,
-                                   const SizeField& field, const CutOptions& options,
+SurfaceMesh mesh_surface_with_cuts(const cad::Model& model, const SizeField& field, const CutOptions& options,
                                    parallel::TaskStore* tasks) {
-  SurfaceMesh result = SurfaceRounds(communicator, model, field, options, tasks).run();
-  parallel::add_pieces(static_cast<std::int64_t>(result.mesh.pieces.size()));
+  SurfaceMesh result = SurfaceRounds(model, field, options, tasks).run();
+  parallel::add_pieces(static_cast<std::int64_t>(result.pieces.size()));
   return result;
 }
 

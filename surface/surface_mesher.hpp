@@ -1,10 +1,8 @@
-/// The surface stage: from CAD curves and faces to a closed, conforming, oriented triangulation.
+/// The surface stage: meshes CAD curves and faces to a closed, conforming, oriented triangulation.
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "sizing/field/size_field.hpp"
+#include "sizing/field/sized_surface.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
@@ -15,19 +13,16 @@ class TaskStore;
 
 namespace aeroloom::surface {
 
-struct SurfaceMesh {
-  mesh::DistributedMesh
-      mesh;  ///< triangle pieces, each part of one CAD face, numbered by face; spread over ranks by load
+/// Triangle pieces, each part of one CAD face, numbered by face and spread over ranks by load. The field has
+/// the sources that rounds of local refinement added.
+struct SurfaceMesh : sizing::SizedSurface {
   SurfaceReport report;
-  /// The field with the sources that mending added; the volume follows this one.
-  sizing::SizeField field;
 };
 
-/// Meshes the surface of the model. Collective. Throws SurfaceError or CollectiveError, the same on all
-/// ranks. Pieces found in `tasks`, whose context stands for the model and the options, are not meshed again;
-/// those meshed are kept there.
-SurfaceMesh mesh_surface(const parallel::Communicator& communicator, const cad::Model& model,
-                         const sizing::SizeField& field, const SurfaceOptions& options,
-                         parallel::TaskStore* tasks = nullptr);
+/// Meshes the surface of the model on the ranks of the field. Pieces found in `tasks` are not meshed again,
+/// new ones are kept there. The context of `tasks` must identify the model and the options. Collective.
+/// Throws SurfaceError or CollectiveError, the same on all ranks.
+SurfaceMesh mesh_surface(const cad::Model& model, const sizing::SizeField& field,
+                         const SurfaceOptions& options, parallel::TaskStore* tasks = nullptr);
 
 }  // namespace aeroloom::surface

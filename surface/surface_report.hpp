@@ -1,4 +1,4 @@
-/// The report of the surface stage.
+/// Results of the surface stage for the report.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -10,7 +10,7 @@
 
 namespace aeroloom::surface {
 
-/// An angle of a piece where cuts end.
+/// An angle of a piece at the end of a cut.
 struct CutAngle {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;
@@ -19,7 +19,7 @@ struct CutAngle {
   static constexpr auto fields() { return std::tuple(&CutAngle::face, &CutAngle::point, &CutAngle::degrees); }
 };
 
-/// A corner of a CAD face below 30 degrees: the one triangle that fills it is as sharp.
+/// A corner of a CAD face below 30 degrees. The one triangle that fills it has the same angle.
 struct ListedCorner {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;
@@ -30,40 +30,39 @@ struct ListedCorner {
   }
 };
 
-/// A tip of a CAD face between two curves tangent to each other that was closed (cusp_tips.hpp).
-struct ClosedTip {
+/// A cusp of a CAD face, between two tangent curves, that was closed (cusps.hpp).
+struct ClosedCusp {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;  ///< the CAD vertex it ends in
-  double length = 0;     ///< from there to the last vertices that became one
-  double moved = 0;      ///< how far a vertex on its curves moved, at most
+  double length = 0;     ///< from there to the last vertices that were merged
+  double moved = 0;      ///< largest distance by which a vertex on its curves moved
 
   static constexpr auto fields() {
-    return std::tuple(&ClosedTip::face, &ClosedTip::point, &ClosedTip::length, &ClosedTip::moved);
+    return std::tuple(&ClosedCusp::face, &ClosedCusp::point, &ClosedCusp::length, &ClosedCusp::moved);
   }
 };
 
-/// A triangle is a needle when its smallest angle is below this, degrees.
+/// A triangle is a needle when its smallest angle is below this; degrees.
 inline constexpr double needle_degrees = 10;
 
 /// The cause of a needle.
 enum class NeedleCause : std::int32_t {
-  corner,  ///< two curves that meet at a CAD vertex enclose its smallest angle: forced
-  strip,   ///< one side lies on a curve, the third vertex on another one as close as the needle is thin:
-           ///< forced
-  mesh     ///< nothing of the CAD
+  corner,  ///< forced: two curves that meet at a CAD vertex enclose the smallest angle
+  strip,   ///< forced: one side lies on a curve, the third vertex on another curve close to it
+  mesh     ///< not forced by the CAD
 };
 
 /// "corner", "strip" or "mesh".
 const char* name_of(NeedleCause cause);
 
-/// The needles of a CAD face with one cause.
+/// The needles of one CAD face with one cause.
 struct NeedleGroup {
   cad::FaceId face = cad::no_entity;
   NeedleCause cause = NeedleCause::mesh;
   std::int64_t needles = 0;     ///< triangles below needle_degrees
-  std::int64_t below_half = 0;  ///< of them, those below half as much
+  std::int64_t below_half = 0;  ///< of these, below half of needle_degrees
   double degrees = 0;           ///< the smallest angle
-  geometry::Vec3 at;            ///< middle of the triangle that has it
+  geometry::Vec3 at;            ///< centre of the triangle with that angle
 
   static constexpr auto fields() {
     return std::tuple(&NeedleGroup::face, &NeedleGroup::cause, &NeedleGroup::needles,
@@ -77,15 +76,15 @@ struct SurfaceReport {
   std::int64_t divided_faces = 0;           ///< CAD faces of more than one piece
   std::vector<CutAngle> cut_angles;         ///< where cuts end, by face and angle, the same on every rank
   std::vector<ListedCorner> sharp_corners;  ///< by face, the same on every rank
-  std::vector<ClosedTip> closed_tips;       ///< by face, the same on every rank
+  std::vector<ClosedCusp> closed_cusps;     ///< by face, the same on every rank
   std::vector<NeedleGroup> needles;         ///< by face and cause, the same on every rank
   std::int64_t triangles = 0;
-  int mending_rounds = 0;    ///< rounds before the one that was accepted
-  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
+  int mending_rounds = 0;    ///< rounds of local refinement before the accepted one
+  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads do not exceed
 
   static constexpr auto fields() {
     return std::tuple(&SurfaceReport::curve_vertices, &SurfaceReport::pieces, &SurfaceReport::divided_faces,
-                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_tips,
+                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_cusps,
                       &SurfaceReport::needles, &SurfaceReport::triangles, &SurfaceReport::mending_rounds,
                       &SurfaceReport::load_error_90);
   }

@@ -1,10 +1,11 @@
+#include "mesh/data/bounds.hpp"
 #include "mesh/transfer/piece_size.hpp"
-#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/filling/decomposition_data.hpp"
 #include "volume/filling/failure_diagnostics.hpp"
-#include "volume/filling/filling_limits.hpp"
+#include "volume/filling/retry_policy.hpp"
 #include "volume/lattice/block_regions.hpp"
-#include "volume/zones/cut_ghosts.hpp"
+#include "volume/zones/halo.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,26 +16,11 @@
 
 namespace aeroloom::volume {
 
-using parallel::Communicator;
 using parallel::ScopedCpu;
 
 namespace {
 
-/// The box of the surface, the same on every rank.
-geometry::Box box_of(const mesh::DistributedMesh& surface) {
-  const Communicator& communicator = surface.communicator;
-  geometry::Box box;
-  for (const mesh::Piece& piece : surface.pieces) {
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = communicator.minimum(box.low[axis]);
-    box.high[axis] = communicator.maximum(box.high[axis]);
-  }
-  return box;
-}
-
-/// Once regions are known, the triangles that do not meet this rank's blocks have served.
+/// Drops the triangles that meet no block of this rank. They are needed until regions are known.
 void keep_own_triangles(const Lattice& lattice, std::vector<SurfaceTriangle>& triangles) {
   std::erase_if(triangles, [&](const SurfaceTriangle& triangle) {
     return !lattice.tree.any_own_block_in(grid_box(lattice.frame, triangle.points),
@@ -43,38 +29,37 @@ void keep_own_triangles(const Lattice& lattice, std::vector<SurfaceTriangle>& tr
   triangles.shrink_to_fit();
 }
 
-/// The lattice, and the surface that its points are made with first.
+/// The lattice, and the triangles near this rank's blocks for the first points.
 struct NewLattice {
   std::unique_ptr<const Lattice> lattice;
-  std::unique_ptr<const NearSurface> surface;
+  std::unique_ptr<const LocalSurface> surface;
 };
 
 NewLattice make_lattice(const VolumeInput& input) {
-  const Communicator& communicator = input.surface.communicator;
-  auto lattice = std::make_unique<Lattice>(grow_lattice(input, box_of(input.surface)));
-  // One rank has the whole surface at hand. Which triangles are looked at decides no region: any of them that
-  // is seen first tells the same.
-  if (communicator.size() > 1) {
+  const bool is_alone = input.surface.communicator.size() == 1;
+  auto lattice = std::make_unique<Lattice>(grow_lattice(input, mesh::box_of(input.surface)));
+  // One rank has the whole surface. The search radii do not change the regions: all triangles give the same.
+  if (!is_alone) {
     const ScopedCpu task(ScopedCpu::As::task);
     lattice->radii = search_radii_of_blocks(*lattice, lattice->tree.first(), lattice->tree.last());
   }
   std::vector<SurfaceTriangle> near =
-      add_those_near(lattice->frame, lattice->tree, lattice->radii, std::move(lattice->triangles));
-  std::unique_ptr<const NearSurface> surface;
+      add_ghost_triangles(lattice->frame, lattice->tree, lattice->radii, std::move(lattice->triangles));
+  std::unique_ptr<const LocalSurface> surface;
   {
     const ScopedCpu task(ScopedCpu::As::task);
-    surface = std::make_unique<NearSurface>(near);
+    surface = std::make_unique<LocalSurface>(near);
   }
   BlockRegions regions = find_block_regions(*lattice, near, *surface);
   if (regions.contradiction) refuse_surface(*regions.contradiction, near, *surface, input.surface);
   lattice->regions = std::move(regions.of_block);
   const ScopedCpu task(ScopedCpu::As::task);
-  if (communicator.size() > 1) keep_own_triangles(*lattice, near);
+  if (!is_alone) keep_own_triangles(*lattice, near);
   lattice->triangles = std::move(near);
   return {std::move(lattice), std::move(surface)};
 }
 
-/// What is expected of this rank's blocks.
+/// The loads of this rank's blocks.
 std::vector<Load> loads_of_blocks(const Lattice& lattice, const LocalShell& shell) {
   std::vector<Load> loads;
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
@@ -83,15 +68,14 @@ std::vector<Load> loads_of_blocks(const Lattice& lattice, const LocalShell& shel
   return loads;
 }
 
-/// Wanted size of a piece of a mesh.
+/// The wanted number of tetrahedra of a piece.
 std::int64_t piece_tets_of(double tetrahedra, const VolumeOptions& options) {
   return options.piece_tets.value_or(partition::suitable_piece_tets(tetrahedra));
 }
 
 /// Planes between zones of equal load.
 ZoneCuts cut_zones(const Lattice& lattice, std::span<const Load> loads, const VolumeOptions& options) {
-  const Communicator& communicator = lattice.tree.communicator();
-  const Load all = communicator.sum(std::accumulate(loads.begin(), loads.end(), Load{0}));
+  const Load all = lattice.tree.communicator().sum(std::accumulate(loads.begin(), loads.end(), Load{0}));
   const double tetrahedra = tetrahedra_of(all);
   const ZoneIndex count = wanted_zones(tetrahedra, piece_tets_of(tetrahedra, options));
   const std::vector<CoarseCell> cells =
@@ -105,15 +89,14 @@ double widest_halo(const VolumeOptions& options) {
   return options.halo * std::pow(wider, std::min<int>(options.retries, std::size(retry_steps)));
 }
 
-/// With the core's. Eighths: the sum is exact. Collective.
-double expected_tetrahedra(const Communicator& communicator, const Shell& shell) {
+/// Of shell and core. All are multiples of 1/8, so the sum is exact. Collective.
+double expected_tetrahedra(const Lattice& lattice, const Shell& shell) {
   return std::accumulate(shell.expected.begin(), shell.expected.end(),
-                         static_cast<double>(communicator.sum(shell.local.core_cells())));
+                         static_cast<double>(lattice.tree.communicator().sum(shell.local.core_cells())));
 }
 
-Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
+Shell make_shell(const Lattice& lattice, std::unique_ptr<const LocalSurface> surface,
                  const VolumeOptions& options) {
-  const Communicator& communicator = lattice.tree.communicator();
   LocalShell local =
       make_local_shell(lattice, std::move(surface), std::vector<BlockChange>(lattice.tree.block_count()));
   const std::vector<Load> loads = loads_of_blocks(lattice, local);
@@ -123,13 +106,12 @@ Shell make_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surf
   std::vector<Load> of_zones(shell.zones.count(), 0);
   for (BlockIndex b = lattice.tree.first(); b < lattice.tree.last(); ++b)
     of_zones[shell.zones.of(b, 0)] += loads[b - lattice.tree.first()];
-  for (const Load load : sum_by_zone(communicator, std::move(of_zones)))
-    shell.expected.push_back(tetrahedra_of(load));
-  shell.core_piece_tets = piece_tets_of(expected_tetrahedra(communicator, shell), options);
+  for (const Load load : shell.zones.sum(std::move(of_zones))) shell.expected.push_back(tetrahedra_of(load));
+  shell.core_piece_tets = piece_tets_of(expected_tetrahedra(lattice, shell), options);
   return shell;
 }
 
-/// Who fills which zone at first.
+/// The plan of the first filling.
 ZonePlan plan_all_zones(const Lattice& lattice, const Shell& shell, double halo) {
   std::vector<ZoneIndex> all(shell.zones.count());
   std::iota(all.begin(), all.end(), 0);
@@ -137,13 +119,13 @@ ZonePlan plan_all_zones(const Lattice& lattice, const Shell& shell, double halo)
 }
 
 DecompositionReport report_of(const Lattice& lattice, const Shell& shell, const ZonePlan& plan) {
-  const Communicator& communicator = lattice.tree.communicator();
+  const parallel::Communicator& communicator = lattice.tree.communicator();
   DecompositionReport report;
   report.blocks = lattice.tree.total();
   report.lattice_points = communicator.sum(shell.local.lattice_points);
   report.shell_points = communicator.sum(static_cast<std::int64_t>(shell.local.points.points.size()));
   report.core_tetrahedra = communicator.sum(shell.local.core_cells());
-  report.expected_tetrahedra = expected_tetrahedra(communicator, shell);
+  report.expected_tetrahedra = expected_tetrahedra(lattice, shell);
   report.zones = shell.zones.count();
   double work = 0, heaviest = 0;
   for (const ZoneLoad& load : plan.loads) {

@@ -1,17 +1,16 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "volume/filling/core_pieces.hpp"
 #include "volume/filling/decomposition_data.hpp"
-#include "volume/filling/filling_limits.hpp"
 #include "volume/filling/retry_policy.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -80,12 +79,12 @@ private:
     return faces;
   }
 
-  /// Tetrahedra made.
+  /// Returns the number of tetrahedra made.
   std::int64_t fill_one(ZoneInput& zone) {
     const ScopedCpu task(ScopedCpu::As::task);
     const double begin = parallel::cpu_seconds(), seconds = _input.options.base_cpu_seconds;
     require_size(zone);
-    _known_points += static_cast<std::int64_t>(zone.problem.regions.size());
+    _halo_points += static_cast<std::int64_t>(zone.problem.regions.size());
     const parallel::CrashNote note(fmt::format("stage volume, zone {}", zone.zone));
     ZoneFilling filling = fill_zone_in_child(zone.problem, fault_of(zone.zone), _input.tasks, seconds);
     parallel::add_task_cpu(filling.cpu_seconds);
@@ -101,7 +100,7 @@ private:
     }
     if (filling.filled) {
       parallel::add_pieces(1);
-      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling);
+      const ZoneResult& made = _results[zone.zone] = make_pieces(zone, filling, _input.surface_numbers);
       std::int64_t bytes = 0;
       for (const mesh::Piece& piece : made.pieces) bytes += mesh::bytes_at_rest(piece);
       parallel::note_task({parallel::TaskKind::zone, zone.zone, _work.at(zone.zone),
@@ -110,7 +109,7 @@ private:
       return static_cast<std::int64_t>(filling.owned.cells.size());
     }
     _failures.push_back({zone.zone, filling.failure});
-    _diagnostics.note(zone, _input.surface, filling.failure,
+    _diagnostics.note(zone, filling.failure,
                       _retries.changes_of(zone.zone) == 0 ? FailureDiagnostics::Look::later
                                                           : FailureDiagnostics::Look::for_defects);
     return 0;
@@ -134,7 +133,7 @@ private:
 
   void note_overlap() {
     const auto there = _communicator.sum(static_cast<std::int64_t>(_shell.local.points.points.size()));
-    _report.overlap = static_cast<double>(_communicator.sum(_known_points)) /
+    _report.overlap = static_cast<double>(_communicator.sum(_halo_points)) /
                       static_cast<double>(std::max<std::int64_t>(1, there));
   }
 
@@ -145,8 +144,7 @@ private:
       mine.push_back(std::abs(
           _shell.expected[zone] / static_cast<double>(std::max<std::int64_t>(1, result.tetrahedra)) - 1));
     }
-    std::vector<double> errors = _communicator.all_gather_items<double>(mine);
-    std::sort(errors.begin(), errors.end());
+    std::vector<double> errors = _communicator.gather_sorted(mine);
     return errors.empty() ? 0 : errors[(errors.size() - 1) * 9 / 10];
   }
 
@@ -173,13 +171,13 @@ private:
   VolumeReport& _report;
   RetryPolicy _retries;
   FillingBudget _budget;
-  std::int64_t _known_points = 0;            // of the lattice, by this rank's zones
+  std::int64_t _halo_points = 0;             // lattice points of this rank's zones
   std::map<ZoneIndex, ZoneResult> _results;  // of this rank
   parallel::FaultRequest _fault = parallel::requested_fault("zone");
-  std::map<ZoneIndex, double> _work;   // that zones were scheduled by
+  std::map<ZoneIndex, double> _work;   // by which zones were scheduled
   std::vector<ZoneFailure> _failures;  // of this rank in this round
-  std::vector<DemotedLeaf> _demoted;   // as well
-  FailureDiagnostics _diagnostics;
+  std::vector<DemotedLeaf> _demoted;   // of this rank in this round
+  FailureDiagnostics _diagnostics{_input.surface};
 };
 
 }  // namespace

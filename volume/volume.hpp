@@ -1,5 +1,5 @@
-/// All that host programs need of the volume stage. From a closed surface mesh and a size field it divides
-/// space into zones, and fills them with tetrahedra that are the same on any number of ranks.
+/// The volume stage for host programs. It divides the space inside a closed surface mesh into zones, and
+/// fills them with tetrahedra of the sizes of a size field. The mesh is the same on any number of ranks.
 #pragma once
 
 #include "volume/volume_failure.hpp"

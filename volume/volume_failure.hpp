@@ -1,4 +1,4 @@
-/// Failures of the volume stage.
+/// The failure of the volume stage.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -11,8 +11,8 @@
 
 namespace aeroloom::volume {
 
-/// A zone that no retry fills. The message names CAD faces, place and sizes, what was tried and
-/// what to do; the triangles at fault are for a file to look at. The same on every rank.
+/// Thrown if a zone cannot be filled. The message names CAD faces, the place, sizes, retries and a remedy.
+/// The triangles at fault can be written to a file. The same on every rank.
 class VolumeFailure : public parallel::CollectiveError {
 public:
   VolumeFailure(const std::string& message, std::vector<geometry::Vec3> points,

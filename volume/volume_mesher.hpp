@@ -1,12 +1,11 @@
-/// The volume stage: from a surface mesh and sizes to tetrahedra, without interfaces. All points are known
-/// before any tetrahedron exists, and the Delaunay mesh of points in general position is unique: so
-/// overlapping zones of space are meshed on their own, agree where they overlap, and each keeps its own
-/// tetrahedra.
+/// The volume stage: from a surface mesh and sizes to tetrahedra. All points are known before the first
+/// tetrahedron, and the Delaunay mesh of points in general position is unique. So zones that overlap can be
+/// meshed separately: they agree in the overlap, and no interface between them is meshed.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
 #include "parallel/communication/communicator.hpp"
-#include "sizing/field/size_field.hpp"
+#include "sizing/field/sized_surface.hpp"
 #include "volume/volume_failure.hpp"
 #include "volume/volume_options.hpp"
 #include "volume/volume_report.hpp"
@@ -21,14 +20,13 @@ namespace aeroloom::volume {
 
 /// The input of the volume stage. Refers to what lives elsewhere.
 struct VolumeInput {
-  const mesh::DistributedMesh& surface;  ///< closed around every region, its vertices classified
-  const mesh::Numbering& numbering;      ///< of the surface
-  const sizing::SizeField& field;
+  const sizing::SizedSurface& surface;  ///< closed around every region, its vertices classified
   VolumeOptions options;
   parallel::TaskStore* tasks = nullptr;  ///< where filled zones are kept and found, if anywhere
+  bool surface_numbers = false;          ///< whether pieces get mesh::Piece::surface_numbers
 };
 
-/// The points and zones of a volume. Each rank has the points of its blocks.
+/// The points and zones of a volume. Each rank has the points of its own blocks.
 class Decomposition {
 public:
   struct Data;
@@ -38,23 +36,23 @@ public:
   ~Decomposition();
 
   const DecompositionReport& report() const;
-  Data& data() { return *_data; }  ///< of the stage itself (decomposition_data.hpp)
+  Data& data() { return *_data; }  ///< internal (filling/decomposition_data.hpp)
 
 private:
   std::unique_ptr<Data> _data;
 };
 
-/// Makes the lattice and divides it into zones. A function of surface, sizes and options, whatever the ranks.
-/// Collective. Throws CollectiveError, VolumeFailure where the surface contradicts itself.
+/// Makes the lattice and divides it into zones. The result depends on surface, sizes and options alone, not
+/// on the ranks. Throws CollectiveError, and VolumeFailure if the surface is not closed. Collective.
 Decomposition decompose(const VolumeInput& input);
 
-/// Fills the zones, scheduled largest first, and proves that they fit together. A zone that cannot be filled
-/// gets a wider halo, then other perturbations of its points, then points farther off the surface, and at
-/// last is merged with a neighbour. Where zones disagree the lowest of them keeps the tetrahedra in question;
-/// zones that still disagree after three rounds are merged. One mesh piece per zone and region, by zone, then
-/// region. The triangles of a face between two regions belong to pieces of its front region. `input` is that
-/// of decompose(); `report` starts empty. Collective. Throws CollectiveError, VolumeFailure where there are
-/// triangles to look at.
+/// Fills the zones, largest first, and checks that they fit together. A zone that cannot be filled is
+/// retried: with a wider halo, with other perturbations of its points, with points farther from the surface.
+/// At last it is merged with a neighbour. Where zones disagree, the lowest one keeps its tetrahedra. Zones
+/// that still disagree after three rounds are merged. The mesh has one piece per zone and region, by zone,
+/// then region, then the pieces of the core. Triangles between two regions belong to pieces of the region on
+/// their inner side. `input` is that of decompose(); `report` must be empty. Throws CollectiveError, and
+/// VolumeFailure if there are triangles to show. Collective.
 mesh::DistributedMesh fill_zones(const VolumeInput& input, Decomposition decomposition, VolumeReport& report);
 
 }  // namespace aeroloom::volume

@@ -7,14 +7,18 @@
 namespace aeroloom::volume {
 
 struct VolumeOptions {
-  /// Wanted size of a zone, and so of a piece of the mesh, tetrahedra; empty: what suits their number.
+  /// Wanted tetrahedra of a zone, and so of a piece of the mesh. Empty: chosen from their number.
   std::optional<std::int64_t> piece_tets = {};
-  double lattice_clearance = 0.5;  ///< distance lattice points keep from the surface, in local sizes
-  double perturbation = 0.005;     ///< of lattice points, in mean edges of the lattice
-  double halo = 1.2;               ///< width of what a zone knows around it, in the largest sizes there
-  std::int64_t largest_zone = 20'000'000;  ///< predicted tetrahedra above which a zone is refused
-  double base_cpu_seconds = 10;            ///< of the child of a zone; its size adds to them
-  int retries = 3;                         ///< after the first try, before zones are merged
+  /// The least distance of lattice points from the surface, in local sizes. Of seven values this one gave the
+  /// fewest bad tetrahedra (benchmarks/results/volume_pieces.md).
+  double lattice_clearance = 0.5;
+  /// The width of the perturbation of lattice points, in mean edges of the lattice. Large enough for general
+  /// position, and so small that no border triangle between core and shell is missing (as above).
+  double perturbation = 0.005;
+  double halo = 1.2;                       ///< width of the halo of a zone, in the largest sizes there
+  std::int64_t largest_zone = 20'000'000;  ///< predicted tetrahedra; a larger zone is refused
+  double base_cpu_seconds = 10;            ///< allowed to the child of a zone; more by its size
+  int retries = 3;                         ///< of a zone, before it is merged with another
 };
 
 }  // namespace aeroloom::volume

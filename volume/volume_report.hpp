@@ -14,11 +14,11 @@ namespace aeroloom::volume {
 struct DecompositionReport {
   std::int64_t blocks = 0;  ///< of the lattice
   std::int64_t lattice_points = 0;
-  std::int64_t shell_points = 0;     ///< those of them that zones are filled with
-  std::int64_t core_tetrahedra = 0;  ///< that will come from a table, about
-  double expected_tetrahedra = 0;    ///< from points and triangles, with the core's
+  std::int64_t shell_points = 0;     ///< lattice points that zones are filled with
+  std::int64_t core_tetrahedra = 0;  ///< from a table, approximate
+  double expected_tetrahedra = 0;    ///< from points and triangles, core included
   std::int32_t zones = 0;
-  double imbalance = 1;  ///< heaviest zone over the mean, halo included
+  double imbalance = 1;  ///< load of the heaviest zone over the mean load, halos included
 
   static constexpr auto fields() {
     return std::tuple(&DecompositionReport::blocks, &DecompositionReport::lattice_points,
@@ -28,20 +28,20 @@ struct DecompositionReport {
   }
 };
 
-/// A zone that could not be filled at first.
+/// A retry of a zone.
 struct Retry {
   std::int32_t zone;
-  std::string change;  ///< what was done about it
-  std::string reason;
+  std::string change;  ///< the remedy
+  std::string reason;  ///< why the zone was not filled
 
   static constexpr auto fields() { return std::tuple(&Retry::zone, &Retry::change, &Retry::reason); }
 };
 
-/// A place where zones made different tetrahedra, and which of them counts.
+/// A place where zones made different tetrahedra.
 struct Disagreement {
   geometry::Vec3 place;
-  std::int32_t zone;   ///< that counts
-  std::int32_t faces;  ///< that did not match
+  std::int32_t zone;   ///< whose tetrahedra are kept
+  std::int32_t faces;  ///< number of faces without partner
   std::int32_t round;
 
   static constexpr auto fields() {
@@ -52,14 +52,14 @@ struct Disagreement {
 /// The report of the filling.
 struct VolumeReport {
   std::int64_t tetrahedra = 0;
-  std::int64_t core_tetrahedra = 0;  ///< those of them that come from a table, the others from TetGen
-  std::int64_t left_core = 0;        ///< leaves that left the core since a triangle of its border was missing
-  double overlap = 1;  ///< points of the shell that zones know, all together, over those there are
-  std::int64_t steiner_points = 0;  ///< that TetGen had to add inside
+  std::int64_t core_tetrahedra = 0;  ///< from a table; all others are from TetGen
+  std::int64_t left_core = 0;        ///< core leaves that became shell, because a border triangle was missing
+  double overlap = 1;  ///< lattice points of all zones, halos included, over the points of the shell
+  std::int64_t steiner_points = 0;  ///< points that TetGen had to add
   std::vector<Retry> retries;
   std::vector<Disagreement> disagreements;
-  int rounds = 1;            ///< of filling; further ones fill again what failed or disagreed
-  double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads stay below
+  int rounds = 1;            ///< of filling; after the first, only zones that failed or disagree
+  double load_error_90 = 0;  ///< 90 % of the expected loads have a smaller relative error
 
   static constexpr auto fields() {
     return std::tuple(&VolumeReport::tetrahedra, &VolumeReport::core_tetrahedra, &VolumeReport::left_core,

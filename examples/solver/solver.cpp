@@ -35,12 +35,11 @@ mesh::DistributedMesh make_mesh(const parallel::Communicator& ranks, const cad::
   const sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, wanted_tetrahedra);
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
 
-  const surface::SurfaceMesh surface = surface::mesh_surface(ranks, model, field, {});
-  const mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
+  const surface::SurfaceMesh surface = surface::mesh_surface(model, field, {});
 
   volume::VolumeOptions pieces;
   pieces.piece_tets = 20'000;
-  const volume::VolumeInput input{surface.mesh, numbering, surface.field, pieces};
+  const volume::VolumeInput input{surface, pieces};
   volume::VolumeReport report;
   mesh::DistributedMesh volume = volume::fill_zones(input, volume::decompose(input), report);
 
@@ -73,7 +72,7 @@ void solve(MPI_Comm solver_ranks, const std::string& file) {
               static_cast<long long>(cells), mesh.pieces.size());
   cells = ranks.sum(cells);
   volume = ranks.sum(volume);
-  const std::string hash = mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
+  const std::string hash = mesh::hash_mesh(mesh::number_mesh(mesh));
   if (ranks.is_root()) {
     std::printf("%lld tetrahedra, volume %.9g, hash %s\n", static_cast<long long>(cells), volume,
                 hash.c_str());

@@ -90,17 +90,14 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
   return found != edges.end() && *found == edge ? found - edges.begin() : -1;
 }
 
-std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                      const std::vector<EdgeName>& edges) {
+std::vector<EdgeWedge> measure_wedges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges) {
   std::vector<PieceEdge> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-      measure_edges(mesh.pieces[i], numbering.vertices[i], edges, mine);
+      measure_edges(mesh.pieces[i], mesh.numbering.vertices[i], edges, mine);
   }
-  std::vector<PieceEdge> all = mesh.communicator.all_gather_items<PieceEdge>(mine);
-  std::sort(all.begin(), all.end(), [](const PieceEdge& a, const PieceEdge& b) {
-    return std::tie(a.edge, a.piece) < std::tie(b.edge, b.piece);
-  });
+  const std::vector<PieceEdge> all = mesh.communicator.gather_sorted(
+      mine, [](const PieceEdge& each) { return std::tie(each.edge, each.piece); });
   std::vector<EdgeWedge> wedges(edges.size());
   for (const PieceEdge& row : all) {
     wedges[row.edge].angle += row.angle;

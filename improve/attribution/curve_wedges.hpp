@@ -33,7 +33,6 @@ EdgeName name_edge(const mesh::Piece& piece, const std::vector<mesh::GlobalIndex
 std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge);
 
 /// Measures each edge of the list (ascending, equal on all ranks). Collective; equal on all ranks.
-std::vector<EdgeWedge> measure_wedges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                      const std::vector<EdgeName>& edges);
+std::vector<EdgeWedge> measure_wedges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges);
 
 }  // namespace aeroloom::attribution

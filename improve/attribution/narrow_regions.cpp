@@ -23,7 +23,7 @@ using mesh::Piece;
 /// Chosen, not measured.
 constexpr double narrow_fraction = 0.4;
 /// Two curves run along each other where their segments enclose less than 30 degrees, as in
-/// surface/tips/needles.cpp.
+/// surface/cusps/needles.cpp.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
 /// The name of a curve: its number, or a negative number made from two CAD vertices joined by one segment.
@@ -76,8 +76,7 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
 }
 
 /// A mesh edge is on a curve if triangles of two CAD faces meet at it.
-std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
-                                              const mesh::Numbering& numbering) {
+std::vector<CurveAtVertex> curves_at_vertices(const mesh::NumberedMesh& mesh) {
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
     const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
     geometry::sort_unique(
@@ -85,7 +84,7 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::DistributedMesh& mesh,
   };
   std::vector<EdgeAtVertex> edges;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-    add_edges(mesh.pieces[i], numbering.vertices[i], edges);
+    add_edges(mesh.pieces[i], mesh.numbering.vertices[i], edges);
   sort_out(edges);
   edges = mesh.communicator.all_gather_items<EdgeAtVertex>(edges);
   sort_out(edges);
@@ -187,16 +186,16 @@ std::vector<NarrowTriangle> narrow_triangles(const Piece& piece, const std::vect
 
 }  // namespace
 
-std::vector<NarrowEdge> find_narrow_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
+std::vector<NarrowEdge> find_narrow_edges(const mesh::NumberedMesh& mesh,
                                           const std::vector<EdgeName>& edges) {
-  const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh, numbering);
+  const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh);
   std::vector<NarrowEdge> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     for (const NarrowTriangle& narrow : narrow_triangles(piece, curves)) {
       const LocalIndex c = narrow.corners[2];
       for (const LocalIndex a : {narrow.corners[0], narrow.corners[1]}) {
-        const GlobalIndex ga = numbering.vertices[i][a], gc = numbering.vertices[i][c];
+        const GlobalIndex ga = mesh.numbering.vertices[i][a], gc = mesh.numbering.vertices[i][c];
         // Only one side of a face has triangles in its pieces; edges count for the regions of both sides.
         const EdgeName first{std::min(ga, gc), std::max(ga, gc), std::numeric_limits<std::int64_t>::min()};
         for (auto found = std::lower_bound(edges.begin(), edges.end(), first);

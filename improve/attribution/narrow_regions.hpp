@@ -26,8 +26,7 @@ struct NarrowEdge {
 /// triangle has two vertices on one curve and the third on another that runs along it. Its height is at most
 /// 0.4 of the side on the curve. The mesh tells which curves meet at a CAD vertex: a curve is where triangles
 /// of two CAD faces meet. Each edge comes once, by number. Collective; the same on every rank.
-std::vector<NarrowEdge> find_narrow_edges(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                                          const std::vector<EdgeName>& edges);
+std::vector<NarrowEdge> find_narrow_edges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges);
 
 /// The entry of an edge in such a list; null where there is none.
 const NarrowEdge* find_narrow_edge(const std::vector<NarrowEdge>& narrow, std::int64_t edge);

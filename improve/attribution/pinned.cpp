@@ -42,10 +42,9 @@ double corner_angle(Vec3 apex, Vec3 a, Vec3 b) {
 
 class PinnedSearch {
 public:
-  PinnedSearch(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering, double target,
-               const mesh::CellsOutside& suspects, bool surface_may_change)
+  PinnedSearch(const mesh::NumberedMesh& mesh, double target, const mesh::CellsOutside& suspects,
+               bool surface_may_change)
       : _mesh(mesh),
-        _numbering(numbering),
         _suspects(suspects),
         _target(target),
         _surface_may_change(surface_may_change),
@@ -59,9 +58,9 @@ public:
 
   PinnedReport run() {
     collect_edges();
-    _wedges = measure_wedges(_mesh, _numbering, _edges);
+    _wedges = measure_wedges(_mesh, _edges);
     list_sharp_curves();
-    _narrow = find_narrow_edges(_mesh, _numbering, _edges);
+    _narrow = find_narrow_edges(_mesh, _edges);
     if (!_surface_may_change) _on_layers = find_layer_vertices(_mesh);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) classify(i);
     return merge();
@@ -78,7 +77,7 @@ private:
     return {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
   }
   EdgeName name(std::size_t piece, LocalIndex a, LocalIndex b) const {
-    return name_edge(_mesh.pieces[piece], _numbering.vertices[piece], a, b);
+    return name_edge(_mesh.pieces[piece], _mesh.numbering.vertices[piece], a, b);
   }
   /// The number of an edge among those looked at, -1 for others.
   std::int64_t find(const EdgeName& edge) const { return find_edge(_edges, edge); }
@@ -101,8 +100,7 @@ private:
   void total(MissedTarget& kind) const;
   PinnedReport merge();
 
-  const mesh::DistributedMesh& _mesh;
-  const mesh::Numbering& _numbering;
+  const mesh::NumberedMesh& _mesh;
   const mesh::CellsOutside& _suspects;
   double _target;
   bool _surface_may_change;
@@ -152,7 +150,7 @@ void PinnedSearch::list_sharp_curves() {
         LocalIndex a = piece.cell(bad.tet)[from], b = piece.cell(bad.tet)[to];
         const std::int64_t edge = find(name(i, a, b));
         if (edge < 0 || _wedges[edge].angle >= _target) continue;
-        if (_numbering.vertices[i][a] > _numbering.vertices[i][b]) std::swap(a, b);
+        if (_mesh.numbering.vertices[i][a] > _mesh.numbering.vertices[i][b]) std::swap(a, b);
         of_a.clear(), of_b.clear(), both.clear();
         _vertex_faces.list(piece, a, of_a), _vertex_faces.list(piece, b, of_b);
         std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(both));
@@ -329,12 +327,9 @@ void PinnedSearch::merge_features() {
 }
 
 PinnedReport PinnedSearch::merge() {
-  std::vector<PinningEntity> all = _mesh.communicator.all_gather_items<PinningEntity>(_entities);
   const auto key = [](const PinningEntity& e) { return std::tuple(e.kind, e.faces, e.vertex); };
-  std::sort(all.begin(), all.end(), [&](const PinningEntity& a, const PinningEntity& b) {
-    return std::tuple(key(a), a.angle, a.at.x, a.at.y, a.at.z) <
-           std::tuple(key(b), b.angle, b.at.x, b.at.y, b.at.z);
-  });
+  const std::vector<PinningEntity> all = _mesh.communicator.gather_sorted(
+      _entities, [&](const PinningEntity& e) { return std::tuple(key(e), e.angle, e.at.x, e.at.y, e.at.z); });
   for (const PinningEntity& entity : all) {
     if (_report.entities.empty() || key(_report.entities.back()) != key(entity)) {
       _report.entities.push_back(entity);
@@ -362,9 +357,9 @@ mesh::DihedralRange suspect_angles(double target_angle) {
   return {target_angle + angle_slack, largest_allowed(target_angle) - angle_slack};
 }
 
-PinnedReport find_pinned(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                         double target_angle, const mesh::CellsOutside& suspects, bool surface_may_change) {
-  return PinnedSearch(mesh, numbering, target_angle, suspects, surface_may_change).run();
+PinnedReport find_pinned(const mesh::NumberedMesh& mesh, double target_angle,
+                         const mesh::CellsOutside& suspects, bool surface_may_change) {
+  return PinnedSearch(mesh, target_angle, suspects, surface_may_change).run();
 }
 
 }  // namespace aeroloom::attribution

@@ -81,7 +81,7 @@ mesh::DihedralRange suspect_angles(double target_angle);
 /// feature. If the surface must stay, others with three or four corners on it are held. `suspects` are the
 /// tetrahedra outside suspect_angles(), as mesh::summarise_quality finds them. Collective; equal on all ranks
 /// and for any number of ranks.
-PinnedReport find_pinned(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                         double target_angle, const mesh::CellsOutside& suspects, bool surface_may_change);
+PinnedReport find_pinned(const mesh::NumberedMesh& mesh, double target_angle,
+                         const mesh::CellsOutside& suspects, bool surface_may_change);
 
 }  // namespace aeroloom::attribution

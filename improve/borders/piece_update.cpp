@@ -40,17 +40,22 @@ mesh::Piece PieceUpdate::finish(std::span<const WireTet> tets, const std::vector
 void PieceUpdate::number_old() {
   for (mesh::LocalIndex v = 0; v < _old.vertex_count(); ++v) {
     if (_number[v] < 0) continue;
-    _number[v] = add(_old.point(v), _old.vertex_dimension[v], _old.vertex_entity[v]);
+    _number[v] = add(_old.point(v), _old.vertex_dimension[v], _old.vertex_entity[v],
+                     _old.surface_numbers.empty() ? -1 : _old.surface_numbers[v]);
     if (_named[v]) _names.push_back({_vertex_keys[v], _number[v]});
   }
   sort_names();
 }
 
-mesh::LocalIndex PieceUpdate::add(Vec3 p, mesh::CadDimension dimension, std::int32_t entity) {
+mesh::LocalIndex PieceUpdate::add(Vec3 p, mesh::CadDimension dimension, std::int32_t entity,
+                                  mesh::GlobalIndex surface_number) {
   const mesh::LocalIndex v = _piece.vertex_count();
   _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
   _piece.vertex_dimension.push_back(dimension);
   _piece.vertex_entity.push_back(entity);
+  if (surface_number >= 0) _piece.surface_numbers.resize(v, -1);
+  if (surface_number >= 0 || !_piece.surface_numbers.empty())
+    _piece.surface_numbers.push_back(surface_number);
   return v;
 }
 
@@ -68,7 +73,8 @@ void PieceUpdate::add_vertices(std::span<const WireTet> tets, const std::vector<
   std::vector<Named> names;
   for (const WireVertex* v : missing) {
     if (!names.empty() && v->vertex_key == names.back().vertex_key) continue;
-    names.push_back({v->vertex_key, add(v->point, static_cast<mesh::CadDimension>(v->dimension), v->entity)});
+    names.push_back({v->vertex_key, add(v->point, static_cast<mesh::CadDimension>(v->dimension), v->entity,
+                                        v->surface_number)});
   }
   _names.insert(_names.end(), names.begin(), names.end());
   sort_names();

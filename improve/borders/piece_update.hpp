@@ -26,10 +26,12 @@ struct WireVertex {
   mesh::SharedVertexKey vertex_key;
   geometry::Vec3 point;
   std::int32_t entity;
+  mesh::GlobalIndex surface_number;  ///< as in mesh::Piece; -1: none
 
   static constexpr auto fields() {
     return std::tuple(&WireVertex::cavity, &WireVertex::piece, &WireVertex::dimension,
-                      &WireVertex::vertex_key, &WireVertex::point, &WireVertex::entity);
+                      &WireVertex::vertex_key, &WireVertex::point, &WireVertex::entity,
+                      &WireVertex::surface_number);
   }
 };
 struct WireTriangle {
@@ -68,7 +70,8 @@ private:
   };
 
   void number_old();
-  mesh::LocalIndex add(geometry::Vec3 p, mesh::CadDimension dimension, std::int32_t entity);
+  mesh::LocalIndex add(geometry::Vec3 p, mesh::CadDimension dimension, std::int32_t entity,
+                       mesh::GlobalIndex surface_number);
   void add_vertices(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices);
   void append_cells(std::span<const WireTet> tets);
   void append_triangles(const std::vector<WireTriangle>& triangles);

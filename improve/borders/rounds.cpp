@@ -132,7 +132,8 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
     geometry::sort_unique(used);
     for (const auto& [cavity, v] : used)
       result.parts.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
-                                       vertex_key[v], piece.point(v), piece.vertex_entity[v]});
+                                       vertex_key[v], piece.point(v), piece.vertex_entity[v],
+                                       piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
@@ -175,9 +176,7 @@ CavityTable list_cavities(const mesh::DistributedMesh& mesh, const std::vector<W
                          [&](std::size_t first, std::size_t last) {
                            rows.push_back({all[first], static_cast<std::int64_t>(last - first)});
                          });
-  std::vector<CavitySize> table = mesh.communicator.all_gather_items<CavitySize>(rows);
-  std::sort(table.begin(), table.end(),
-            [](const CavitySize& a, const CavitySize& b) { return a.cavity < b.cavity; });
+  const std::vector<CavitySize> table = mesh.communicator.gather_sorted(rows, &CavitySize::cavity);
   CavityTable result;
   for (const CavitySize& row : table) {
     if (result.ids.empty() || result.ids.back() != row.cavity) {
@@ -194,6 +193,7 @@ CavityTable list_cavities(const mesh::DistributedMesh& mesh, const std::vector<W
 struct OwnedCavity {
   Cavity cavity;
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per point, ascending
+  std::vector<mesh::GlobalIndex> surface_numbers;  ///< per point
   std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
   std::optional<CavityContent> content;
   CavityAssignment assignment;  ///< of the content
@@ -216,6 +216,7 @@ std::vector<OwnedCavity> assemble(const mesh::DistributedMesh& mesh, WireParts p
     for (; v < vertices.size() && vertices[v].cavity == owned.cavity.id; ++v) {
       if (!owned.vertex_keys.empty() && owned.vertex_keys.back() == vertices[v].vertex_key) continue;
       owned.vertex_keys.push_back(vertices[v].vertex_key);
+      owned.surface_numbers.push_back(vertices[v].surface_number);
       owned.cavity.entity.push_back(vertices[v].entity);
       owned.cavity.points.push_back(vertices[v].point);
       owned.cavity.dimension.push_back(static_cast<mesh::CadDimension>(vertices[v].dimension));
@@ -260,12 +261,13 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
   for (const auto& [piece, v] : uses) {
     if (v < known) {
       out.vertices.push_back({id, piece, static_cast<std::int32_t>(owned.cavity.dimension[v]),
-                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v]});
+                              owned.vertex_keys[v], owned.cavity.points[v], owned.cavity.entity[v],
+                              owned.surface_numbers[v]});
     } else {
       const AddedVertex& added = owned.content->added[v - known];
       out.vertices.push_back(
           {id, piece, static_cast<std::int32_t>(added.dimension), vertex_key(v), added.point,
-           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity});
+           added.dimension == mesh::CadDimension::region ? owned.cavity.region : added.entity, -1});
     }
   }
   const std::vector<CavityTriangle>& triangles = owned.content->triangles_of(owned.cavity);
@@ -367,9 +369,7 @@ CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVert
       outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }
   });
-  outcomes = mesh.communicator.all_gather_items<Outcome>(outcomes);
-  std::sort(outcomes.begin(), outcomes.end(),
-            [](const Outcome& a, const Outcome& b) { return a.cavity < b.cavity; });
+  outcomes = mesh.communicator.gather_sorted(outcomes, &Outcome::cavity);
   const WireParts delivery = deliver_replaced(mesh, cavities, outcomes, round);
   CavityRound result;
   result.changes = update_pieces(mesh, mine, outcomes, delivery);

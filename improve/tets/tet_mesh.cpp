@@ -211,6 +211,7 @@ LocalIndex TetMesh::add_vertex(Vec3 p, LocalIndex like) {
   _piece.vertex_dimension.push_back(mesh::CadDimension::region);
   _piece.vertex_entity.push_back(
       _piece.vertex_dimension[like] == mesh::CadDimension::region ? _piece.vertex_entity[like] : 0);
+  if (!_piece.surface_numbers.empty()) _piece.surface_numbers.push_back(-1);
   _incident.push_back(-1);
   _fixed.push_back(0);
   _shared.push_back(0);
@@ -221,6 +222,7 @@ void TetMesh::drop_last_vertex() {
   _piece.coordinates.resize(_piece.coordinates.size() - 3);
   _piece.vertex_dimension.pop_back();
   _piece.vertex_entity.pop_back();
+  if (!_piece.surface_numbers.empty()) _piece.surface_numbers.pop_back();
   _incident.pop_back();
   _fixed.pop_back();
   _shared.pop_back();
@@ -263,12 +265,14 @@ void TetMesh::remove_unused_vertices() {
     _piece.set_point(kept, _piece.point(v));
     _piece.vertex_dimension[kept] = _piece.vertex_dimension[v];
     _piece.vertex_entity[kept] = _piece.vertex_entity[v];
+    if (!_piece.surface_numbers.empty()) _piece.surface_numbers[kept] = _piece.surface_numbers[v];
     ++kept;
   }
   if (kept == vertex_count()) return;
   _piece.coordinates.resize(3 * static_cast<std::size_t>(kept));
   _piece.vertex_dimension.resize(kept);
   _piece.vertex_entity.resize(kept);
+  if (!_piece.surface_numbers.empty()) _piece.surface_numbers.resize(kept);
   for (auto* indices : {&_piece.cells, &_piece.boundary, &_piece.shared_vertices}) {
     for (LocalIndex& v : *indices) v = renumbered[v];
   }

@@ -261,9 +261,7 @@ void read_elements(Source& source, const GroupIds& groups, RawMesh& raw) {
 
 RawMesh read_msh(const parallel::Communicator& communicator, const std::string& path) {
   std::int64_t parts = 0;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) parts = count_parts(path);
-  });
+  parallel::on_root(communicator, [&] { parts = count_parts(path); });
   parts = communicator.sum(parts);
   std::vector<Source> sources;
   parallel::agree(communicator, [&] { sources = open_sources(communicator, path, parts); });

@@ -236,8 +236,7 @@ void write_msh_parts(const FileMesh& mesh, const std::string& path) {
 void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,
                             std::int32_t parts) {
   const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     for (std::int32_t part = parts; fs::remove(names.path(part));) ++part;
   });
 }

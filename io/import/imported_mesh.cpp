@@ -63,11 +63,8 @@ mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& pat
   }
   const std::int64_t size = piece_tets.value_or(partition::suitable_piece_tets(static_cast<double>(tets)));
   const bool one = 2 * tets <= 3 * size;
-  mesh::DistributedMesh result =
-      mesh::repartition(*mesh.pieces, *mesh.numbering,
-                        one ? 1 : static_cast<mesh::PieceId>((tets + size / 2) / size),
-                        mesh::PieceRegions::one)
-          .mesh;
+  mesh::DistributedMesh result = mesh::repartition(
+      *mesh.pieces, one ? 1 : static_cast<mesh::PieceId>((tets + size / 2) / size), mesh::PieceRegions::one);
   classify_vertices(result);
   return result;
 }

@@ -202,8 +202,7 @@ private:
 MeditShare read_medit_binary(const parallel::Communicator& communicator, const std::string& path) {
   std::vector<Widths> widths;
   std::vector<Section> sections;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     RangeReader file(path);
     SectionChain chain(file);
     chain.follow();

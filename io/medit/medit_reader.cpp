@@ -78,9 +78,7 @@ std::string read_names_file(const std::string& path) {
 MeditNames read_names(const parallel::Communicator& communicator, const std::string& mesh_path) {
   const std::string path = medit_names_path(mesh_path);
   std::string text;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) text = read_names_file(path);
-  });
+  parallel::on_root(communicator, [&] { text = read_names_file(path); });
   std::vector<char> bytes(text.begin(), text.end());
   communicator.broadcast_items(bytes);
   MeditNames names;
@@ -92,8 +90,7 @@ MeditNames read_names(const parallel::Communicator& communicator, const std::str
 /// Whether the file is text. Collective.
 bool is_text(const parallel::Communicator& communicator, const std::string& path) {
   std::int64_t text = 0;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     RangeReader file(path);
     // A binary file begins with the bytes 0 or 1.
     text = file.size() > 0 && file.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
@@ -104,9 +101,7 @@ bool is_text(const parallel::Communicator& communicator, const std::string& path
 MeditShare read_share(const parallel::Communicator& communicator, const std::string& path) {
   if (!is_text(communicator, path)) return read_medit_binary(communicator, path);
   MeditShare share;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) share = read_medit_text(path);
-  });
+  parallel::on_root(communicator, [&] { share = read_medit_text(path); });
   return share;
 }
 

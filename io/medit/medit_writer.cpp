@@ -150,9 +150,7 @@ void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptio
       medit_layout(medit_counts_of(mesh), extension == ".mesh" ? MeditEncoding::text : MeditEncoding::binary,
                    options.wide);
   // Old mesh and new names must not stand beside each other.
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) std::filesystem::remove(path);
-  });
+  parallel::on_root(communicator, [&] { std::filesystem::remove(path); });
   parallel::write_shared_file(communicator, medit_names_path(path), [&](parallel::SharedFile& file) {
     if (!communicator.is_root()) return;
     const std::string names = medit_names_text(mesh);

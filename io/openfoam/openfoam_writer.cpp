@@ -292,7 +292,7 @@ int foam_label_bits(GlobalIndex cells, GlobalIndex faces, GlobalIndex points, Gl
 
 void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces, *mesh.numbering);
+  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces);
   const FoamPlan plan = plan_faces(mesh, links);
   const FoamMesh whole{
       mesh, plan, {foam_patches(mesh.patches), foam_words(mesh.regions)}, format_of(mesh, plan, options)};
@@ -300,9 +300,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   const bool is_external =
       std::any_of(mesh.patches.begin(), mesh.patches.end(),
                   [](const mesh::Patch& patch) { return patch.type == mesh::PatchType::farfield; });
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) prepare_case(foam_case);
-  });
+  parallel::on_root(communicator, [&] { prepare_case(foam_case); });
   bool has_fields = true;
   try {
     parallel::agree(communicator, [&] {
@@ -318,9 +316,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
     for (const FilePart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
     throw;
   }
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) retire_meshes(foam_case);
-  });
+  parallel::on_root(communicator, [&] { retire_meshes(foam_case); });
   has_fields = communicator.maximum(std::int64_t{has_fields ? 0 : 1}) == 0;
   parallel::agree(communicator, [&] {
     for (const FilePart& part : mesh.parts) {

@@ -150,9 +150,7 @@ std::string markers_path_of(const std::string& path) {
 }
 
 void remove_markers(const parallel::Communicator& communicator, const std::string& mesh_path) {
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) std::filesystem::remove(markers_path_of(mesh_path));
-  });
+  parallel::on_root(communicator, [&] { std::filesystem::remove(markers_path_of(mesh_path)); });
 }
 
 void write_markers(const std::string& mesh_path, const FileMesh& mesh, const BoundaryPatches& patches,
@@ -167,9 +165,7 @@ void write_markers(const std::string& mesh_path, const FileMesh& mesh, const Bou
 void set_marker_types(const parallel::Communicator& communicator, const std::string& mesh_path,
                       std::vector<mesh::Patch>& patches) {
   std::vector<mesh::PatchType> types;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) types = types_of_markers(markers_path_of(mesh_path), patches);
-  });
+  parallel::on_root(communicator, [&] { types = types_of_markers(markers_path_of(mesh_path), patches); });
   communicator.broadcast_items(types);
   for (std::size_t p = 0; p < patches.size(); ++p) patches[p].type = types[p];
 }

@@ -194,9 +194,7 @@ private:
 
 RawMesh read_su2(const parallel::Communicator& communicator, const std::string& path) {
   RawMesh raw;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) Su2Text(path, raw).read();
-  });
+  parallel::on_root(communicator, [&] { Su2Text(path, raw).read(); });
   communicator.broadcast_value(raw.patches);
   set_marker_types(communicator, path, raw.patches);
   raw.regions = {"fluid"};

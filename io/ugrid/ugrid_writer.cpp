@@ -3,6 +3,7 @@
 #include "io/boundary_patches.hpp"
 #include "io/streams/range_writer.hpp"
 #include "io/ugrid/ugrid_format.hpp"
+#include "mesh/data/bounds.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/storage/shared_file.hpp"
 
@@ -113,7 +114,6 @@ NormalAxis normal_axis_of(const geometry::Box& box) {
 
 /// The box around a patch. Collective.
 geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   geometry::Box box;
   for (const FilePart& part : mesh.parts) {
     for (const Block& block : part.faces) {
@@ -125,11 +125,7 @@ geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
       }
     }
   }
-  const auto low = [&](double value) { return communicator.minimum(value); };
-  const auto high = [&](double value) { return communicator.maximum(value); };
-  box.low = {low(box.low.x), low(box.low.y), low(box.low.z)};
-  box.high = {high(box.high.x), high(box.high.y), high(box.high.z)};
-  return box;
+  return mesh::box_over_ranks(mesh.pieces->communicator, box);
 }
 
 /// Collective.

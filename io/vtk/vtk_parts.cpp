@@ -74,8 +74,7 @@ FilePlan plan_for(const parallel::Communicator& communicator, std::span<const Pa
                       .items = items_of(piece.part, content),
                       .work = work_of(piece.part, content)});
   }
-  auto all = communicator.all_gather_items(std::span<const PartPlace>(places));
-  std::sort(all.begin(), all.end(), [](const PartPlace& a, const PartPlace& b) { return a.id < b.id; });
+  auto all = communicator.gather_sorted(places, &PartPlace::id);
   return plan_files(all, items_per_file, communicator.size());
 }
 
@@ -257,9 +256,7 @@ std::string PartFiles::part_path(std::size_t part) const {
 std::size_t write_parts(const parallel::Communicator& communicator, std::span<const PartPiece> mine,
                         PartContent content, mesh::GlobalIndex items_per_file, const PartFiles& files,
                         const PartWriter& write) {
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) prepare_folder(files);
-  });
+  parallel::on_root(communicator, [&] { prepare_folder(files); });
   const FilePlan plan = plan_for(communicator, mine, content, items_per_file);
   const auto of_this_rank = [&](const PlannedFile& file) { return file.writer == communicator.rank(); };
   parallel::Progress progress("output", std::count_if(plan.files.begin(), plan.files.end(), of_this_rank),
@@ -280,8 +277,7 @@ std::size_t write_parts(const parallel::Communicator& communicator, std::span<co
 
 void write_index(const parallel::Communicator& communicator, const std::string& path,
                  const std::string& text) {
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     const std::string unfinished = path + ".unfinished";
     try {
       LocalFile file(unfinished);

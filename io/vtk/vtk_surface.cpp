@@ -100,14 +100,14 @@ void write_face_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh,
 }
 
 /// The triangles of a surface as faces without runs.
-std::vector<PartPiece> pieces_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering) {
+std::vector<PartPiece> pieces_of(const mesh::NumberedMesh& surface) {
   std::vector<PartPiece> pieces;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     const mesh::Piece& piece = surface.pieces[i];
     PartPiece& view = pieces.emplace_back();
     view.part.id = piece.id;
     view.part.coordinates = piece.coordinates;
-    view.part.numbers = numbering.vertices[i];
+    view.part.numbers = surface.numbering.vertices[i];
     view.part.faces[0] = {3, piece.cells, {}, 0, {}};
     view.triangle_face = piece.triangle_face;
     view.triangle_patch = piece.triangle_patch;
@@ -149,12 +149,12 @@ SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
 
 }  // namespace
 
-void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                   const std::string& directory, const std::string& name, Compression compression) {
+void write_surface(const mesh::NumberedMesh& surface, const std::string& directory, const std::string& name,
+                   Compression compression) {
   const parallel::Communicator& communicator = surface.communicator;
   const PartFiles files{directory, name, "pvtp", "vtp"};
   const std::size_t parts =
-      write_parts(communicator, pieces_of(surface, numbering), PartContent::faces, faces_per_part, files,
+      write_parts(communicator, pieces_of(surface), PartContent::faces, faces_per_part, files,
                   [&](const std::vector<PartPiece>& pieces, const std::string& path) {
                     write_triangle_part(pieces, surface, path, compression);
                   });

@@ -143,9 +143,9 @@ void write_volume(const FileMesh& mesh, const std::string& directory, const std:
               index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
 }
 
-void write_volume(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                  const std::string& directory, const std::string& name, Compression compression) {
-  write_volume(file_mesh_of(mesh, numbering), directory, name, compression);
+void write_volume(const mesh::NumberedMesh& mesh, const std::string& directory, const std::string& name,
+                  Compression compression) {
+  write_volume(file_mesh_of(mesh), directory, name, compression);
 }
 
 }  // namespace aeroloom::io

@@ -36,15 +36,13 @@ constexpr mesh::GlobalIndex cells_per_vtk_file(mesh::GlobalIndex cells) {
 void write_volume(const FileMesh& mesh, const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
 /// Writes a mesh of tetrahedra.
-void write_volume(const mesh::DistributedMesh& mesh, const mesh::Numbering& numbering,
-                  const std::string& directory, const std::string& name,
+void write_volume(const mesh::NumberedMesh& mesh, const std::string& directory, const std::string& name,
                   Compression compression = Compression::none);
 
 /// Writes DIRECTORY/NAME.pvtp and its parts in DIRECTORY/NAME/. Cell arrays `face` and `patch` (ids),
 /// `quality`; field arrays `face_names` and `patch_names`; point array `global_id`. Collective, as
 /// write_volume.
-void write_surface(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                   const std::string& directory, const std::string& name,
+void write_surface(const mesh::NumberedMesh& surface, const std::string& directory, const std::string& name,
                    Compression compression = Compression::none);
 /// Of the patches of a mesh.
 enum class SurfaceFaces { outside, between_regions };

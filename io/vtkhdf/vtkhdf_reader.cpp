@@ -171,9 +171,7 @@ void name_patches(const Communicator& communicator, const std::string& path, con
 
 RawMesh read_vtkhdf(const Communicator& communicator, const std::string& path) {
   FileFacts facts;
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) facts = vtkhdf::survey_file(path);
-  });
+  parallel::on_root(communicator, [&] { facts = vtkhdf::survey_file(path); });
   communicator.broadcast_value(facts);
   RawMesh raw, boundary;
   parallel::agree(communicator, [&] {

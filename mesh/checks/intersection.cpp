@@ -2,7 +2,6 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/runs.hpp"
-#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -299,14 +298,10 @@ std::vector<TriangleHit> find_intersections(const DistributedMesh& surface) {
   using parallel::ScopedCpu;
   std::vector<Batch> batches;
   std::vector<Triangles> contents;
-  parallel::agree(communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
-    cut_into_batches(surface, communicator.rank(), batches, contents);
-  });
-  std::vector<Batch> table = communicator.all_gather_items(std::span<const Batch>(batches));
-  std::sort(table.begin(), table.end(), [](const Batch& a, const Batch& b) {
-    return std::tie(a.piece, a.order) < std::tie(b.piece, b.order);
-  });
+  parallel::collectively(communicator, ScopedCpu::As::task,
+                         [&] { cut_into_batches(surface, communicator.rank(), batches, contents); });
+  std::vector<Batch> table =
+      communicator.gather_sorted(batches, [](const Batch& each) { return std::tie(each.piece, each.order); });
   const std::vector<BatchPair> pairs = [&] {
     const ScopedCpu cpu(ScopedCpu::As::repeated);
     return find_batch_pairs(table, communicator.rank());
@@ -322,10 +317,8 @@ std::vector<TriangleHit> find_intersections(const DistributedMesh& surface) {
         test.run(pair, at_hand.at(pair.lower), at_hand.at(pair.upper), hits);
     }
   }
-  hits = communicator.all_gather_items(std::span<const TriangleHit>(hits));
-  std::sort(hits.begin(), hits.end(), [](const TriangleHit& a, const TriangleHit& b) {
-    return std::tie(a.first_piece, a.first, a.second_piece, a.second) <
-           std::tie(b.first_piece, b.first, b.second_piece, b.second);
+  hits = communicator.gather_sorted(hits, [](const TriangleHit& each) {
+    return std::tie(each.first_piece, each.first, each.second_piece, each.second);
   });
   return hits;
 }

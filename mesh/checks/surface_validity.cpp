@@ -39,7 +39,7 @@ void check_degenerate(const DistributedMesh& mesh, Findings& findings) {
   }
 }
 
-void check_repeated(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+void check_repeated(const NumberedMesh& mesh, Findings& findings) {
   const auto triangles = [](const Piece& piece, const auto& sink) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* v = piece.cell(t);
@@ -50,24 +50,23 @@ void check_repeated(const DistributedMesh& mesh, const Numbering& numbering, Fin
   const auto judge = [](std::span<const Member> members) {
     return members.size() > 1 ? std::optional(Violation::repeated_triangle) : std::nullopt;
   };
-  match_all<3>(mesh, numbering,
-               Matching{{Entity::boundary_face, Entity::boundary_face}, triangles, no_label, judge},
+  match_all<3>(mesh, Matching{{Entity::boundary_face, Entity::boundary_face}, triangles, no_label, judge},
                findings);
 }
 
 }  // namespace
 
-ValidityReport check_surface_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
-  require_checkable(mesh, CellKind::triangle, numbering);
+ValidityReport check_surface_mesh(const NumberedMesh& mesh) {
+  require_checkable(mesh, CellKind::triangle);
   ValidityReport report;
   Findings findings;
-  check_finite_coordinates(mesh, numbering, findings);
-  check_shared_coordinates(mesh, numbering, findings);
-  check_orphans(mesh, numbering, findings);
+  check_finite_coordinates(mesh, findings);
+  check_shared_coordinates(mesh, findings);
+  check_orphans(mesh, findings);
   check_labels(mesh, findings);
   check_degenerate(mesh, findings);
-  check_repeated(mesh, numbering, findings);
-  check_boundary_edges(mesh, numbering, findings);
+  check_repeated(mesh, findings);
+  check_boundary_edges(mesh, findings);
   report.violations = findings.sentences(mesh);
 
   report.region_volumes = enclosed_volumes(mesh);

@@ -26,13 +26,12 @@ struct ValidityReport {
 /// (1e-10), a patch and a CAD face for every boundary face, and, when `surface` is given, that the boundary
 /// triangles are exactly its triangles (by coordinate bits). Memory per rank is bounded by its share of the
 /// faces. Throws CollectiveError when arrays or numbering do not fit the mesh. Collective.
-ValidityReport check_volume_mesh(const DistributedMesh& mesh, const Numbering& numbering,
-                                 const DistributedMesh* surface);
+ValidityReport check_volume_mesh(const NumberedMesh& mesh, const DistributedMesh* surface);
 
 /// Checks a surface mesh: around each region every edge in exactly two triangles with opposite directions (an
 /// even number, half each way, where sheets touch), no degenerate or repeated triangle, no orphan vertices,
 /// positive enclosed volume of each region, a patch and a CAD face for every triangle. Throws as
 /// check_volume_mesh. Collective.
-ValidityReport check_surface_mesh(const DistributedMesh& mesh, const Numbering& numbering);
+ValidityReport check_surface_mesh(const NumberedMesh& mesh);
 
 }  // namespace aeroloom::mesh

@@ -133,33 +133,33 @@ double cone_volume6(const Piece& piece, LocalIndex face, Vec3 apex) {
 
 }  // namespace
 
-void require_checkable(const DistributedMesh& mesh, CellKind kind, const Numbering& numbering) {
+void require_checkable(const NumberedMesh& mesh, CellKind kind) {
   const parallel::Communicator& communicator = mesh.communicator;
   parallel::agree(communicator, [&] {
     if (mesh.kind != kind) throw std::logic_error("the mesh has cells of another kind");
-    bool fits = numbering.vertices.size() == mesh.pieces.size();
+    bool fits = mesh.numbering.vertices.size() == mesh.pieces.size();
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
       require_consistent_arrays(mesh.pieces[i]);
       fits = fits && mesh.pieces[i].kind == kind &&
-             numbering.vertices[i].size() == static_cast<std::size_t>(mesh.pieces[i].vertex_count());
+             mesh.numbering.vertices[i].size() == static_cast<std::size_t>(mesh.pieces[i].vertex_count());
     }
     if (!fits) throw std::logic_error("the numbering does not belong to the mesh");
     if (!has_known_regions(mesh)) throw std::logic_error("the mesh has no such region");
   });
 }
 
-void check_finite_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+void check_finite_coordinates(const NumberedMesh& mesh, Findings& findings) {
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (is_finite(piece.point(v))) continue;
       findings.add(Violation::coordinate_not_finite,
-                   {{numbering.vertices[i][v]}, piece.id, Entity::vertex, v});
+                   {{mesh.numbering.vertices[i][v]}, piece.id, Entity::vertex, v});
     }
   }
 }
 
-void check_orphans(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+void check_orphans(const NumberedMesh& mesh, Findings& findings) {
   std::vector<std::uint8_t> used;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
@@ -169,7 +169,7 @@ void check_orphans(const DistributedMesh& mesh, const Numbering& numbering, Find
     }
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (used[v]) continue;
-      findings.add(Violation::orphan_vertex, {{numbering.vertices[i][v]}, piece.id, Entity::vertex, v});
+      findings.add(Violation::orphan_vertex, {{mesh.numbering.vertices[i][v]}, piece.id, Entity::vertex, v});
     }
   }
 }
@@ -187,14 +187,14 @@ void check_labels(const DistributedMesh& mesh, Findings& findings) {
   }
 }
 
-void check_shared_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+void check_shared_coordinates(const NumberedMesh& mesh, Findings& findings) {
   const parallel::Communicator& communicator = mesh.communicator;
   std::vector<SharedPoint> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     for (const LocalIndex v : piece.shared_vertices) {
       const Vec3 p = piece.point(v);
-      mine.push_back({numbering.vertices[i][v], {p.x, p.y, p.z}, piece.id, v});
+      mine.push_back({mesh.numbering.vertices[i][v], {p.x, p.y, p.z}, piece.id, v});
     }
   }
   const std::vector<SharedPoint> met =
@@ -209,7 +209,7 @@ void check_shared_coordinates(const DistributedMesh& mesh, const Numbering& numb
   });
 }
 
-void check_boundary_edges(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+void check_boundary_edges(const NumberedMesh& mesh, Findings& findings) {
   const auto edges = [&](const Piece& piece, const auto& sink) {
     std::uint32_t item = 0;
     for (LocalIndex f = 0; f < boundary_face_count(piece); ++f) {
@@ -226,8 +226,8 @@ void check_boundary_edges(const DistributedMesh& mesh, const Numbering& numberin
     const FaceSides sides = mesh.sides_of(cad_face_of(piece, face_at_edge(piece, item).face));
     return role == front_role ? sides.front : sides.back;
   };
-  match_all<2>(mesh, numbering,
-               Matching{{Entity::boundary_edge, Entity::boundary_edge}, edges, region, judge_edge}, findings);
+  match_all<2>(mesh, Matching{{Entity::boundary_edge, Entity::boundary_edge}, edges, region, judge_edge},
+               findings);
 }
 
 void CompensatedSum::add(double term) {
@@ -238,10 +238,8 @@ void CompensatedSum::add(double term) {
 
 std::vector<double> sum_by_region(const DistributedMesh& mesh, const std::vector<RegionTerm>& terms) {
   const parallel::Communicator& communicator = mesh.communicator;
-  std::vector<RegionTerm> all = communicator.all_gather_items(std::span<const RegionTerm>(terms));
-  std::sort(all.begin(), all.end(), [](const RegionTerm& a, const RegionTerm& b) {
-    return std::tie(a.region, a.piece) < std::tie(b.region, b.piece);
-  });
+  std::vector<RegionTerm> all = communicator.gather_sorted(
+      terms, [](const RegionTerm& each) { return std::tie(each.region, each.piece); });
   std::vector<CompensatedSum> sums(mesh.region_count());
   for (const RegionTerm& term : all) sums[term.region].add(term.value);
   std::vector<double> values;

@@ -13,19 +13,19 @@ namespace aeroloom::mesh {
 /// Throws CollectiveError when the arrays of a piece do not fit together, cells are of another kind, or the
 /// numbering belongs to another mesh, or regions are named that the mesh does not have: then nothing else can
 /// be checked. Collective.
-void require_checkable(const DistributedMesh& mesh, CellKind kind, const Numbering& numbering);
+void require_checkable(const NumberedMesh& mesh, CellKind kind);
 
 /// Every coordinate is a finite number. Not collective.
-void check_finite_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
+void check_finite_coordinates(const NumberedMesh& mesh, Findings& findings);
 /// Every vertex is used by a cell of its piece, of whatever shape. Not collective.
-void check_orphans(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
+void check_orphans(const NumberedMesh& mesh, Findings& findings);
 /// Every boundary face has one of the mesh's patches and CAD faces. Not collective.
 void check_labels(const DistributedMesh& mesh, Findings& findings);
 /// All pieces agree on the coordinate bits of the vertices they share. Collective.
-void check_shared_coordinates(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
+void check_shared_coordinates(const NumberedMesh& mesh, Findings& findings);
 /// The boundary of each region closes: its triangles and quadrilaterals pass each edge equally often in both
 /// directions. Collective.
-void check_boundary_edges(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings);
+void check_boundary_edges(const NumberedMesh& mesh, Findings& findings);
 
 /// The boundary triangles of `mesh` are exactly the triangles of `surface`, by the bits of their coordinates
 /// and their orientation. Collective.

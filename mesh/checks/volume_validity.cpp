@@ -148,7 +148,7 @@ void enumerate_faces(const Piece& piece, const Sink& sink) {
 
 /// Triangles with N = 3, those of tetrahedra among them; quadrilaterals with N = 4.
 template <std::size_t N>
-void check_faces(const DistributedMesh& mesh, const Numbering& numbering, Findings& findings) {
+void check_faces(const NumberedMesh& mesh, Findings& findings) {
   const auto faces = [](const Piece& piece, const auto& sink) { enumerate_faces<N>(piece, sink); };
   const auto label = [](const Piece& piece, int role, std::int64_t item) {
     if (role != cell_role) return cad_face_of(piece, static_cast<LocalIndex>(item));
@@ -163,7 +163,7 @@ void check_faces(const DistributedMesh& mesh, const Numbering& numbering, Findin
     const FaceSides sides = parts.triangle ? mesh.sides_of(parts.triangle->label) : FaceSides{};
     return parts.cells == 1 ? judge_one_cell(parts, sides) : judge_two_cells(parts, sides);
   };
-  match_all<N>(mesh, numbering,
+  match_all<N>(mesh,
                Matching{{Entity::cell_face, Entity::boundary_face},
                         faces,
                         label,
@@ -200,28 +200,27 @@ void check_volumes(const DistributedMesh& mesh, const char* cells, ValidityRepor
 
 }  // namespace
 
-ValidityReport check_volume_mesh(const DistributedMesh& mesh, const Numbering& numbering,
-                                 const DistributedMesh* surface) {
+ValidityReport check_volume_mesh(const NumberedMesh& mesh, const DistributedMesh* surface) {
   const parallel::Communicator& communicator = mesh.communicator;
-  require_checkable(mesh, CellKind::tetrahedron, numbering);
+  require_checkable(mesh, CellKind::tetrahedron);
   ValidityReport report;
   Findings in_mesh, in_surface;
-  check_finite_coordinates(mesh, numbering, in_mesh);
-  check_shared_coordinates(mesh, numbering, in_mesh);
-  check_orphans(mesh, numbering, in_mesh);
+  check_finite_coordinates(mesh, in_mesh);
+  check_shared_coordinates(mesh, in_mesh);
+  check_orphans(mesh, in_mesh);
   check_labels(mesh, in_mesh);
   const bool mixed = has_other_shapes(mesh);
   check_volumes(mesh, mixed ? "cells" : "tetrahedra", report, in_mesh);
-  check_faces<3>(mesh, numbering, in_mesh);
-  if (mixed) check_faces<4>(mesh, numbering, in_mesh);
+  check_faces<3>(mesh, in_mesh);
+  if (mixed) check_faces<4>(mesh, in_mesh);
   // The boundary of a boundary is nothing: where all faces are sound, the triangles around a region close.
-  if (in_mesh.any(communicator)) check_boundary_edges(mesh, numbering, in_mesh);
+  if (in_mesh.any(communicator)) check_boundary_edges(mesh, in_mesh);
   if (surface != nullptr) check_same_triangles(mesh, *surface, in_mesh, in_surface);
   std::vector<std::string> sentences = in_mesh.sentences(mesh);
   if (surface != nullptr) {
     for (auto& sentence : in_surface.sentences(*surface)) sentences.push_back(sentence);
   }
-  if (numbering.cell_count == 0) sentences.push_back("the mesh has no tetrahedra");
+  if (mesh.numbering.cell_count == 0) sentences.push_back("the mesh has no tetrahedra");
   report.violations.insert(report.violations.begin(), sentences.begin(), sentences.end());
   return report;
 }

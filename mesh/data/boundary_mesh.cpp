@@ -63,7 +63,7 @@ std::vector<LocalIndex> triangles_by_face(const Piece& piece) {
   return order;
 }
 
-DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& numbering) {
+DistributedMesh boundary_mesh(const NumberedMesh& volume) {
   const parallel::Communicator& communicator = volume.communicator;
   DistributedMesh surface(communicator);
   surface.kind = CellKind::triangle;
@@ -75,7 +75,7 @@ DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& nu
   for (std::size_t i = 0; i < volume.pieces.size(); ++i) {
     const Piece& piece = volume.pieces[i];
     const std::vector<LocalIndex> order = triangles_by_face(piece);
-    SkinPiece skin(piece, numbering.vertices[i]);
+    SkinPiece skin(piece, volume.numbering.vertices[i]);
     const auto same_face = [&](LocalIndex a, LocalIndex b) {
       return piece.triangle_face[a] == piece.triangle_face[b];
     };
@@ -86,8 +86,7 @@ DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& nu
         });
   }
   // Ids run by tetrahedral piece, then by face.
-  std::vector<PieceId> all = communicator.all_gather_items<PieceId>(owners);
-  std::sort(all.begin(), all.end());
+  std::vector<PieceId> all = communicator.gather_sorted(owners);
   surface.piece_count = static_cast<PieceId>(all.size());
   for (std::size_t i = 0, run = 0; i < owners.size(); ++i) {
     run = i > 0 && owners[i] == owners[i - 1] ? run + 1 : 0;

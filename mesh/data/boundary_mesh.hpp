@@ -12,7 +12,7 @@ namespace aeroloom::mesh {
 /// in it, in the order of the pieces and faces, on the rank of the tetrahedral piece. Vertices keep their
 /// coordinates and classification; those that several pieces may know are named by their number in the
 /// tetrahedral mesh. Collective.
-DistributedMesh boundary_mesh(const DistributedMesh& volume, const Numbering& numbering);
+DistributedMesh boundary_mesh(const NumberedMesh& volume);
 
 /// What a surface mesh has of triangles: those that one region lies behind, or those that two share.
 enum class SurfacePart : std::uint8_t { outside, between_regions };

@@ -73,18 +73,17 @@ struct Numbering {
   GlobalIndex vertex_count = 0, cell_count = 0;  ///< of the whole mesh
 };
 
-/// A mesh and its numbers.
-struct NumberedMesh {
-  DistributedMesh mesh;
+/// A mesh and its global numbers.
+struct NumberedMesh : DistributedMesh {
   Numbering numbering;
 };
 
 class SharedVertices;
-/// Collective. Pieces that share a shared-vertex key must agree on its coordinates bit for bit; a mismatch
-/// throws on all ranks. `shared` are those of the mesh (mesh/exchange/shared_vertices.hpp), where somebody
-/// has them.
-Numbering number_mesh(const DistributedMesh& mesh);
-Numbering number_mesh(const DistributedMesh& mesh, const SharedVertices& shared);
+/// The mesh with global numbers. Pieces that share a shared-vertex key must agree on its coordinates bit for
+/// bit; a mismatch throws on all ranks. Collective.
+NumberedMesh number_mesh(DistributedMesh mesh);
+/// The numbers alone; `shared` are the shared vertices of the mesh (mesh/exchange/shared_vertices.hpp).
+Numbering find_numbers(const DistributedMesh& mesh, const SharedVertices& shared);
 
 /// The number of each local piece's first cell, and of all cells. Collective.
 void number_cells(const DistributedMesh& mesh, Numbering& numbering);
@@ -99,11 +98,11 @@ struct MeshCounts {
   GlobalIndex pyramids = 0, prisms = 0, boundary_quads = 0, inner_quads = 0;
 };
 /// Collective.
-MeshCounts count_mesh(const DistributedMesh& mesh, const Numbering& numbering);
+MeshCounts count_mesh(const NumberedMesh& mesh);
 
 /// The 128-bit hash of the mesh as 32 hexadecimal digits: coordinate bits, cells, classification, patches and
 /// boundary faces in global numbering, regions. Independent of ranks; flipping any one bit changes it.
 /// Collective.
-std::string hash_mesh(const DistributedMesh& mesh, const Numbering& numbering);
+std::string hash_mesh(const NumberedMesh& mesh);
 
 }  // namespace aeroloom::mesh

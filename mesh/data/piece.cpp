@@ -77,6 +77,8 @@ void require_consistent_arrays(const Piece& piece) {
   require((piece.vertex_dimension.size() == n && piece.vertex_entity.size() == n) ||
               (piece.vertex_dimension.empty() && piece.vertex_entity.empty()),
           piece, "not one classification per vertex");
+  require(piece.surface_numbers.size() == n || piece.surface_numbers.empty(), piece,
+          "not one surface number per vertex");
   require(piece.triangle_face.size() == b && piece.triangle_patch.size() == b, piece,
           "not one face and patch per boundary triangle");
   require(
@@ -102,7 +104,8 @@ std::int64_t bytes_at_rest(const Piece& piece) {
          bytes(piece.vertex_dimension) + bytes(piece.vertex_entity) + bytes(piece.boundary) +
          bytes(piece.triangle_face) + bytes(piece.triangle_patch) + bytes(piece.shared_vertices) +
          bytes(piece.shared_keys) + bytes(piece.pyramids) + bytes(piece.prisms) + bytes(piece.quads) +
-         bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs) + bytes(piece.layers);
+         bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs) + bytes(piece.layers) +
+         bytes(piece.surface_numbers);
 }
 
 }  // namespace aeroloom::mesh

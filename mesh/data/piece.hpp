@@ -65,13 +65,16 @@ struct Piece {
   std::vector<RegionRun> runs;
   /// Of all cells, from 1 at the wall: the boundary layer that each is of; empty: none are of any.
   std::vector<std::int16_t> layers;
+  /// (n) of each vertex in the surface mesh that the volume was made from, -1 off it: while boundary layers
+  /// are built. Else empty. No part of the mesh's hash.
+  std::vector<GlobalIndex> surface_numbers;
 
   static constexpr auto fields() {
     return std::tuple(&Piece::id, &Piece::kind, &Piece::region, &Piece::coordinates, &Piece::cells,
                       &Piece::vertex_dimension, &Piece::vertex_entity, &Piece::boundary,
                       &Piece::triangle_face, &Piece::triangle_patch, &Piece::shared_vertices,
                       &Piece::shared_keys, &Piece::pyramids, &Piece::prisms, &Piece::quads, &Piece::quad_face,
-                      &Piece::quad_patch, &Piece::runs, &Piece::layers);
+                      &Piece::quad_patch, &Piece::runs, &Piece::layers, &Piece::surface_numbers);
   }
 
   int vertices_per_cell() const { return static_cast<int>(kind); }

@@ -6,7 +6,6 @@
 #include "parallel/communication/deliver.hpp"
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -28,8 +27,7 @@ std::vector<Row> gather_by_piece(const DistributedMesh& mesh, const std::vector<
   };
   std::vector<Tagged> mine(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) mine[i] = {rows[i], mesh.pieces[i].id};
-  std::vector<Tagged> all = communicator.all_gather_items(std::span<const Tagged>(mine));
-  std::sort(all.begin(), all.end(), [](const Tagged& a, const Tagged& b) { return a.piece < b.piece; });
+  std::vector<Tagged> all = communicator.gather_sorted(mine, &Tagged::piece);
   bool complete = all.size() == static_cast<std::size_t>(mesh.piece_count);
   for (std::size_t i = 0; complete && i < all.size(); ++i) complete = all[i].piece == static_cast<PieceId>(i);
   if (!complete) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
 namespace aeroloom::mesh {
 
@@ -30,9 +29,8 @@ KeyRanges fair_ranges(const parallel::Communicator& communicator, std::vector<Gl
   std::vector<GlobalIndex> samples;
   for (GlobalIndex i = step / 2; i < static_cast<GlobalIndex>(keys.size()); i += step)
     samples.push_back(keys[static_cast<std::size_t>(i)]);
-  samples = communicator.all_gather_items(std::span<const GlobalIndex>(samples));
+  samples = communicator.gather_sorted(samples);
   if (samples.empty()) return even_ranges(communicator.size(), limit);
-  std::sort(samples.begin(), samples.end());
   KeyRanges ranges;
   ranges.first.push_back(0);
   for (GlobalIndex r = 1; r < ranks; ++r)

@@ -172,9 +172,7 @@ std::vector<std::string> Findings::sentences(const DistributedMesh& mesh) const 
   const bool here = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
                                 [](const Piece& piece) { return !piece.has_tetrahedra_alone(); });
   const bool is_mixed = communicator.maximum(std::int64_t{here}) > 0;
-  std::vector<OffenderPlace> places = communicator.all_gather_items(std::span<const OffenderPlace>(mine));
-  std::sort(places.begin(), places.end(),
-            [](const OffenderPlace& a, const OffenderPlace& b) { return a.violation < b.violation; });
+  std::vector<OffenderPlace> places = communicator.gather_sorted(mine, &OffenderPlace::violation);
   std::vector<std::string> result;
   for (const OffenderPlace& place : places) {
     const auto& [count, first] = table[static_cast<std::size_t>(place.violation)];

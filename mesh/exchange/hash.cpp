@@ -165,7 +165,7 @@ std::vector<GlobalIndex> first_faces(const DistributedMesh& mesh, FaceShape shap
 
 }  // namespace
 
-std::string hash_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
+std::string hash_mesh(const NumberedMesh& mesh) {
   const parallel::Communicator& communicator = mesh.communicator;
   const std::vector<GlobalIndex> first_triangle = first_faces(mesh, FaceShape::triangle),
                                  first_quad = first_faces(mesh, FaceShape::quadrilateral);
@@ -173,12 +173,12 @@ std::string hash_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
   if (mesh.kind == CellKind::tetrahedron) add_regions(mesh, mine);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
-    add_vertices(piece, numbering.vertices[i], numbering.owned[i], mine);
+    add_vertices(piece, mesh.numbering.vertices[i], mesh.numbering.owned[i], mine);
     if (mesh.kind == CellKind::tetrahedron)
-      add_cells(piece, numbering.vertices[i], numbering.first_cell[i], mine);
-    add_other_cells(piece, numbering.vertices[i], numbering.first_cell[i], mine);
-    add_triangles(piece, numbering.vertices[i], first_triangle[i], mine);
-    add_quads(piece, numbering.vertices[i], first_quad[i], mine);
+      add_cells(piece, mesh.numbering.vertices[i], mesh.numbering.first_cell[i], mine);
+    add_other_cells(piece, mesh.numbering.vertices[i], mesh.numbering.first_cell[i], mine);
+    add_triangles(piece, mesh.numbering.vertices[i], first_triangle[i], mine);
+    add_quads(piece, mesh.numbering.vertices[i], first_quad[i], mine);
   }
   Sum128 sum;
   for (const Sum128& part : communicator.all_gather_items(std::span<const Sum128>(&mine, 1))) sum.add(part);
@@ -188,7 +188,8 @@ std::string hash_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
   add_sides(mesh.sides, sum);
 
   ItemHash whole(ItemKind::whole, static_cast<GlobalIndex>(mesh.kind));
-  for (const GlobalIndex count : {numbering.vertex_count, numbering.cell_count, first_triangle.back()}) {
+  for (const GlobalIndex count :
+       {mesh.numbering.vertex_count, mesh.numbering.cell_count, first_triangle.back()}) {
     whole.add_signed(count);
   }
   whole.add(std::uint64_t{mesh.patches.size()});

@@ -91,9 +91,10 @@ public:
   Matcher(const Matching<Enumerate, Label, Judge>& what, Findings& findings)
       : _what(what), _findings(findings) {}
 
-  void match(const DistributedMesh& mesh, const Numbering& numbering) {
+  void match(const NumberedMesh& mesh) {
     const parallel::Communicator& communicator = mesh.communicator;
-    for (std::size_t i = 0; i < mesh.pieces.size(); ++i) match_inside(mesh.pieces[i], numbering.vertices[i]);
+    for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
+      match_inside(mesh.pieces[i], mesh.numbering.vertices[i]);
     match_across(communicator);
   }
 
@@ -261,9 +262,8 @@ private:
 
 /// Matches and judges all faces (N = 3, 4) or edges (N = 2). See Matcher. Collective.
 template <std::size_t N, class Enumerate, class Label, class Judge>
-void match_all(const DistributedMesh& mesh, const Numbering& numbering,
-               const Matching<Enumerate, Label, Judge>& what, Findings& findings) {
-  Matcher<N, Enumerate, Label, Judge>(what, findings).match(mesh, numbering);
+void match_all(const NumberedMesh& mesh, const Matching<Enumerate, Label, Judge>& what, Findings& findings) {
+  Matcher<N, Enumerate, Label, Judge>(what, findings).match(mesh);
 }
 
 }  // namespace aeroloom::mesh

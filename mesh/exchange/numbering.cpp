@@ -103,15 +103,15 @@ void spread_numbers(const SharedVertices& shared, Numbering& numbering) {
 
 }  // namespace
 
-Numbering number_mesh(const DistributedMesh& mesh) {
-  const parallel::Communicator& communicator = mesh.communicator;
-  parallel::agree(communicator, [&] {
+NumberedMesh number_mesh(DistributedMesh mesh) {
+  parallel::agree(mesh.communicator, [&] {
     for (const Piece& piece : mesh.pieces) require_consistent_arrays(piece);
   });
-  return number_mesh(mesh, SharedVertices(mesh));
+  Numbering numbering = find_numbers(mesh, SharedVertices(mesh));
+  return {std::move(mesh), std::move(numbering)};
 }
 
-Numbering number_mesh(const DistributedMesh& mesh, const SharedVertices& shared) {
+Numbering find_numbers(const DistributedMesh& mesh, const SharedVertices& shared) {
   require_agreement(mesh, shared);
   Numbering numbering = mark_owned(mesh, shared);
   number_owned(mesh, numbering);
@@ -128,9 +128,9 @@ void number_cells(const DistributedMesh& mesh, Numbering& numbering) {
   numbering.first_cell.pop_back();
 }
 
-MeshCounts count_mesh(const DistributedMesh& mesh, const Numbering& numbering) {
+MeshCounts count_mesh(const NumberedMesh& mesh) {
   const parallel::Communicator& communicator = mesh.communicator;
-  MeshCounts mine{numbering.vertex_count, numbering.cell_count};
+  MeshCounts mine{mesh.numbering.vertex_count, mesh.numbering.cell_count};
   for (const Piece& piece : mesh.pieces) {
     for (const std::int32_t face : piece.triangle_face)
       ++(mesh.sides_of(face).is_inner() ? mine.inner_triangles : mine.boundary_triangles);

@@ -98,12 +98,13 @@ std::vector<Introduction> introduce(const parallel::Communicator& communicator,
 
 }  // namespace
 
-FaceLinks link_faces(const DistributedMesh& mesh, const Numbering& numbering) {
+FaceLinks link_faces(const NumberedMesh& mesh) {
   const parallel::Communicator& communicator = mesh.communicator;
   FaceLinks links;
   std::vector<LoneSide> lone;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-    links.pieces.push_back(PieceLinker(mesh.pieces[i], numbering.vertices[i], lone, links.defects).link());
+    links.pieces.push_back(
+        PieceLinker(mesh.pieces[i], mesh.numbering.vertices[i], lone, links.defects).link());
   for (const auto& [cell, neighbour] : introduce(communicator, lone, links.defects)) {
     const std::size_t at = position_of(mesh, cell.piece);
     links.pieces[at]

@@ -47,7 +47,7 @@ struct FaceLinks {
 
 /// Matches the faces of all cells by the numbers of their vertices; only sides that find no other cell in
 /// their piece travel. Takes 16 bytes a side: the checks of mesh/checks/validity.hpp do without. Collective.
-FaceLinks link_faces(const DistributedMesh& mesh, const Numbering& numbering);
+FaceLinks link_faces(const NumberedMesh& mesh);
 
 /// Something that a cell, or its piece, is told.
 template <parallel::Flat T>

@@ -180,14 +180,14 @@ double MixedQuality::worst_of(Measure measure, double otherwise) const {
   return cells.empty() ? otherwise : cells.front().value;
 }
 
-MixedQuality measure_quality(const DistributedMesh& mesh, const Numbering& numbering,
-                             const FaceLinks& links) {
+MixedQuality measure_quality(const NumberedMesh& mesh, const FaceLinks& links) {
   const parallel::Communicator& communicator = mesh.communicator;
   LocalQuality local;
   {
     const NeighbourVolumes neighbours = compare_volumes(mesh, links);
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-      local.add_piece(mesh.pieces[i], numbering.first_cell[i], neighbours.volumes[i], neighbours.ratios[i]);
+      local.add_piece(mesh.pieces[i], mesh.numbering.first_cell[i], neighbours.volumes[i],
+                      neighbours.ratios[i]);
   }
   SumsOfShapes sums{};
   for (const SumsOfShapes& piece : gather_by_piece(mesh, local.sums)) {
@@ -195,7 +195,7 @@ MixedQuality measure_quality(const DistributedMesh& mesh, const Numbering& numbe
       for (std::size_t m = 0; m < measure_count; ++m) sums[s][m] += piece[s][m];
     }
   }
-  const MeshCounts counts = count_mesh(mesh, numbering);
+  const MeshCounts counts = count_mesh(mesh);
   const std::array<GlobalIndex, cell_shape_count> cells = {counts.cells - counts.pyramids - counts.prisms,
                                                            counts.pyramids, counts.prisms};
   MixedQuality result;

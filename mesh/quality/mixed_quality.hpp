@@ -65,6 +65,6 @@ struct MixedQuality {
 
 /// `links` are those of the mesh. Collective; the same on every rank and for any number of ranks (sums are
 /// taken in the order of pieces).
-MixedQuality measure_quality(const DistributedMesh& mesh, const Numbering& numbering, const FaceLinks& links);
+MixedQuality measure_quality(const NumberedMesh& mesh, const FaceLinks& links);
 
 }  // namespace aeroloom::mesh

@@ -71,7 +71,6 @@ struct CellsOutside {
 
 /// Cells of boundary layers are left out. `outside`, if any, is filled in on the way. Collective; the same on
 /// every rank and for any number of ranks (sums are taken in piece order).
-QualitySummary summarise_quality(const DistributedMesh& mesh, const Numbering& numbering,
-                                 CellsOutside* outside = nullptr);
+QualitySummary summarise_quality(const NumberedMesh& mesh, CellsOutside* outside = nullptr);
 
 }  // namespace aeroloom::mesh

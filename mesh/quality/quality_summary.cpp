@@ -83,7 +83,7 @@ struct LocalSummary {
   std::vector<WorstCell> worst;
 };
 
-LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbering, CellsOutside& outside) {
+LocalSummary summarise_local(const NumberedMesh& mesh, CellsOutside& outside) {
   LocalSummary local;
   for (const Scale& scale : scales) local.measure.emplace_back(scale);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -97,7 +97,7 @@ LocalSummary summarise_local(const DistributedMesh& mesh, const Numbering& numbe
         local.measure[m].add(values.of[m], scales[m]);
         sum.of[m] += values.of[m];
       }
-      const WorstCell candidate{values.of[min_angle], numbering.first_cell[i] + c, {}};
+      const WorstCell candidate{values.of[min_angle], mesh.numbering.first_cell[i] + c, {}};
       if (local.worst.size() < worst_kept || worse(candidate, local.worst.back())) {
         local.worst.push_back({candidate.value, candidate.cell, center_of(piece, c)});
         keep_worst(local.worst);
@@ -127,11 +127,10 @@ Distribution distribution_of(const parallel::Communicator& communicator, Accumul
 
 }  // namespace
 
-QualitySummary summarise_quality(const DistributedMesh& mesh, const Numbering& numbering,
-                                 CellsOutside* outside) {
+QualitySummary summarise_quality(const NumberedMesh& mesh, CellsOutside* outside) {
   const parallel::Communicator& communicator = mesh.communicator;
   CellsOutside nobody_asks;
-  LocalSummary local = summarise_local(mesh, numbering, outside != nullptr ? *outside : nobody_asks);
+  LocalSummary local = summarise_local(mesh, outside != nullptr ? *outside : nobody_asks);
   Values sums{};
   for (const Values& piece : gather_by_piece(mesh, local.sums)) {
     for (int m = 0; m < measures; ++m) sums.of[m] += piece.of[m];

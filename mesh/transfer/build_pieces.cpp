@@ -162,9 +162,8 @@ void order_vertices(Piece& piece, std::vector<GlobalIndex>& numbers, std::vector
 NumberedMesh build_pieces(PieceItems items, const VertexTables& vertices, Ownership ownership,
                           DistributedMesh names) {
   const parallel::Communicator communicator = names.communicator;
-  NumberedMesh result{std::move(names), {}};
-  DistributedMesh& mesh = result.mesh;
-  Numbering& numbering = result.numbering;
+  NumberedMesh mesh{std::move(names), {}};
+  Numbering& numbering = mesh.numbering;
   for_each_cell_shape([&](auto s) { send_items(communicator, mesh.piece_count, std::get<s>(items.cells)); });
   for_each_face_shape([&](auto s) { send_items(communicator, mesh.piece_count, std::get<s>(items.faces)); });
   const GlobalIndex count = vertices.points.count();
@@ -185,11 +184,11 @@ NumberedMesh build_pieces(PieceItems items, const VertexTables& vertices, Owners
   fetch_vertices(vertices, known, mesh.pieces);
   SharedVertices shared(mesh);
   if (ownership == Ownership::by_piece) {
-    numbering = number_mesh(mesh, shared);
+    numbering = find_numbers(mesh, shared);
     shared.drop_unshared(mesh);
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
       order_vertices(mesh.pieces[i], numbering.vertices[i], numbering.owned[i]);
-    return result;
+    return mesh;
   }
   shared.drop_unshared(mesh);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
@@ -200,7 +199,7 @@ NumberedMesh build_pieces(PieceItems items, const VertexTables& vertices, Owners
   numbering.vertices = std::move(known);
   numbering.vertex_count = count;
   number_cells(mesh, numbering);
-  return result;
+  return mesh;
 }
 
 }  // namespace aeroloom::mesh

@@ -240,10 +240,10 @@ private:
 
 /// Calls visit(number, piece, vertex) for the vertices that pieces of this rank own.
 template <class Visit>
-void for_each_owned(const DistributedMesh& mesh, const Numbering& numbering, const Visit& visit) {
+void for_each_owned(const NumberedMesh& mesh, const Visit& visit) {
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
-      if (numbering.owned[p][v]) visit(numbering.vertices[p][v], mesh.pieces[p], v);
+      if (mesh.numbering.owned[p][v]) visit(mesh.numbering.vertices[p][v], mesh.pieces[p], v);
     }
   }
 }
@@ -260,8 +260,7 @@ DistributedMesh names_of(const DistributedMesh& mesh) {
 
 }  // namespace
 
-NumberedMesh repartition(const DistributedMesh& mesh, const Numbering& numbering, PieceId pieces,
-                         PieceRegions regions) {
+NumberedMesh repartition(const NumberedMesh& mesh, PieceId pieces, PieceRegions regions) {
   const parallel::Communicator& communicator = mesh.communicator;
   DistributedMesh names = names_of(mesh);
   PieceItems items;
@@ -269,16 +268,16 @@ NumberedMesh repartition(const DistributedMesh& mesh, const Numbering& numbering
     const Cutter cutter(mesh, std::max(1, pieces), regions);
     names.piece_count = cutter.piece_count();
     for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-      ItemsOfPiece of_piece(mesh.pieces[p], numbering.vertices[p], items);
+      ItemsOfPiece of_piece(mesh.pieces[p], mesh.numbering.vertices[p], items);
       of_piece.add_cells(cutter.pieces_of(p));
       of_piece.add_faces(pieces_of_faces(mesh.pieces[p], cutter.pieces_of(p)));
     }
   }
-  const KeyRanges ranges = even_ranges(communicator.size(), numbering.vertex_count);
+  const KeyRanges ranges = even_ranges(communicator.size(), mesh.numbering.vertex_count);
   std::vector<PointTable::KeyedValue> points;
   std::vector<VertexClassTable::KeyedValue> classes;
   bool is_classified = true;
-  for_each_owned(mesh, numbering, [&](GlobalIndex number, const Piece& piece, LocalIndex v) {
+  for_each_owned(mesh, [&](GlobalIndex number, const Piece& piece, LocalIndex v) {
     const geometry::Vec3 p = piece.point(v);
     points.push_back({number, {p.x, p.y, p.z}});
     if (piece.vertex_dimension.empty()) {

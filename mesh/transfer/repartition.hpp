@@ -15,7 +15,7 @@ enum class PieceRegions : std::uint8_t { several, one };
 /// PieceRegions::one each region gets its share of them, one at least. Cells come by region, boundary faces
 /// by patch; vertices are numbered anew by the lowest piece that knows them, shared-vertex keys are the old
 /// numbers. Collective; the same for any number of ranks.
-NumberedMesh repartition(const DistributedMesh& mesh, const Numbering& numbering, PieceId pieces,
+NumberedMesh repartition(const NumberedMesh& mesh, PieceId pieces,
                          PieceRegions regions = PieceRegions::several);
 
 }  // namespace aeroloom::mesh

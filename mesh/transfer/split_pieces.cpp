@@ -137,28 +137,26 @@ NumberedMesh split_pieces(const DistributedMesh& surface, LocalIndex most,
   const std::vector<std::int32_t> all_counts = gather_by_piece(surface, counts);
   std::vector<PieceId> first(1, 0);
   for (const std::int32_t count : all_counts) first.push_back(first.back() + count);
-  NumberedMesh result;
-  result.mesh = DistributedMesh(communicator, surface);
-  result.mesh.piece_count = first.back();
+  DistributedMesh result(communicator, surface);
+  result.piece_count = first.back();
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const Piece& piece = surface.pieces[p];
     if (counts[p] == 1) {
-      result.mesh.pieces.push_back(piece);
-      result.mesh.pieces.back().id = first[piece.id];
+      result.pieces.push_back(piece);
+      result.pieces.back().id = first[piece.id];
       continue;
     }
     Halving halving(piece);
     const auto parts = halving.parts(counts[p]);
     PartBuilder builder(piece, parts);
     for (std::size_t i = 0; i < parts.size(); ++i)
-      result.mesh.pieces.push_back(builder.build(first[piece.id] + static_cast<PieceId>(i), parts[i]));
+      result.pieces.push_back(builder.build(first[piece.id] + static_cast<PieceId>(i), parts[i]));
   }
   std::vector<double> loads;
-  for (const Piece& piece : result.mesh.pieces) loads.push_back(piece.cell_count());
-  loads = gather_by_piece(result.mesh, loads);
-  migrate(result.mesh, parallel::assign_in_order(loads, communicator.size()));
-  result.numbering = number_mesh(result.mesh);
-  return result;
+  for (const Piece& piece : result.pieces) loads.push_back(piece.cell_count());
+  loads = gather_by_piece(result, loads);
+  migrate(result, parallel::assign_in_order(loads, communicator.size()));
+  return number_mesh(std::move(result));
 }
 
 }  // namespace aeroloom::mesh

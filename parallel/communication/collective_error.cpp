@@ -77,4 +77,10 @@ void agree(const Communicator& communicator, const std::function<void()>& work) 
   throw CollectiveError(failure.kind, failure.message);
 }
 
+void on_root(const Communicator& communicator, const std::function<void()>& work) {
+  agree(communicator, [&] {
+    if (communicator.is_root()) work();
+  });
+}
+
 }  // namespace aeroloom::parallel

@@ -28,6 +28,8 @@ private:
 /// Collective. `work` must not itself call collectives that a failing rank would not reach; a CollectiveError
 /// thrown inside (by a nested collective) passes through unchanged, because all ranks have it already.
 void agree(const Communicator& communicator, const std::function<void()>& work);
+/// As agree(), of work that rank 0 alone does.
+void on_root(const Communicator& communicator, const std::function<void()>& work);
 /// Whether this rank is at the work of an agree(): what it throws now, all will learn of.
 bool is_agreeing();
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -73,6 +74,10 @@ public:
   /// Concatenation of every rank's items in rank order, on every rank.
   template <Flat T>
   std::vector<T> all_gather_items(std::span<const T> mine) const;
+  /// As all_gather_items, in ascending order of key(item), a member or a function: the same order on any
+  /// number of ranks where keys differ.
+  template <Flat T, class Key = std::identity>
+  std::vector<T> gather_sorted(const std::vector<T>& mine, const Key& key = {}) const;
   template <Flat T>
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 

@@ -26,6 +26,14 @@ std::vector<T> Communicator::all_gather_items(std::span<const T> mine) const {
   }
 }
 
+template <Flat T, class Key>
+std::vector<T> Communicator::gather_sorted(const std::vector<T>& mine, const Key& key) const {
+  std::vector<T> all = all_gather_items(std::span<const T>(mine));
+  std::sort(all.begin(), all.end(),
+            [&](const T& a, const T& b) { return std::invoke(key, a) < std::invoke(key, b); });
+  return all;
+}
+
 template <Flat T>
 void Communicator::broadcast_items(std::vector<T>& items, Rank root) const {
   Bytes bytes = to_bytes(std::span<const T>(items));

@@ -1,5 +1,6 @@
 #include "parallel/observation/timers.hpp"
 
+#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/session.hpp"
 #include "parallel/observation/process_memory.hpp"
 #include "parallel/observation/progress.hpp"
@@ -291,6 +292,13 @@ ScopedCpu::~ScopedCpu() {
   (_as == As::check ? cost.check_cpu_seconds : cost.task_cpu_seconds) += used;
   if (_as == As::serial || _as == As::repeated) cost.serial_cpu_seconds += used;
   if (_as == As::repeated) cost.repeated_cpu_seconds += used;
+}
+
+void collectively(const Communicator& communicator, ScopedCpu::As as, const std::function<void()>& work) {
+  agree(communicator, [&] {
+    const ScopedCpu cpu(as);
+    work();
+  });
 }
 
 }  // namespace aeroloom::parallel

@@ -6,6 +6,7 @@
 #include "parallel/observation/task_kind.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -154,5 +155,8 @@ private:
   As _as;
   double _start, _scoped_before;
 };
+
+/// As agree() (parallel/communication/collective_error.hpp), and counts the CPU time of the work.
+void collectively(const Communicator& communicator, ScopedCpu::As as, const std::function<void()>& work);
 
 }  // namespace aeroloom::parallel

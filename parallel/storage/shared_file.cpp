@@ -99,9 +99,7 @@ void SharedFile::write(std::int64_t offset, std::span<const std::byte> bytes) {
 void write_shared_file(const Communicator& communicator, const std::string& path,
                        const std::function<void(SharedFile&)>& work, Named named) {
   SharedFile::Handle handle{path + ".unfinished", MPI_FILE_NULL};
-  agree(communicator, [&] {
-    if (communicator.is_root()) prepare(path, handle.path);
-  });
+  on_root(communicator, [&] { prepare(path, handle.path); });
   const int opened = waiting_for_others([&] {
     return MPI_File_open(host_communicator(communicator), handle.path.c_str(),
                          MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &handle.file);
@@ -110,9 +108,7 @@ void write_shared_file(const Communicator& communicator, const std::string& path
     // Closing is collective: where some ranks have not opened the file, the others cannot close it.
     agree(communicator, [&] { require_success(opened, "cannot create", handle.path); });
     work_and_close(communicator, handle, work, named);
-    agree(communicator, [&] {
-      if (communicator.is_root()) fs::rename(handle.path, path);
-    });
+    on_root(communicator, [&] { fs::rename(handle.path, path); });
   } catch (const CollectiveError&) {
     if (communicator.is_root()) {
       std::error_code ignored;

@@ -62,8 +62,7 @@ TaskStore::TaskStore(Communicator communicator, std::string folder, std::string 
       _name(std::move(name)),
       _context(context) {
   std::vector<FileName> files;
-  agree(_communicator, [&] {
-    if (!_communicator.is_root()) return;
+  on_root(_communicator, [&] {
     fs::create_directories(_folder);
     if (earlier == Earlier::forget) remove_files();
     files = list_files();
@@ -176,9 +175,7 @@ void TaskStore::remove() {
   _file.reset();
   _places.clear();
   _communicator.barrier();
-  agree(_communicator, [&] {
-    if (_communicator.is_root()) remove_files();
-  });
+  on_root(_communicator, [&] { remove_files(); });
 }
 
 }  // namespace aeroloom::parallel

@@ -103,9 +103,7 @@ int with_case(const Communicator& communicator, const CaseArguments& arguments, 
 }
 
 void print(const Communicator& communicator, const std::string& text) {
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) report::print_text(parallel::printable(text));
-  });
+  parallel::on_root(communicator, [&] { report::print_text(parallel::printable(text)); });
 }
 
 int fail(const Communicator& communicator, report::ExitCode code, const std::string& message) {

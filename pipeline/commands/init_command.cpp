@@ -97,9 +97,7 @@ Command add_init(CLI::App& program) {
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
             return guarded(communicator, report::ExitCode::usage, [&] {
-              parallel::agree(communicator, [&] {
-                if (communicator.is_root()) write_template(*arguments);
-              });
+              parallel::on_root(communicator, [&] { write_template(*arguments); });
               return report::ExitCode::ok;
             });
           }};

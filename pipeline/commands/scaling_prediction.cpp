@@ -111,9 +111,8 @@ report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<i
 
 report::ExitCode measure_network(const parallel::Communicator& communicator, const std::string& file) {
   const parallel::NetworkProbe probe = parallel::probe_network(communicator);
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) report::write_text(file, to_json(probe, communicator.size()).dump(1) + "\n");
-  });
+  parallel::on_root(communicator,
+                    [&] { report::write_text(file, to_json(probe, communicator.size()).dump(1) + "\n"); });
   print(communicator, describe(probe, communicator.size(), file));
   return report::ExitCode::ok;
 }

@@ -82,9 +82,7 @@ Command add_schema(CLI::App& program) {
   return {app, [arguments](const parallel::Communicator& communicator, const Loudness& loudness) {
             parallel::configure_log(communicator, loudness.level());
             return guarded(communicator, report::ExitCode::usage, [&] {
-              parallel::agree(communicator, [&] {
-                if (communicator.is_root()) write_or_print(*arguments);
-              });
+              parallel::on_root(communicator, [&] { write_or_print(*arguments); });
               if (!arguments->output.empty()) parallel::log_info("wrote " + arguments->output);
               return report::ExitCode::ok;
             });

@@ -41,8 +41,7 @@ void tell_older(const std::vector<std::string>& files, const std::string& folder
 
 /// Hours of meshing are not lost on a folder that was mistyped.
 void require_writable_folder(const Communicator& communicator, const std::string& folder) {
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     std::filesystem::create_directories(folder);
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
       throw std::filesystem::filesystem_error("cannot write into", folder,

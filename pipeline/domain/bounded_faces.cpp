@@ -1,6 +1,6 @@
 #include "pipeline/domain/bounded_faces.hpp"
 
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
 
 #include <algorithm>
 #include <map>
@@ -29,21 +29,21 @@ double share_of_body(const std::vector<NamedBound>& faces) {
 
 }  // namespace
 
-std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
+std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
                                              const sizing::SizingOptions& sizes) {
-  const cad::Model& model = sampler.model();
+  const cad::Model& model = factory.model();
   std::map<std::string, NamedBound> by_name;
-  for (const sizing::BoundedFace& each : sampler.faces_bounded_by_minimum(sizes)) {
+  for (const sizing::BoundedFace& each : factory.faces_bounded_by_minimum(sizes)) {
     NamedBound& bound = by_name[model.face(each.face).name];
-    bound.share_of_body += each.fraction * sampler.area(each.face);
+    bound.share_of_body += each.fraction * factory.sampled().area(each.face);
     bound.degrees = std::max(bound.degrees, std::min(each.degrees, half_turn));
   }
   std::map<std::string, double> areas;
   double body = 0;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     if (model.is_far_field(f)) continue;
-    areas[model.face(f).name] += sampler.area(f);
-    body += sampler.area(f);
+    areas[model.face(f).name] += factory.sampled().area(f);
+    body += factory.sampled().area(f);
   }
   std::vector<NamedBound> faces;
   for (auto& [name, bound] : by_name) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-class ModelSampler;
+class FieldFactory;
 }
 
 namespace aeroloom::domain {
@@ -27,7 +27,7 @@ struct NamedBound {
 };
 
 /// The bounded faces of a model, the largest fractions first. Collective.
-std::vector<NamedBound> report_bounded_faces(sizing::ModelSampler& sampler,
+std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
                                              const sizing::SizingOptions& sizes);
 
 /// One line of a few of them; empty where there are none of any extent.

@@ -17,8 +17,7 @@ cases::TypedPatches find_patches(const parallel::Communicator& communicator, con
   std::string refused;
   cases::FacePatches chosen;
   parallel::Bytes bytes;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::serial);
     try {
       chosen = cases::choose_patches(model, input.groups, input.patches);

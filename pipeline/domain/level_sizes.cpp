@@ -43,11 +43,11 @@ cases::SizingRequest with_bounds(const cases::SizingRequest& request, const sizi
 /// A model under one level after another.
 class Levels {
 public:
-  Levels(sizing::ModelSampler& sampler, const cases::SizingRequest& request)
-      : _sampler(sampler),
+  Levels(sizing::FieldFactory& factory, const cases::SizingRequest& request)
+      : _factory(factory),
         _request(request),
         _flow(normalized(request.flow.value_or(cases::default_flow))),
-        _bodies(sizing::find_lifting_bodies(sampler, _flow, request.lifting)) {
+        _bodies(sizing::find_lifting_bodies(factory.sampled(), _flow, request.lifting)) {
     if (!_bodies.elements.empty()) return;
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
@@ -63,11 +63,11 @@ public:
   sizing::LevelSizes sizes(Level level) const {
     return sizing::sizes_of(level, _request.family, _request.solver);
   }
-  /// The request with the level's bounds; what it asks for along lines the sampler's fields ask for from now
+  /// The request with the level's bounds; what it asks for along lines the factory's fields ask for from now
   /// on.
   cases::SizingRequest take(Level level) {
-    _sampler.demand(sizing::level_lines(_sampler.model(), _bodies, sizes(level), _flow));
-    return with_bounds(_request, sizing::level_bounds(_sampler.model(), _bodies, sizes(level)));
+    _factory.demand(sizing::level_lines(_factory.model(), _bodies, sizes(level), _flow));
+    return with_bounds(_request, sizing::level_bounds(_factory.model(), _bodies, sizes(level)));
   }
   /// The finest one up to that asked for which the budget holds. Counts of a family go with the cube of its
   /// factors, so the coarsest tells where to look; what is found is counted itself.
@@ -98,23 +98,23 @@ public:
 private:
   double count(Level level) {
     const sizing::SizingOptions options = sizing::with_given({}, take(level));
-    return sizing::apply_sizes(_sampler, options, sizing::FieldFor::forecast).counts.tetrahedra;
+    return sizing::apply_sizes(_factory, options, sizing::FieldFor::forecast).counts.tetrahedra;
   }
 
-  sizing::ModelSampler& _sampler;
+  sizing::FieldFactory& _factory;
   const cases::SizingRequest& _request;
   geometry::Vec3 _flow;
   sizing::LiftingBodies _bodies;
 };
 
 /// Where the file is the fluid, no key moves the far field.
-void warn_of_near_far_field(const sizing::ModelSampler& sampler, const LevelFindings& found,
+void warn_of_near_far_field(const sizing::FieldFactory& factory, const LevelFindings& found,
                             double semispans) {
   constexpr double near = 0.9;  // of the distance that the level has: boxes are measured along axes
-  const cad::Model& model = sampler.model();
+  const cad::Model& model = factory.model();
   for (cad::FaceId f = 0; f < model.face_count(); ++f)
     if (model.is_far_field(f)) return;
-  if (found.far_field > near * semispans || !sampler.communicator().is_root()) return;
+  if (found.far_field > near * semispans || !factory.sampled().communicator().is_root()) return;
   parallel::log_warning(
       fmt::format("sizing.level: the level has its far field {:.3g} semispans away, that of the file is "
                   "{:.2g} away",
@@ -123,19 +123,19 @@ void warn_of_near_far_field(const sizing::ModelSampler& sampler, const LevelFind
 
 }  // namespace
 
-LevelRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request) {
-  Levels levels(sampler, request);
+LevelRequest apply_level(sizing::FieldFactory& factory, const cases::SizingRequest& request) {
+  Levels levels(factory, request);
   const Level level = request.budget ? levels.finest_within(*request.budget) : *request.level;
   const sizing::LiftingBodies& bodies = levels.bodies();
   LevelRequest result{levels.take(level), level,
-                      describe_level(sampler.model(), bodies, levels.sizes(level))};
-  if (sampler.communicator().is_root())
+                      describe_level(factory.model(), bodies, levels.sizes(level))};
+  if (factory.sampled().communicator().is_root())
     parallel::log_info(fmt::format(
         "sizing: level {}: {} trailing edges, reference chord {:.4g}, semispan {:.4g}; {:.3g} % of the local "
         "chord at leading and trailing edges, at most {:.3g} on walls, growth {:.3g}",
         sizing::name_of(level), bodies.elements.size(), bodies.reference_chord, bodies.semispan,
         100 * levels.sizes(level).edge, *result.request.surface_maximum, *result.request.growth));
-  warn_of_near_far_field(sampler, result.found, levels.sizes(level).far_field);
+  warn_of_near_far_field(factory, result.found, levels.sizes(level).far_field);
   return result;
 }
 

@@ -3,7 +3,7 @@
 
 #include "pipeline/case/case.hpp"
 #include "pipeline/domain/size_domain.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
 
 namespace aeroloom::domain {
 
@@ -13,8 +13,8 @@ struct LevelRequest {
   LevelFindings found;
 };
 
-/// Makes the sampler's fields ask for what the level does. Collective. Throws CollectiveError where the model
+/// Makes the factory's fields ask for what the level does. Collective. Throws CollectiveError where the model
 /// has no lifting body, and where even the coarsest level takes more tetrahedra than the budget.
-LevelRequest apply_level(sizing::ModelSampler& sampler, const cases::SizingRequest& request);
+LevelRequest apply_level(sizing::FieldFactory& factory, const cases::SizingRequest& request);
 
 }  // namespace aeroloom::domain

@@ -191,8 +191,7 @@ cad::CadFacts look_sandboxed(const std::string& file) {
 cad::Model load_domain(const parallel::Communicator& communicator, const DomainOptions& options,
                        cad::DomainReport& report) {
   Bytes bytes;
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     cad::Domain domain = prepare_sandboxed(options);
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::serial);
     report = std::move(domain.report);
@@ -204,10 +203,8 @@ cad::Model load_domain(const parallel::Communicator& communicator, const DomainO
 cad::Model share_model(const parallel::Communicator& communicator, parallel::Bytes bytes) {
   communicator.broadcast(bytes);
   std::optional<cad::Model> model;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-    model = cad::Model::from_bytes(bytes);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated,
+                         [&] { model = cad::Model::from_bytes(bytes); });
   return *model;
 }
 

@@ -5,6 +5,7 @@
 #include "parallel/observation/log.hpp"
 #include "pipeline/domain/level_sizes.hpp"
 #include "sizing/choice/choose_sizes.hpp"
+#include "sizing/choice/coincident_faces.hpp"
 #include "sizing/features/narrow_faces.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
 
@@ -41,8 +42,7 @@ std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& commun
   std::vector<sizing::NarrowFace> narrow = sizing::find_narrow_faces(communicator, model, width, tolerance);
   if (narrow.empty()) return std::nullopt;
   std::optional<cad::Model> joined;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated, [&] {
     what.groups = sizing::group_narrow_faces(model, narrow, tolerance);
     joined = cad::join_faces(model, what.groups);
   });
@@ -95,12 +95,12 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
 }
 
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
-void tell_missed_target(sizing::ModelSampler& sampler, const sizing::ChosenSizes& chosen,
+void tell_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
                         const cases::SizingRequest& request, double target) {
   const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
   if (ratio < missed_target && ratio > 1 / missed_target) return;
-  const std::string costs = describe_costs(sizing::costs_of_given(sampler, chosen, request));
-  if (!sampler.communicator().is_root()) return;
+  const std::string costs = describe_costs(sizing::costs_of_given(factory, chosen, request));
+  if (!factory.sampled().communicator().is_root()) return;
   const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
                                    "larger sizes make it fewer"
                                  : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
@@ -120,39 +120,39 @@ struct Trial {
   sizing::SizingOptions options() const { return prospect ? prospect->with_features() : sizes; }
 };
 
-/// The sizes that trailing edges are judged by. Its functions refer to the sampler.
-TrialSizes tell(sizing::ModelSampler& sampler, const Trial& trial) {
+/// The sizes that trailing edges are judged by. Its functions refer to the factory.
+TrialSizes tell(sizing::FieldFactory& factory, const Trial& trial) {
   const sizing::SizingOptions options = trial.options();
   return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
-          [&sampler, options](const std::vector<geometry::Vec3>& places) {
-            return sampler.sizes_without_features(places, options);
+          [&factory, options](const std::vector<geometry::Vec3>& places) {
+            return factory.sizes_without_features(places, options);
           }};
 }
 
-Trial try_sizes(sizing::ModelSampler& sampler, const cases::SizingRequest& request,
+Trial try_sizes(sizing::FieldFactory& factory, const cases::SizingRequest& request,
                 const std::optional<sizing::SizingOptions>& near) {
   const std::optional<double> target = target_of(request);
   if (!target) return {sizing::with_given({}, request), {}};
-  return {{}, sizing::prospect_sizes(sampler, *target, request.feature_budget, near, request)};
+  return {{}, sizing::prospect_sizes(factory, *target, request.feature_budget, near, request)};
 }
 
-/// The sized domain of the sampler's model, which stays as it is.
-SizedDomain finish(sizing::ModelSampler& sampler, const cases::SizingRequest& request, const Trial& trial,
+/// The sized domain of the factory's model, which stays as it is.
+SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& request, const Trial& trial,
                    JoinedFaces joined, sizing::FieldFor purpose) {
   if (!trial.prospect) {
-    sizing::ChosenSizes applied = sizing::apply_sizes(sampler, trial.sizes, purpose);
+    sizing::ChosenSizes applied = sizing::apply_sizes(factory, trial.sizes, purpose);
     SizingFindings findings{std::move(joined), applied.counts};
-    findings.bounded = report_bounded_faces(sampler, trial.sizes);
-    return {sampler.model(), trial.sizes, std::move(applied.field), std::move(findings)};
+    findings.bounded = report_bounded_faces(factory, trial.sizes);
+    return {factory.model(), trial.sizes, std::move(applied.field), std::move(findings)};
   }
   const double target = *target_of(request);
-  sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, target, *trial.prospect, request, purpose);
-  tell_missed_target(sampler, chosen, request, target);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, target, *trial.prospect, request, purpose);
+  tell_missed_target(factory, chosen, request, target);
   SizingFindings findings{std::move(joined), chosen.counts};
   if (!request.holds_features())
-    findings.features = report_features(sampler, chosen.features, chosen.counts.tetrahedra);
-  findings.bounded = report_bounded_faces(sampler, chosen.options);
-  return {sampler.model(), chosen.options, std::move(chosen.field), std::move(findings)};
+    findings.features = report_features(factory.sampled(), chosen.features, chosen.counts.tetrahedra);
+  findings.bounded = report_bounded_faces(factory, chosen.options);
+  return {factory.model(), chosen.options, std::move(chosen.field), std::move(findings)};
 }
 
 sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
@@ -189,36 +189,36 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
-  std::optional<sizing::ModelSampler> sampler(std::in_place, communicator, model, layers, fields,
-                                              demands_of(asked));
+  std::optional<sizing::FieldFactory> factory(std::in_place, sizing::SampledModel(communicator, model),
+                                              layers, fields, demands_of(asked));
   std::optional<LevelRequest> of_level;
-  if (asked.level) of_level = apply_level(*sampler, asked);
+  if (asked.level) of_level = apply_level(*factory, asked);
   const cases::SizingRequest& request = of_level ? of_level->request : asked;
-  const std::vector<sizing::CoincidentFaces> coincident = sampler->find_coincident_faces();
+  const std::vector<sizing::CoincidentFaces> coincident = sizing::find_coincident_faces(factory->sampled());
   const bool join = simplification.narrow_faces == cases::NarrowFaces::join;
   // A level resolves trailing edges, however thin.
   const bool automatic = !asked.level && simplification.trailing_edges == cad::TrailingEdges::automatic;
   // An estimate tells which faces are narrow; sizes are chosen for the model without them.
-  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*sampler, *target, request);
+  if (!near && target && (join || automatic)) near = sizing::estimate_sizes(*factory, *target, request);
   const double width = near ? near->minimum : request.minimum.value_or(0);
   std::vector<sizing::TrailingEdge> edges;
-  if (automatic) edges = sizing::find_trailing_edges(*sampler, width);
+  if (automatic) edges = sizing::find_trailing_edges(factory->sampled(), width);
   JoinedFaces what;
   if (join) {
     if (const auto joined = join_narrow_faces(communicator, model, width, what)) {
-      sizing::ModelSampler of_joined(std::move(*sampler), *joined);
-      sampler.emplace(std::move(of_joined));
+      sizing::FieldFactory of_joined(std::move(*factory), *joined);
+      factory.emplace(std::move(of_joined));
     }
   }
-  const Trial trial = try_sizes(*sampler, request, near);
-  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*sampler, trial));
+  const Trial trial = try_sizes(*factory, request, near);
+  TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*factory, trial));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
   if (closed && trial.prospect) near = trial.prospect->options;
   SizedDomain sized = closed ? size_domain_near(communicator, *closed, request,
                                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, aim)
-                             : finish(*sampler, request, trial, std::move(what), aim.purpose);
-  if (!closed) sized.findings.walls = report_walls(model, coincident, *sampler, sized.field);
+                             : finish(*factory, request, trial, std::move(what), aim.purpose);
+  if (!closed) sized.findings.walls = report_walls(model, coincident, *factory, sized.field);
   judge_again(report, sized.sizes);
   sized.findings.edges = std::move(report);
   if (of_level) sized.level = of_level->level, sized.found = std::move(of_level->found);

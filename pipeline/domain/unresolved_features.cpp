@@ -1,7 +1,7 @@
 #include "pipeline/domain/unresolved_features.hpp"
 
 #include "geometry/place_text.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/narrow_regions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +18,13 @@ constexpr double telling_aspect = 1.9;
 
 }  // namespace
 
-FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
+FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureShare& share,
                               double tetrahedra) {
   FeatureReport report{share, tetrahedra, {}};
   if (!share.limited || share.aspect < telling_aspect) return report;
   const double widest = share.minimum / telling_aspect;
-  for (const sizing::Strip& strip : sampler.strips_narrower_than(widest, share.minimum)) {
-    report.strips.push_back({sampler.model().face(strip.face).name, strip.width, strip.place,
+  for (const sizing::Strip& strip : sizing::strips_narrower_than(sampled, widest, share.minimum)) {
+    report.strips.push_back({sampled.model().face(strip.face).name, strip.width, strip.place,
                              std::atan(1 / share.aspect_at(strip.width)) * 180 / std::numbers::pi});
   }
   return report;

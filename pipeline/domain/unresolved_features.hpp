@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-class ModelSampler;
+class SampledModel;
 }
 
 namespace aeroloom::domain {
@@ -42,7 +42,7 @@ struct FeatureReport {
 };
 
 /// Lists the strips. Collective.
-FeatureReport report_features(const sizing::ModelSampler& sampler, const sizing::FeatureShare& share,
+FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureShare& share,
                               double tetrahedra);
 
 /// The message about unresolved features: what they would take, what to expect, and the remedies; empty where

@@ -2,7 +2,7 @@
 
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,10 @@ std::string and_more(std::size_t all) {
 }  // namespace
 
 WallFindings report_walls(const cad::Model& model, const std::vector<sizing::CoincidentFaces>& coincident,
-                          const sizing::ModelSampler& sampler, const sizing::SizeField& field) {
+                          const sizing::FieldFactory& factory, const sizing::SizeField& field) {
   WallFindings walls;
-  for (const sizing::UnseenGaps& each : sampler.unseen_gaps())
-    walls.unseen.push_back({sampler.model().face(each.face).name, each.place, each.size});
+  for (const sizing::UnseenGaps& each : factory.gaps().unseen_gaps())
+    walls.unseen.push_back({factory.model().face(each.face).name, each.place, each.size});
   for (const sizing::CoincidentFaces& each : coincident) {
     if (field(each.place) < size_over_distance * each.apart) continue;
     walls.coincident.push_back(

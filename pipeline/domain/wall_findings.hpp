@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-class ModelSampler;
+class FieldFactory;
 struct CoincidentFaces;
 }  // namespace aeroloom::sizing
 
@@ -48,9 +48,9 @@ struct WallFindings {
 };
 
 /// By name; of the coincident faces those that the field does not tell apart. `model` is the one in which
-/// they were found, `sampler` that of the model to mesh.
+/// they were found, `factory` that of the model to mesh.
 WallFindings report_walls(const cad::Model& model, const std::vector<sizing::CoincidentFaces>& coincident,
-                          const sizing::ModelSampler& sampler, const sizing::SizeField& field);
+                          const sizing::FieldFactory& factory, const sizing::SizeField& field);
 
 /// Where the search for gaps ended early; empty where it did not.
 std::string describe(const std::vector<UnseenWalls>& unseen);

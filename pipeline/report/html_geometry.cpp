@@ -147,12 +147,12 @@ std::string needles_table(const Json& needles) {
   return part("Surface triangles below 10°", table.html());
 }
 
-std::string tips_table(const Json& tips) {
+std::string cusps_table(const Json& cusps) {
   Table table({{"face"}, {"length", Align::right}, {"moved by at most", Align::right}, {"at"}});
-  for (const Json& tip : tips)
-    table.add({name(find(tip, "/face")), quantity(find(tip, "/length")), quantity(find(tip, "/moved")),
-               place(find(tip, "/point"))});
-  return part("Tips of faces that were closed", table.html());
+  for (const Json& cusp : cusps)
+    table.add({name(find(cusp, "/face")), quantity(find(cusp, "/length")), quantity(find(cusp, "/moved")),
+               place(find(cusp, "/point"))});
+  return part("Cusps of faces that were closed", table.html());
 }
 
 std::string retries_table(const Json& report) {
@@ -227,7 +227,7 @@ std::string geometry_section(const Json& report) {
     body += part("Changes made to the CAD",
                  changes.empty() ? paragraph("None: it was taken as it is.") : changes);
   body += part("Narrow faces joined with a neighbour", changes_table(find(report, "/sizing/joined_faces")));
-  body += tips_table(find(report, "/surface/closed_tips"));
+  body += cusps_table(find(report, "/surface/closed_tips"));
   body += corners_table("Sharp corners of CAD faces", "One triangle in each is as sharp as the corner.",
                         find(report, "/surface/sharp_corners"));
   body += corners_table("Cuts between pieces below 30°", "Where cuts of divided faces end.",

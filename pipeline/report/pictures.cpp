@@ -1,5 +1,6 @@
 #include "pipeline/report/pictures.hpp"
 
+#include "mesh/data/bounds.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/observation/memory_limit.hpp"
@@ -83,7 +84,7 @@ void choose_colours(const mesh::DistributedMesh& surface, Subject& subject) {
 
 Subject find_subject(const Communicator& communicator, const PictureSource& source) {
   Subject subject{communicator, source, picture::find_scene(source.surface, source.types), {}, {}, {}};
-  subject.neighbours = picture::find_edge_neighbours(source.surface, source.numbering, subject.scene.shown);
+  subject.neighbours = picture::find_edge_neighbours(source.surface, subject.scene.shown);
   choose_colours(source.surface, subject);
   return subject;
 }
@@ -111,9 +112,7 @@ Picture painted(const Communicator& communicator, Picture picture, const std::fu
   parallel::agree(communicator, [&] { draw(canvas.emplace(picture.width, picture.height)); });
   const picture::Image image =
       picture::composite(communicator, std::move(*canvas), picture::white, draw_alike);
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root()) picture.png = picture::encode_png(image, bytes_of_picture);
-  });
+  parallel::on_root(communicator, [&] { picture.png = picture::encode_png(image, bytes_of_picture); });
   return picture;
 }
 
@@ -127,11 +126,7 @@ Box seen_from(const Subject& subject, const Viewpoint& view) {
       for (int k = 0; k < 3; ++k) mine.add(in_view(view, pieces[p].point(pieces[p].cell(t)[k])));
     }
   }
-  for (int axis = 0; axis < 3; ++axis) {
-    mine.low[axis] = subject.communicator.minimum(mine.low[axis]);
-    mine.high[axis] = subject.communicator.maximum(mine.high[axis]);
-  }
-  return mine;
+  return mesh::box_over_ranks(subject.communicator, mine);
 }
 
 /// A height that suits what is to be seen.
@@ -363,10 +358,8 @@ std::vector<Picture> make_all(const Communicator& communicator, const PictureSou
                               const mesh::DistributedMesh* volume) {
   const Subject subject = find_subject(communicator, source);
   const auto& surface = source.surface;
-  const std::optional<Place> edge =
-      find_leading_edge(surface, source.numbering, subject.neighbours, subject.scene);
-  const std::optional<Place> junction =
-      find_junction(surface, source.numbering, subject.neighbours, subject.scene);
+  const std::optional<Place> edge = find_leading_edge(surface, subject.neighbours, subject.scene);
+  const std::optional<Place> junction = find_junction(surface, subject.neighbours, subject.scene);
   std::vector<Picture> pictures{body_picture(subject), views_picture(subject)};
   if (edge) pictures.push_back(leading_edge_picture(subject, *edge));
   if (junction) pictures.push_back(junction_picture(subject, *junction));

@@ -26,8 +26,7 @@ namespace aeroloom::report {
 
 /// The meshes and names that pictures are made of.
 struct PictureSource {
-  const mesh::DistributedMesh& surface;  ///< the boundary of the domain
-  const mesh::Numbering& numbering;      ///< of the surface
+  const mesh::NumberedMesh& surface;  ///< the boundary of the domain
   const std::vector<mesh::PatchType>& types;
   std::string unit;  ///< of lengths, may be empty
 };

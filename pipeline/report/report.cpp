@@ -37,8 +37,7 @@ std::string write_report(const parallel::Communicator& communicator, const cases
   facts.warnings = parallel::take_warnings(communicator);
   facts.date = utc_now();
   facts.tasks = task_table(communicator, record.clock);
-  parallel::agree(communicator, [&] {
-    if (!communicator.is_root()) return;
+  parallel::on_root(communicator, [&] {
     const std::string& folder = input.output.directory;
     std::error_code ignored;  // what an earlier run has left and cannot go stays
     if (input.output.tasks)

@@ -34,13 +34,13 @@ Json sharp_corners_json(const RunRecord& record) {
   return json;
 }
 
-Json closed_tips_json(const RunRecord& record) {
+Json closed_cusps_json(const RunRecord& record) {
   Json json = Json::array();
-  for (const surface::ClosedTip& tip : record.surface.closed_tips) {
-    json.push_back({{"face", record.face_names.at(tip.face)},
-                    {"point", to_json(tip.point)},
-                    {"length", tip.length},
-                    {"moved", tip.moved}});
+  for (const surface::ClosedCusp& cusp : record.surface.closed_cusps) {
+    json.push_back({{"face", record.face_names.at(cusp.face)},
+                    {"point", to_json(cusp.point)},
+                    {"length", cusp.length},
+                    {"moved", cusp.moved}});
   }
   return json;
 }
@@ -65,7 +65,7 @@ Json surface_json(const RunRecord& record) {
   Json json = {
       {"triangles", record.surface.triangles},           {"pieces", record.surface.pieces},
       {"divided_faces", record.surface.divided_faces},   {"cut_angles", cut_angles_json(record)},
-      {"sharp_corners", sharp_corners_json(record)},     {"closed_tips", closed_tips_json(record)},
+      {"sharp_corners", sharp_corners_json(record)},     {"closed_tips", closed_cusps_json(record)},
       {"curve_vertices", record.surface.curve_vertices}, {"needles", needles_json(record)},
       {"mending_rounds", record.surface.mending_rounds}, {"load_error_90", record.surface.load_error_90}};
   if (record.surface_quality) {

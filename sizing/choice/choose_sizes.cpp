@@ -1,7 +1,8 @@
 #include "sizing/choice/choose_sizes.hpp"
 
 #include "parallel/observation/log.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
+#include "sizing/choice/predict_counts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -106,17 +107,17 @@ double largest_extent(const geometry::Box& box) {
   return std::max({box.size().x, box.size().y, box.size().z});
 }
 
-double first_size(const ModelSampler& sampler) {
-  return largest_extent(sampler.body_box()) / body_over_first;
+double first_size(const FieldFactory& factory) {
+  return largest_extent(factory.sampled().body_box()) / body_over_first;
 }
 
 /// Searches the size on the body, by fields whose sizes are `coarser` times as large, where features bring
 /// `share` times the elements that there would be without them.
 class Search {
 public:
-  Search(ModelSampler& sampler, double target_tetrahedra, double coarser, const FeatureShare& features,
+  Search(FieldFactory& factory, double target_tetrahedra, double coarser, const FeatureShare& features,
          const GivenSizes& given)
-      : _sampler(sampler),
+      : _factory(factory),
         _given(given),
         _coarser(coarser),
         _features(features),
@@ -124,8 +125,8 @@ public:
         _most_leaves(leaves_for(target_tetrahedra * features.share)) {}
 
   void run(double first_size, double largest_error, int most_rounds) {
-    const Preset preset = Preset::of(_sampler.model());
-    const double extent = largest_extent(_sampler.body_box());
+    const Preset preset = Preset::of(_factory.model());
+    const double extent = largest_extent(_factory.sampled().body_box());
     double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
     double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
     double slope = first_slope;
@@ -158,10 +159,10 @@ public:
   /// As options(), with the field: of a search by fields that are as fine as asked for.
   ChosenSizes best(FieldFor purpose) {
     if (_best) {
-      const PredictedCounts counts{_sampler.count_triangles(_best->field), _best->tetrahedra};
+      const PredictedCounts counts{count_triangles(_factory.sampled(), _best->field), _best->tetrahedra};
       return {_options, std::move(_best->field), counts, _features, _body_size};
     }
-    ChosenSizes chosen = apply_sizes(_sampler, _options, purpose);
+    ChosenSizes chosen = apply_sizes(_factory, _options, purpose);
     chosen.features = _features;
     chosen.body_size = _body_size;
     return chosen;
@@ -176,10 +177,10 @@ private:
     std::optional<Trial> trial;
     std::optional<double> tetrahedra;
     const double most_parts = parts_per_leaf * static_cast<double>(_most_leaves) * _coarser * _coarser;
-    if (!_sampler.has_more_parts(options, most_parts)) {
-      if (_coarser == 1) trial = _sampler.try_sizes(options, _most_leaves);
+    if (!_factory.has_more_parts(options, most_parts)) {
+      if (_coarser == 1) trial = _factory.try_sizes(options, _most_leaves);
       if (trial) tetrahedra = trial->tetrahedra;
-      if (_coarser > 1) tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);
+      if (_coarser > 1) tetrahedra = _factory.estimate_tetrahedra(options, _coarser, _most_leaves);
     }
     if (!tetrahedra) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", body_size));
@@ -198,7 +199,7 @@ private:
     return error;
   }
 
-  ModelSampler& _sampler;
+  FieldFactory& _factory;
   const GivenSizes& _given;
   double _coarser;
   FeatureShare _features;
@@ -217,10 +218,10 @@ void check_target(double target_tetrahedra) {
 
 }  // namespace
 
-SizingOptions estimate_sizes(ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given) {
+SizingOptions estimate_sizes(FieldFactory& factory, double target_tetrahedra, const GivenSizes& given) {
   check_target(target_tetrahedra);
-  Search search(sampler, target_tetrahedra, coarsening(target_tetrahedra), {}, given);
-  search.run(first_size(sampler), good_enough_to_start, most_rounds);
+  Search search(factory, target_tetrahedra, coarsening(target_tetrahedra), {}, given);
+  search.run(first_size(factory), good_enough_to_start, most_rounds);
   return search.options();
 }
 
@@ -230,56 +231,56 @@ SizingOptions Prospect::with_features() const {
   return sizes;
 }
 
-Prospect prospect_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+Prospect prospect_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
   const double coarser = coarsening(target_tetrahedra);
-  Search base(sampler, target_tetrahedra, coarser, {}, given);
-  const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(sampler);
+  Search base(factory, target_tetrahedra, coarser, {}, given);
+  const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(factory);
   base.run(start, near ? near_enough : close_enough, most_rounds);
   Prospect prospect{base.options(), base.body_size(), base.is_out_of_reach(), base.is_hopeless(), {}};
   if (!given.holds_features()) {
-    prospect.features = share_of_features(sampler, base.options(), feature_budget, coarser,
+    prospect.features = share_of_features(factory, base.options(), feature_budget, coarser,
                                           leaves_for(target_tetrahedra * feature_budget));
   }
   return prospect;
 }
 
-ChosenSizes apply_sizes(ModelSampler& sampler, const SizingOptions& options, FieldFor purpose) {
-  if (sampler.has_more_parts(options, most_parts_unasked)) {
-    RoughField rough = sampler.build_rough_field(options);
+ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, FieldFor purpose) {
+  if (factory.has_more_parts(options, most_parts_unasked)) {
+    RoughField rough = factory.build_rough_field(options);
     const bool is_large = rough.counts.tetrahedra > least_rough;
     if (is_large && purpose == FieldFor::forecast)
       return {options, std::move(rough.field), rough.counts, {}, 0};
     if (is_large) parallel::log_info(fmt::format("sizing: some {:.2g} tetrahedra", rough.counts.tetrahedra));
   }
-  SizeField field = sampler.build_field(options);
-  const PredictedCounts counts = sampler.predict(field);
+  SizeField field = factory.build_field(options);
+  const PredictedCounts counts = predict_counts(factory.sampled(), field);
   return {options, std::move(field), counts, {}, 0};
 }
 
-ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
+ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, const Prospect& prospect,
                          const GivenSizes& given, FieldFor purpose) {
   if (prospect.is_hopeless && purpose == FieldFor::forecast) {
-    ChosenSizes applied = apply_sizes(sampler, prospect.with_features(), purpose);
+    ChosenSizes applied = apply_sizes(factory, prospect.with_features(), purpose);
     applied.features = prospect.features;
     applied.body_size = prospect.body_size;
     return applied;
   }
-  Search search(sampler, target_tetrahedra, 1, prospect.features, given);
+  Search search(factory, target_tetrahedra, 1, prospect.features, given);
   search.run(prospect.body_size,
              prospect.features.share > little_share ? near_enough_with_features : near_enough,
              prospect.is_out_of_reach ? rounds_out_of_reach : most_rounds);
   return search.best(purpose);
 }
 
-ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                          const std::optional<SizingOptions>& near, const GivenSizes& given) {
-  return choose_sizes(sampler, target_tetrahedra,
-                      prospect_sizes(sampler, target_tetrahedra, feature_budget, near, given), given);
+  return choose_sizes(factory, target_tetrahedra,
+                      prospect_sizes(factory, target_tetrahedra, feature_budget, near, given), given);
 }
 
-std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& chosen,
+std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& chosen,
                                       const GivenSizes& given) {
   using Bound = std::optional<double> GivenSizes::*;
   static constexpr std::array<std::pair<const char*, Bound>, 9> bounds{{
@@ -296,15 +297,15 @@ std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& 
   if (std::none_of(bounds.begin(), bounds.end(),
                    [&](const auto& each) { return (given.*each.second).has_value(); }))
     return {};
-  const Preset preset = Preset::of(sampler.model());
+  const Preset preset = Preset::of(factory.model());
   const double coarser = coarsening(chosen.counts.tetrahedra);
   const auto count = [&](const GivenSizes& these) {
     const auto most =
         std::min(leaves_for(std::max(chosen.counts.tetrahedra, least_told)), most_coarse_leaves);
     const double most_parts = parts_per_leaf * static_cast<double>(most) * coarser * coarser;
-    if (sampler.has_more_parts(sizes_for(chosen.body_size, preset, these), most_parts))
+    if (factory.has_more_parts(sizes_for(chosen.body_size, preset, these), most_parts))
       return std::optional<double>();
-    return sampler.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarser, most);
+    return factory.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarser, most);
   };
   const std::optional<double> all = count(given);
   const auto over = [&](const std::optional<double>& without) {
@@ -328,8 +329,8 @@ std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& 
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra) {
-  ModelSampler sampler(communicator, model, SizingOptions{}.proximity, Fields::several);
-  return choose_sizes(sampler, target_tetrahedra).options;
+  FieldFactory factory(SampledModel(communicator, model), SizingOptions{}.proximity, Fields::several);
+  return choose_sizes(factory, target_tetrahedra).options;
 }
 
 }  // namespace aeroloom::sizing

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/field_factory.hpp"
 #include "sizing/choice/given_sizes.hpp"
-#include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <optional>
@@ -22,9 +22,9 @@ struct ChosenSizes {
 };
 
 /// Sizes that give the target within some twenty percent, by estimates alone
-/// (ModelSampler::estimate_tetrahedra), where no feature is finer than their minimum. Collective. Throws as
+/// (FieldFactory::estimate_tetrahedra), where no feature is finer than their minimum. Collective. Throws as
 /// choose_sizes().
-SizingOptions estimate_sizes(ModelSampler& sampler, double target_tetrahedra, const GivenSizes& given = {});
+SizingOptions estimate_sizes(FieldFactory& factory, double target_tetrahedra, const GivenSizes& given = {});
 
 /// Sizes as coarse fields foretell them, before any is built that is as fine as asked for.
 struct Prospect {
@@ -42,27 +42,27 @@ struct Prospect {
 /// comes on top, up to `feature_budget` times the target in all: the rest of the model has the sizes it would
 /// have without them; where their sizes are given, the target is for all together. What comes nearest is
 /// chosen where the target is out of reach. The search starts at `near`, sizes for a model that is almost the
-/// same, where there are such. The sampler must look for gaps as closely as the options ask, or not at all.
+/// same, where there are such. The factory must look for gaps as closely as the options ask, or not at all.
 /// Collective. Throws std::invalid_argument for a target below one.
-ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra,
+ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
 
 /// The first half of that. Collective.
-Prospect prospect_sizes(ModelSampler& sampler, double target_tetrahedra, double feature_budget,
+Prospect prospect_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                         const std::optional<SizingOptions>& near, const GivenSizes& given);
 
-/// The field of a forecast is a rough one (ModelSampler::build_rough_field) where there would be more
+/// The field of a forecast is a rough one (FieldFactory::build_rough_field) where there would be more
 /// elements than this.
 inline constexpr double least_rough = 3e7;
 
 /// The second half. Collective.
-ChosenSizes choose_sizes(ModelSampler& sampler, double target_tetrahedra, const Prospect& prospect,
+ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, const Prospect& prospect,
                          const GivenSizes& given, FieldFor purpose = FieldFor::mesh);
 
 /// The field of given sizes and what it predicts. Where it is for a mesh of so many elements that it takes
 /// long, the log says first how many. Collective.
-ChosenSizes apply_sizes(ModelSampler& sampler, const SizingOptions& options, FieldFor purpose);
+ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, FieldFor purpose);
 
 /// Where the minimum is given and does not bind them.
 inline constexpr const char* of_features = "features";
@@ -75,7 +75,7 @@ struct BoundCost {
 };
 
 /// Of each that is given, by coarse fields. Collective.
-std::vector<BoundCost> costs_of_given(ModelSampler& sampler, const ChosenSizes& chosen,
+std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& chosen,
                                       const GivenSizes& given);
 
 }  // namespace aeroloom::sizing

@@ -1,8 +1,8 @@
-// Faces of the body that lie on one another: what no size can part.
+#include "sizing/choice/coincident_faces.hpp"
+
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
-#include "sizing/choice/model_sampler.hpp"
 #include "sizing/features/facet_parameters.hpp"
 #include "sizing/features/segment_tree.hpp"
 
@@ -260,25 +260,26 @@ std::vector<CoincidentFaces> merge(std::vector<CoincidentFaces> all) {
 
 }  // namespace
 
-std::vector<CoincidentFaces> ModelSampler::find_coincident_faces() const {
-  const Vec3 size = _body_box.size();
+std::vector<CoincidentFaces> find_coincident_faces(const SampledModel& sampled) {
+  const cad::Model& model = sampled.model();
+  const Walls& walls = sampled.walls();
+  const Vec3 size = sampled.body_box().size();
   const double extent = std::max({size.x, size.y, size.z});
   std::vector<CoincidentFaces> mine;
-  parallel::agree(_communicator, [&] {
-    const ScopedCpu cpu(ScopedCpu::As::task);
-    std::vector<std::int32_t> first_walls(_model.face_count(), -1);
-    for (std::size_t w = _walls->facets.size(); w-- > 0;)
-      first_walls[_walls->facets[w].face] = static_cast<std::int32_t>(w);
-    for (const OwnFace& face : _faces) {
-      if (_model.is_far_field(face.id) || first_walls[face.id] < 0) continue;
+  parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
+    std::vector<std::int32_t> first_walls(model.face_count(), -1);
+    for (std::size_t w = walls.facets.size(); w-- > 0;)
+      first_walls[walls.facets[w].face] = static_cast<std::int32_t>(w);
+    for (const SampledFace& face : sampled.own_faces()) {
+      if (model.is_far_field(face.id) || first_walls[face.id] < 0) continue;
       const double part =
-          static_cast<double>(face.facets.triangles.size()) / static_cast<double>(_walls->facets.size());
+          static_cast<double>(face.facets.triangles.size()) / static_cast<double>(walls.facets.size());
       const std::int64_t most = few_tree_nodes + std::llround(part * most_tree_nodes);
-      const auto found = FaceOverlaps(_model, *_walls, first_walls, face.id, face.facets, extent).find(most);
+      const auto found = FaceOverlaps(model, walls, first_walls, face.id, face.facets, extent).find(most);
       mine.insert(mine.end(), found.begin(), found.end());
     }
   });
-  return merge(_communicator.all_gather_items<CoincidentFaces>(mine));
+  return merge(sampled.communicator().all_gather_items<CoincidentFaces>(mine));
 }
 
 }  // namespace aeroloom::sizing

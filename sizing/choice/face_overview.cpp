@@ -3,7 +3,7 @@
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
 #include "parallel/observation/timers.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,43 +25,47 @@ constexpr double bytes_per_triangle = 200;
 
 }  // namespace
 
-std::vector<std::pair<FaceId, FaceSamples::Overview>> ModelSampler::look_over(const SizingOptions& options) {
+std::vector<std::pair<FaceId, FaceSamples::Overview>> FieldFactory::look_over(const SizingOptions& options) {
   const ScopedCpu cpu(ScopedCpu::As::task);
   std::vector<std::pair<FaceId, FaceSamples::Overview>> seen;
-  for (OwnFace& face : _faces) {
-    FaceSamples once(_model.is_planar(face.id));
-    FaceSamples& samples = _fields == Fields::several ? face.samples : once;
-    seen.emplace_back(face.id, samples.overview(_model, face.id, face.facets, _far_field[face.id],
-                                                options_on(face.id, options)));
+  for (const SampledFace& face : _sampled.own_faces()) {
+    FaceSamples once(model().is_planar(face.id));
+    seen.emplace_back(face.id,
+                      samples_of(face.id, once)
+                          .overview(model(), face.id, face.facets, _sampled.bounds_far_field(face.id),
+                                    _demands.options_on(_sampled, face.id, options)));
   }
   return seen;
 }
 
-std::vector<BoundedFace> ModelSampler::faces_bounded_by_minimum(const SizingOptions& options) {
+FaceSamples& FieldFactory::samples_of(FaceId face, FaceSamples& once) {
+  if (_fields == Fields::one) return once;
+  return _samples.try_emplace(face, model().is_planar(face)).first->second;
+}
+
+std::vector<BoundedFace> FieldFactory::faces_bounded_by_minimum(const SizingOptions& options) {
   std::vector<BoundedFace> mine;
-  parallel::agree(_communicator, [&] {
+  parallel::agree(_sampled.communicator(), [&] {
     for (const auto& [face, seen] : look_over(options)) {
       if (seen.bounded_area > 0) mine.push_back({face, seen.bounded_area / seen.area, seen.degrees});
     }
   });
-  std::vector<BoundedFace> all = _communicator.all_gather_items<BoundedFace>(mine);
-  std::sort(all.begin(), all.end(),
-            [](const BoundedFace& a, const BoundedFace& b) { return a.face < b.face; });
+  std::vector<BoundedFace> all = _sampled.communicator().gather_sorted(mine, &BoundedFace::face);
   return all;
 }
 
-bool ModelSampler::has_more_parts(const SizingOptions& options, double most) {
+bool FieldFactory::has_more_parts(const SizingOptions& options, double most) {
   constexpr double most_of_face = 1e15;  // adding up must not overflow
   std::int64_t parts = 0;
-  parallel::agree(_communicator, [&] {
+  parallel::agree(_sampled.communicator(), [&] {
     for (const auto& [face, seen] : look_over(options))
       parts += std::llround(std::min(seen.parts, most_of_face));
   });
-  return static_cast<double>(_communicator.sum(parts)) > most;
+  return static_cast<double>(_sampled.communicator().sum(parts)) > most;
 }
 
-void ModelSampler::require_possible(const SizingOptions& options) {
-  const geometry::Vec3 extents = _body_box.size();
+void FieldFactory::require_possible(const SizingOptions& options) {
+  const geometry::Vec3 extents = _sampled.body_box().size();
   const double length = std::max({extents.x, extents.y, extents.z});
   if (options.minimum > length) {
     throw std::invalid_argument(fmt::format(
@@ -76,16 +80,17 @@ void ModelSampler::require_possible(const SizingOptions& options) {
     static constexpr auto fields() { return std::tuple(&Count::triangles, &Count::face); }
   };
   Count mine, most;
-  parallel::agree(_communicator, [&] {
+  parallel::agree(_sampled.communicator(), [&] {
     for (const auto& [face, seen] : look_over(options)) {
       mine.triangles += seen.triangles;
       if (seen.triangles > most.triangles) most = {seen.triangles, face};
     }
   });
-  const double all = _communicator.sum(mine.triangles);
+  const double all = _sampled.communicator().sum(mine.triangles);
   const double room = static_cast<double>(parallel::node_memory_bytes()) / bytes_per_triangle;
-  if (_communicator.maximum(static_cast<std::int64_t>(all > room)) == 0) return;
-  const std::vector<Count> heaviest = _communicator.all_gather_items<Count>(std::span<const Count>(&most, 1));
+  if (_sampled.communicator().maximum(static_cast<std::int64_t>(all > room)) == 0) return;
+  const std::vector<Count> heaviest =
+      _sampled.communicator().all_gather_items<Count>(std::span<const Count>(&most, 1));
   for (const Count& each : heaviest)
     if (each.triangles > most.triangles) most = each;
   throw std::invalid_argument(fmt::format(
@@ -93,7 +98,7 @@ void ModelSampler::require_possible(const SizingOptions& options) {
       "on "
       "face '{}': more than this machine can hold. Remedy: larger ones, in the model's unit; the body is "
       "{:.3g} long",
-      options.minimum, options.maximum, all, most.triangles, _model.face(most.face).name, length));
+      options.minimum, options.maximum, all, most.triangles, model().face(most.face).name, length));
 }
 
 }  // namespace aeroloom::sizing

@@ -1,7 +1,8 @@
 #include "sizing/choice/feature_share.hpp"
 
 #include "parallel/observation/log.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
+#include "sizing/choice/narrow_regions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,11 +117,11 @@ private:
 /// Predicts tetrahedra, and tells of it.
 class Counter {
 public:
-  Counter(ModelSampler& sampler, double coarser, std::int64_t most_leaves)
-      : _sampler(sampler), _coarser(coarser), _most_leaves(most_leaves) {}
+  Counter(FieldFactory& factory, double coarser, std::int64_t most_leaves)
+      : _factory(factory), _coarser(coarser), _most_leaves(most_leaves) {}
 
   std::optional<double> operator()(const SizingOptions& options, const char* what, double value) const {
-    const std::optional<double> tetrahedra = _sampler.estimate_tetrahedra(options, _coarser, _most_leaves);
+    const std::optional<double> tetrahedra = _factory.estimate_tetrahedra(options, _coarser, _most_leaves);
     parallel::log_verbose(tetrahedra
                               ? fmt::format("sizing: {} {:.3g}: {:.3g} tetrahedra", what, value, *tetrahedra)
                               : fmt::format("sizing: {} {:.3g}: far too many", what, value));
@@ -129,13 +130,13 @@ public:
   }
 
 private:
-  ModelSampler& _sampler;
+  FieldFactory& _factory;
   double _coarser;
   std::int64_t _most_leaves;
 };
 
 /// Fills in what strips, short edges and sharp corners may ask for; returns what is predicted with that.
-std::optional<double> share_among_strips(ModelSampler& sampler, const SizingOptions& options, double budget,
+std::optional<double> share_among_strips(FieldFactory& factory, const SizingOptions& options, double budget,
                                          const Counter& count, FeatureShare& found) {
   const std::optional<double> base = count(options, "features down to", options.minimum);
   found.limited = !base;
@@ -152,7 +153,7 @@ std::optional<double> share_among_strips(ModelSampler& sampler, const SizingOpti
         set_feature_aspect(tried, aspects[step], found.floor);
         return count(tried, "strips at an aspect of", aspects[step]);
       },
-      sampler.elements_along_strips(aspects, finest), budget);
+      elements_along_strips(factory.sampled(), aspects, finest), budget);
   search.run(*base, tetrahedra_per_element);
   found.aspect = aspects[search.found()];
   found.share = search.share();
@@ -206,7 +207,7 @@ void set_features(SizingOptions& options, const FeatureShare& features) {
   if (features.gap_floor > 0) set_gap_floor(options, features.gap_floor);
 }
 
-FeatureShare share_of_features(ModelSampler& sampler, const SizingOptions& options, double budget,
+FeatureShare share_of_features(FieldFactory& factory, const SizingOptions& options, double budget,
                                double coarser, std::int64_t most_leaves) {
   if (!(budget >= 1)) {
     throw std::invalid_argument(
@@ -215,19 +216,19 @@ FeatureShare share_of_features(ModelSampler& sampler, const SizingOptions& optio
   FeatureShare found;
   found.minimum = found.gap_floor = options.minimum;
   found.floor = std::min(options.minimum, std::max(finest_over_minimum * options.minimum,
-                                                   finest_over_gap * sampler.model().sewn_gap()));
+                                                   finest_over_gap * factory.model().sewn_gap()));
   // A field that is so many times coarser has the cube of it fewer leaves where it is a volume's, and more
   // where strips rule. Chosen, not measured.
   constexpr double slack = 4;
   const double leaves = std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves);
-  const Counter count(sampler, coarser, std::llround(leaves));
+  const Counter count(factory, coarser, std::llround(leaves));
   if (found.floor == options.minimum) return found;
-  const std::optional<double> base = share_among_strips(sampler, options, budget, count, found);
-  if (!base || sampler.narrowest_gap() >= options.minimum) return found;
+  const std::optional<double> base = share_among_strips(factory, options, budget, count, found);
+  if (!base || factory.gaps().narrowest_gap() >= options.minimum) return found;
   SizingOptions with_strips = options;
   set_feature_aspect(with_strips, found.aspect, found.floor);
-  share_among_gaps(with_strips, std::max(sampler.narrowest_gap(), found.floor), budget / found.share, *base,
-                   count, found);
+  share_among_gaps(with_strips, std::max(factory.gaps().narrowest_gap(), found.floor), budget / found.share,
+                   *base, count, found);
   return found;
 }
 

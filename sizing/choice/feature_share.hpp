@@ -9,7 +9,7 @@
 
 namespace aeroloom::sizing {
 
-class ModelSampler;
+class FieldFactory;
 
 /// Predicted elements over those without features finer than the minimum, at most, where nobody asks for
 /// more.
@@ -56,7 +56,7 @@ void set_features(SizingOptions& options, const FeatureShare& features);
 /// coarser. No size is finer than a thousandth of the minimum. By fields whose sizes are `coarser` times as
 /// large; those with clearly more leaves than `most_leaves` count as beyond any budget. Collective. Throws
 /// std::invalid_argument for a budget below one.
-FeatureShare share_of_features(ModelSampler& sampler, const SizingOptions& options, double budget,
+FeatureShare share_of_features(FieldFactory& factory, const SizingOptions& options, double budget,
                                double coarser, std::int64_t most_leaves);
 
 }  // namespace aeroloom::sizing

@@ -1,5 +1,6 @@
+#include "sizing/choice/predict_counts.hpp"
+
 #include "parallel/observation/timers.hpp"
-#include "sizing/choice/model_sampler.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/field/facet_integral.hpp"
 
@@ -155,7 +156,7 @@ private:
 
 }  // namespace
 
-double ModelSampler::count_triangles(const SizeField& field) const {
+double count_triangles(const SampledModel& sampled, const SizeField& field) {
   struct FaceCount {
     cad::FaceId face;
     double count;
@@ -165,7 +166,7 @@ double ModelSampler::count_triangles(const SizeField& field) const {
   std::vector<FaceCount> mine;
   {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
-    for (const OwnFace& face : _faces) {
+    for (const SampledFace& face : sampled.own_faces()) {
       double sum = 0, area = 0;
       const auto& points = face.facets.points;
       for (const auto& t : face.facets.triangles) {
@@ -174,41 +175,41 @@ double ModelSampler::count_triangles(const SizeField& field) const {
         sum += integrate_facet(field, corners);
       }
       // Facets cut corners: the exact area makes up for it.
-      if (area > 0) mine.push_back({face.id, triangles_per_square * sum * _areas[face.id] / area});
+      if (area > 0) mine.push_back({face.id, triangles_per_square * sum * sampled.area(face.id) / area});
     }
   }
-  std::vector<FaceCount> all = _communicator.all_gather_items<FaceCount>(mine);
-  std::sort(all.begin(), all.end(), [](const FaceCount& a, const FaceCount& b) { return a.face < b.face; });
+  std::vector<FaceCount> all = sampled.communicator().gather_sorted(mine, &FaceCount::face);
   double total = 0;
   for (const FaceCount& face : all) total += face.count;
   return total;
 }
 
-double ModelSampler::count_tetrahedra(const SizeField& field) const {
+double count_tetrahedra(const SampledModel& sampled, const SizeField& field) {
+  const parallel::Communicator& communicator = sampled.communicator();
   const std::int64_t tasks = (field.leaf_count() + leaves_per_task - 1) / leaves_per_task;
   std::vector<double> mine;
   {
     const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
-    VolumeIntegral integral(field, boundary());
-    for (std::int64_t task = _communicator.rank(); task < tasks; task += _communicator.size()) {
+    VolumeIntegral integral(field, sampled.boundary());
+    for (std::int64_t task = communicator.rank(); task < tasks; task += communicator.size()) {
       const std::int64_t first = task * leaves_per_task;
       mine.push_back(integral.over_leaves(first, std::min(first + leaves_per_task, field.leaf_count())));
     }
   }
-  const std::vector<double> all = _communicator.all_gather_items<double>(mine);
+  const std::vector<double> all = communicator.all_gather_items<double>(mine);
   // Summed in the order of tasks, whatever the number of ranks.
   std::vector<double> sums(tasks);
   std::size_t next = 0;
-  for (int rank = 0; rank < _communicator.size(); ++rank) {
-    for (std::int64_t task = rank; task < tasks; task += _communicator.size()) sums[task] = all[next++];
+  for (int rank = 0; rank < communicator.size(); ++rank) {
+    for (std::int64_t task = rank; task < tasks; task += communicator.size()) sums[task] = all[next++];
   }
   double total = 0;
   for (const double sum : sums) total += sum;
   return tetrahedra_per_volume * total;
 }
 
-PredictedCounts ModelSampler::predict(const SizeField& field) const {
-  return {count_triangles(field), count_tetrahedra(field)};
+PredictedCounts predict_counts(const SampledModel& sampled, const SizeField& field) {
+  return {count_triangles(sampled, field), count_tetrahedra(sampled, field)};
 }
 
 }  // namespace aeroloom::sizing

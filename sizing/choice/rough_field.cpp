@@ -1,5 +1,6 @@
 // Fields of sizes that ask for more elements than anyone would build a field for to be told so.
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/field_factory.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "sizing/field/field_builder.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ double bias_of(double coarser, double growth) {
 
 }  // namespace
 
-RoughField ModelSampler::build_rough_field(const SizingOptions& options) {
+RoughField FieldFactory::build_rough_field(const SizingOptions& options) {
   for (double coarser = first_coarser;; coarser *= 2) {
     const bool last = coarser >= coarsest;
     const double most_parts = rough_parts_per_leaf * coarser * coarser * static_cast<double>(most_leaves);
@@ -38,8 +39,8 @@ RoughField ModelSampler::build_rough_field(const SizingOptions& options) {
     std::optional<SizeField> field =
         build_coarser(options, coarser, last ? std::numeric_limits<std::int64_t>::max() : most_leaves);
     if (!field) continue;
-    PredictedCounts counts{std::pow(coarser, 2) * count_triangles(*field),
-                           std::pow(coarser, 3) * count_tetrahedra(*field)};
+    PredictedCounts counts{std::pow(coarser, 2) * count_triangles(_sampled, *field),
+                           std::pow(coarser, 3) * count_tetrahedra(_sampled, *field)};
     counts.tetrahedra *= bias_of(coarser, options.growth);
     return {field->scaled(1 / coarser), counts};
   }

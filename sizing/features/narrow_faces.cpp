@@ -2,7 +2,6 @@
 
 #include "cad/model/evaluation/face_width.hpp"
 #include "geometry/angle.hpp"
-#include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -116,15 +115,12 @@ double turn_across(const Model& model, FaceId a, FaceId b, cad::EdgeId id) {
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const Model& model,
                                           double width, double tolerance) {
   std::vector<NarrowFace> found;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size()) {
       if (const auto narrow = examine(model, f, width, tolerance)) found.push_back(*narrow);
     }
   });
-  found = communicator.all_gather_items<NarrowFace>(found);
-  std::sort(found.begin(), found.end(),
-            [](const NarrowFace& a, const NarrowFace& b) { return a.face < b.face; });
+  found = communicator.gather_sorted(found, &NarrowFace::face);
   return found;
 }
 

@@ -66,7 +66,7 @@ double coarseness(const Gaps::Part& part, double edge_per_gap) {
 }  // namespace
 
 /// The rays of one face.
-class GapSearch::Rays {
+class FaceGapSearch::Rays {
 public:
   Rays(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
        const GapLimits& limits)
@@ -325,18 +325,18 @@ Walls::Walls(std::vector<Wall> walls)
   for (const Wall& wall : facets) normals.push_back(unit_normal(wall.corners));
 }
 
-GapSearch::GapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-                     const GapLimits& limits)
+FaceGapSearch::FaceGapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
+                             const Walls& walls, const GapLimits& limits)
     : _rays(std::make_unique<Rays>(model, face, facets, walls, limits)) {}
-GapSearch::~GapSearch() = default;
-GapSearch::GapSearch(GapSearch&&) noexcept = default;
-GapSearch& GapSearch::operator=(GapSearch&&) noexcept = default;
+FaceGapSearch::~FaceGapSearch() = default;
+FaceGapSearch::FaceGapSearch(FaceGapSearch&&) noexcept = default;
+FaceGapSearch& FaceGapSearch::operator=(FaceGapSearch&&) noexcept = default;
 
-std::int64_t GapSearch::go_on(std::int64_t nodes, Gaps& gaps) {
+std::int64_t FaceGapSearch::go_on(std::int64_t nodes, Gaps& gaps) {
   return _rays->cover(nodes, gaps);
 }
 
-LookedAt GapSearch::look_closer(double apart, const LookedAt& most, Gaps& gaps) {
+LookedAt FaceGapSearch::look_closer(double apart, const LookedAt& most, Gaps& gaps) {
   return _rays->look_closer(apart, most, gaps);
 }
 

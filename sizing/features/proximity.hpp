@@ -92,14 +92,14 @@ struct LookedAt {
 /// gap or `finest`. Wedges, where the opposite wall meets the face in an edge nearer than eight times the
 /// gap, are left out: sizes would fall to nothing there. A function of the model and the arguments alone,
 /// counts of nodes included, to which a projection on a surface adds as many as it takes time.
-class GapSearch {
+class FaceGapSearch {
 public:
   /// All arguments but the limits must outlive the search.
-  GapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
-            const GapLimits& limits);
-  ~GapSearch();
-  GapSearch(GapSearch&&) noexcept;
-  GapSearch& operator=(GapSearch&&) noexcept;
+  FaceGapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+                const GapLimits& limits);
+  ~FaceGapSearch();
+  FaceGapSearch(FaceGapSearch&&) noexcept;
+  FaceGapSearch& operator=(FaceGapSearch&&) noexcept;
 
   /// Goes on until everything was looked at, or until about so many nodes of trees more were visited, which
   /// are assigned to facets by area and to their parts; returns how many were.

@@ -12,7 +12,7 @@ namespace aeroloom::sizing {
 /// triangle of less than 12 degrees in a corner, the second was chosen.
 inline constexpr double closed_between_two_faces = 12, closed_where_faces_meet = 3;
 
-/// A corner that opens by less than this many degrees is closed (surface/tips/cusp_tips.hpp): one triangle
+/// A corner that opens by less than this many degrees is closed (surface/cusps/cusps.hpp): one triangle
 /// that filled it would be a needle.
 inline double closing_angle(const cad::Model& model, const cad::FaceCorner& corner) {
   switch (cad::neighbours_at_corner(model, corner)) {

@@ -55,10 +55,10 @@ void for_each_family(CellSpans leaves, IndexRange range, const Visit& visit) {
 
 }  // namespace
 
-IndexRange CornerSizes::part_of(const parallel::Communicator& communicator, CellSpans leaves,
-                                parallel::Rank rank) {
+IndexRange CornerSizes::part_of(const Octree& octree, parallel::Rank rank) {
+  const CellSpans leaves = octree.leaves();
   const auto begin = [&](std::size_t part) {
-    const std::size_t even = leaves.size() * part / static_cast<std::size_t>(communicator.size());
+    const std::size_t even = leaves.size() * part / static_cast<std::size_t>(octree.communicator.size());
     // A family may have begun a few leaves back.
     for (std::size_t leaf = even - std::min(even, Family{most_generations}.leaves() - 1); leaf < even;) {
       leaf += family_at(leaves, leaf, leaves.size()).leaves();
@@ -96,30 +96,29 @@ std::uint64_t CornerSizes::write_places(CellSpans leaves, IndexRange range, std:
   return begin;
 }
 
-CornerSizes::CornerSizes(const parallel::Communicator& communicator, CellSpans leaves,
-                         std::vector<float> own) {
+CornerSizes::CornerSizes(const Octree& octree, std::vector<float> own) {
+  const parallel::Communicator& communicator = octree.communicator;
   std::vector<std::uint64_t> begins{0};
   for (const auto count : communicator.all_gather_values(static_cast<std::uint64_t>(own.size())))
     begins.push_back(begins.back() + count);
   _packed = parallel::NodeArray<float>::gathered(communicator, std::move(own));
   const auto write = [&](parallel::Rank rank, std::size_t, std::span<std::uint64_t> to) {
-    write_places(leaves, part_of(communicator, leaves, rank), begins[static_cast<std::size_t>(rank)], to);
+    write_places(octree.leaves(), part_of(octree, rank), begins[static_cast<std::size_t>(rank)], to);
   };
   const parallel::Rank rank = communicator.rank();
-  std::vector<std::uint64_t> places(part_of(communicator, leaves, rank).size());
+  std::vector<std::uint64_t> places(part_of(octree, rank).size());
   write(rank, 0, places);
   _places = parallel::NodeArray<std::uint64_t>::composed(communicator, std::move(places), write);
 }
 
-CornerSizes CornerSizes::unpacked(const parallel::Communicator& communicator, CellSpans leaves,
-                                  parallel::NodeArray<float> packed) {
+CornerSizes CornerSizes::unpacked(const Octree& octree, parallel::NodeArray<float> packed) {
+  const CellSpans leaves = octree.leaves();
   std::vector<std::uint64_t> places(leaves.size());
   if (write_places(leaves, {0, leaves.size()}, 0, places) != packed.size())
     throw std::logic_error("corner sizes of an octree with other leaves");
   CornerSizes sizes;
-  sizes._packed = std::move(packed);
-  sizes._packed = sizes._packed.shared(communicator);
-  sizes._places = parallel::NodeArray<std::uint64_t>(communicator, std::move(places));
+  sizes._packed = packed.shared(octree.communicator);
+  sizes._places = parallel::NodeArray<std::uint64_t>(octree.communicator, std::move(places));
   return sizes;
 }
 

@@ -1,8 +1,7 @@
 /// Sizes at the corners of an octree's leaves, those that siblings share held once.
 #pragma once
 
-#include "parallel/communication/node_array.hpp"
-#include "sizing/field/pages.hpp"
+#include "sizing/field/octree.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,15 +27,13 @@ public:
 
   CornerSizes() = default;
   /// From what pack() gives for a rank's part of the leaves, part_of(). Held once per node. Collective.
-  CornerSizes(const parallel::Communicator& communicator, CellSpans leaves, std::vector<float> own);
+  CornerSizes(const Octree& octree, std::vector<float> own);
   /// From the packed sizes of all leaves, the same on every rank. Throws std::logic_error where there are not
   /// as many as the leaves need. Held once per node. Collective.
-  static CornerSizes unpacked(const parallel::Communicator& communicator, CellSpans leaves,
-                              parallel::NodeArray<float> packed);
+  static CornerSizes unpacked(const Octree& octree, parallel::NodeArray<float> packed);
 
   /// The leaves that a rank finds sizes for: about as many for each, families together.
-  static IndexRange part_of(const parallel::Communicator& communicator, CellSpans leaves,
-                            parallel::Rank rank);
+  static IndexRange part_of(const Octree& octree, parallel::Rank rank);
   /// The sizes at corners of a range of leaves, (leaves,8) with corners in Morton order, as they are held.
   static std::vector<float> pack(CellSpans leaves, IndexRange range, std::span<const float> corner_sizes);
 

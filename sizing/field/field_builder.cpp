@@ -4,6 +4,7 @@
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/deliver.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -75,8 +76,8 @@ FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, const geo
           domain.diagonal());
 }
 
-FieldBuilder::FieldBuilder(const parallel::Communicator& communicator, const SizeField& previous)
-    : FieldBuilder(communicator, previous._domain, previous._options) {
+FieldBuilder::FieldBuilder(const SizeField& previous)
+    : FieldBuilder(previous.communicator(), previous._domain, previous._options) {
   _previous = &previous;
 }
 
@@ -90,14 +91,14 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   std::erase_if(sources, [&](const SizeSource& source) { return source.size >= _options.maximum; });
   const ScopedCpu own(ScopedCpu::As::task);
   sources = thin_sources(_root, sources);
-  _cells = SplitCubes(_communicator, divide_root(sources));
+  _cells = SplitCubes(divide_root(sources));
   _sources = send_to_pages(_cells.pages(), std::move(sources));
   split_at_sources();
   if (_previous != nullptr) split_as_before();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  const SharedSeeds at_sources(_communicator, seeds_at_sources());
-  if (!split_where_coarse(SeedTree(_communicator, {&at_sources}, _slope), most_leaves / growth_by_division))
+  const SharedSeeds at_sources(_cells.pages(), seeds_at_sources());
+  if (!split_where_coarse(SeedTree({&at_sources}, _slope), most_leaves / growth_by_division))
     return std::nullopt;
   _cells.balance();
   if (_cells.leaf_count() > std::numeric_limits<std::int32_t>::max())
@@ -106,7 +107,7 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   const SeedTree seeds = plant_seeds(octree, at_sources);
   std::vector<float> mine;
   parallel::agree(_communicator, [&] {
-    const IndexRange own = CornerSizes::part_of(_communicator, octree.leaves(), _communicator.rank());
+    const IndexRange own = CornerSizes::part_of(octree, _communicator.rank());
     mine = CornerSizes::pack(octree.leaves(), own, sizes_at_corners(octree, seeds, own));
   });
   return finish(octree, std::move(mine));
@@ -123,10 +124,9 @@ void FieldBuilder::require_positive(std::span<const SizeSource> own) const {
 
 Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {
   if (_previous != nullptr) {
-    const IndexRange range = own_range(_communicator, _previous->_leaf_keys.size());
-    const CellSpans leaves{_previous->_leaf_keys.items().subspan(range.first, range.size()),
-                           _previous->_leaf_levels.items().subspan(range.first, range.size())};
-    return {_communicator, leaves, cells_per_page};
+    const CellSpans leaves = _previous->_octree.leaves();
+    const IndexRange own_leaves = even_part(leaves.size(), _communicator.rank(), _communicator.size());
+    return {_communicator, leaves.part(own_leaves), cells_per_page};
   }
   std::vector<Cell> cells;
   for (const SizeSource& source : own) cells.push_back(cell_of(source));
@@ -158,7 +158,7 @@ void FieldBuilder::split_at_sources() {
 }
 
 void FieldBuilder::split_as_before() {
-  const std::span<const std::uint64_t> keys = _previous->_leaf_keys.items();
+  const auto [keys, levels] = _previous->_octree.leaves();
   const IndexRange own = _cells.own_pages();
   if (own.size() == 0) return;
   const Pages& pages = _cells.pages();
@@ -166,7 +166,7 @@ void FieldBuilder::split_as_before() {
   const auto last =
       own.last < pages.count() ? std::lower_bound(first, keys.end(), pages.key(own.last)) : keys.end();
   for (auto key = first; key < last; ++key) {
-    const int level = _previous->_leaf_levels[static_cast<std::size_t>(key - keys.begin())];
+    const int level = levels[static_cast<std::size_t>(key - keys.begin())];
     if (level > 0) _cells.split(*key, level - 1);
   }
 }
@@ -214,13 +214,13 @@ SeedTree FieldBuilder::plant_seeds(const Octree& octree, const SharedSeeds& at_s
   std::vector<SizeSeed> seeds;
   seeds.reserve(at_masters.size());
   for (const PointSize& at : at_masters) seeds.push_back({grid_point(at.key), 0, at.size});
-  const SharedSeeds shared(_communicator, seeds);
-  return SeedTree(_communicator, {&at_sources, &shared}, _slope);
+  const SharedSeeds shared(pages, seeds);
+  return SeedTree({&at_sources, &shared}, _slope);
 }
 
-FieldBuilder::Octree FieldBuilder::grow_octree() const {
+Octree FieldBuilder::grow_octree() const {
   const SplitCubes::Leaves own = _cells.leaves();
-  Octree octree;
+  Octree octree{_communicator, {}, {}, {}};
   octree.levels = parallel::NodeArray<std::uint8_t>::gathered(_communicator, own.levels);
   // Keys and table follow from the levels.
   const auto write_keys = [&](parallel::Rank rank, std::size_t first, std::span<std::uint64_t> to) {
@@ -231,7 +231,7 @@ FieldBuilder::Octree FieldBuilder::grow_octree() const {
     }
   };
   octree.keys = parallel::NodeArray<std::uint64_t>::composed(_communicator, own.keys, write_keys);
-  octree.table = LeafTable(_communicator, _cells.pages(), own, octree.leaves());
+  octree.table = LeafTable(_cells.pages(), own, octree.leaves());
   return octree;
 }
 
@@ -296,10 +296,8 @@ SizeField FieldBuilder::finish(const Octree& octree, std::vector<float> own_size
   field._domain = _domain;
   field._low = _root.low;
   field._root_edge = _root.edge;
-  field._corner_sizes = CornerSizes(_communicator, octree.leaves(), std::move(own_sizes));
-  field._leaf_keys = octree.keys;
-  field._leaf_levels = octree.levels;
-  field._leaf_table = octree.table;
+  field._corner_sizes = CornerSizes(octree, std::move(own_sizes));
+  field._octree = octree;
   return field;
 }
 

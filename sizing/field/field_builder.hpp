@@ -1,8 +1,6 @@
 /// Builds size fields: octree, sizes at its nodes, hanging nodes.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/field/seed_tree.hpp"
 #include "sizing/field/size_field.hpp"
 #include "sizing/field/sources.hpp"
@@ -33,8 +31,8 @@ public:
   /// Collective, as all that follows.
   FieldBuilder(const parallel::Communicator& communicator, const geometry::Box& domain,
                const SizingOptions& options);
-  /// Starts from a field that the new one must nowhere exceed.
-  FieldBuilder(const parallel::Communicator& communicator, const SizeField& previous);
+  /// Starts from a field of these ranks that the new one must nowhere exceed.
+  explicit FieldBuilder(const SizeField& previous);
 
   /// The field under the sources of all ranks, whose sizes may lie below the minimum. Called once.
   SizeField build(std::vector<SizeSource> sources);
@@ -46,13 +44,6 @@ private:
   struct Cell {
     std::uint64_t key;  ///< of its low corner
     int level;
-  };
-  struct Octree {
-    parallel::NodeArray<std::uint64_t> keys;
-    parallel::NodeArray<std::uint8_t> levels;
-    LeafTable table;
-
-    CellSpans leaves() const { return {keys.items(), levels.items()}; }
   };
   /// A point of the finest grid, by its key, with a size asked for there.
   struct PointSize {
@@ -89,7 +80,7 @@ private:
   /// With the sizes at corners of this rank's leaves as they are held.
   SizeField finish(const Octree& octree, std::vector<float> own_sizes) const;
 
-  const parallel::Communicator& _communicator;
+  parallel::Communicator _communicator;
   geometry::Box _domain;
   SizingOptions _options;
   const SizeField* _previous = nullptr;

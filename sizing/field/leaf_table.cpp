@@ -113,8 +113,8 @@ LeafTable::LeafTable(CellSpans leaves) {
 
 // A rank's nodes come after those above all pages and those of lower ranks; within its part they count
 // from 1.
-LeafTable::LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own,
-                     CellSpans all) {
+LeafTable::LeafTable(const Pages& pages, CellSpans own, CellSpans all) {
+  const parallel::Communicator& communicator = pages.communicator();
   const auto first_leaf = [&](parallel::Rank rank) {
     return static_cast<std::size_t>(
         std::lower_bound(all.keys.begin(), all.keys.end(), pages.first_key(rank)) - all.keys.begin());
@@ -139,10 +139,10 @@ LeafTable::LeafTable(const parallel::Communicator& communicator, const Pages& pa
   _entries = parallel::NodeArray<std::int32_t>::composed(communicator, std::move(part.entries), write);
 }
 
-LeafTable LeafTable::shared(const parallel::Communicator& communicator) const {
-  LeafTable result;
-  result._entries = _entries.shared(communicator);
-  return result;
+void Octree::share() {
+  table._entries = table._entries.shared(communicator);
+  keys = keys.shared(communicator);
+  levels = levels.shared(communicator);
 }
 
 }  // namespace aeroloom::sizing

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -20,7 +19,7 @@ class SplitCubes {
 public:
   /// On this rank alone.
   SplitCubes() = default;
-  SplitCubes(const parallel::Communicator& communicator, Pages pages);
+  explicit SplitCubes(Pages pages);
 
   /// Splits the cell of `level` that holds the finest cell `key`, in a page of this rank.
   void split(std::uint64_t key, int level) {
@@ -32,7 +31,7 @@ public:
 
   const Pages& pages() const { return _pages; }
   /// The pages of this rank.
-  IndexRange own_pages() const { return _pages.of_rank(_rank); }
+  IndexRange own_pages() const { return _pages.of_rank(_pages.rank()); }
 
   /// Leaves along the Morton curve: key of the low corner, level.
   struct Leaves {
@@ -61,8 +60,6 @@ private:
   std::array<std::vector<std::uint64_t>, finest_level> _above;  // cells that hold several pages
   std::vector<Request> _of_others;
   Pages _pages;
-  std::optional<parallel::Communicator> _communicator;  // where there are several ranks
-  parallel::Rank _rank = 0;
 };
 
 /// Finds the leaf of a finest cell: a tree with 64 branches per node, two octree levels each.
@@ -72,7 +69,7 @@ public:
   /// Of all leaves of the root.
   explicit LeafTable(CellSpans leaves);
   /// Each rank gives the leaves in its pages, and knows all; held once per node. Collective.
-  LeafTable(const parallel::Communicator& communicator, const Pages& pages, CellSpans own, CellSpans all);
+  LeafTable(const Pages& pages, CellSpans own, CellSpans all);
 
   /// Index of the leaf that holds the finest cell with this key.
   std::int32_t find(std::uint64_t key) const {
@@ -83,12 +80,23 @@ public:
       entry = -entry;
     }
   }
-  /// This table, which is the same on every rank, held once per node. Collective.
-  LeafTable shared(const parallel::Communicator& communicator) const;
 
 private:
+  friend struct Octree;
   static constexpr int top_shift = 3 * finest_level - 6;
   parallel::NodeArray<std::int32_t> _entries;  // (nodes,64): a leaf where >= 0, else minus the node below
+};
+
+/// The leaves of an octree, the same on every rank of a communicator.
+struct Octree {
+  parallel::Communicator communicator;
+  parallel::NodeArray<std::uint64_t> keys;   ///< Morton keys of the leaves' low corners, ascending
+  parallel::NodeArray<std::uint8_t> levels;  ///< 0 is the root
+  LeafTable table;
+
+  CellSpans leaves() const { return {keys.items(), levels.items()}; }
+  /// From here on held once per node. Collective.
+  void share();
 };
 
 /// The distinct corners of a range of leaves.

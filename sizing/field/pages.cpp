@@ -29,13 +29,8 @@ std::vector<std::int64_t> count_in(const std::vector<Cube>& cubes, CellSpans cel
 
 }  // namespace
 
-IndexRange own_range(const parallel::Communicator& communicator, std::size_t count) {
-  const auto rank = static_cast<std::size_t>(communicator.rank());
-  const auto ranks = static_cast<std::size_t>(communicator.size());
-  return {count * rank / ranks, count * (rank + 1) / ranks};
-}
-
-Pages::Pages(const parallel::Communicator& communicator, CellSpans own, std::int64_t most) {
+Pages::Pages(const parallel::Communicator& communicator, CellSpans own, std::int64_t most)
+    : _communicator(communicator), _rank(communicator.rank()) {
   struct Page {
     Cube cube;
     std::int64_t cells;

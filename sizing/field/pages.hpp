@@ -29,20 +29,26 @@ struct CellSpans {
   }
 };
 
-/// This rank's part of so many, which all ranks share alike.
-IndexRange own_range(const parallel::Communicator& communicator, std::size_t count);
+/// The part of a rank where ranks have about as many of `count` things each.
+inline IndexRange even_part(std::size_t count, parallel::Rank rank, int ranks) {
+  const auto r = static_cast<std::size_t>(rank), of = static_cast<std::size_t>(ranks);
+  return {count * r / of, count * (r + 1) / of};
+}
 
 /// Cubes that tile the root, in their order along the Morton curve, each with the rank that makes what lies
 /// in it: neighbours along the curve, about as much for each. Which there are is known on every rank, and
-/// does not count for what is made.
+/// does not count for what is made. They hold the communicator of those ranks.
 class Pages {
 public:
-  /// The root alone, on the first rank.
+  /// The root alone, on one rank; without a communicator.
   Pages() = default;
   /// Cells of all ranks, each rank's own in the order of their keys, in cubes that hold at most `most` or
   /// cells no smaller than they are. Collective.
   Pages(const parallel::Communicator& communicator, CellSpans own, std::int64_t most);
 
+  const parallel::Communicator& communicator() const { return _communicator; }
+  parallel::Rank rank() const { return _rank; }
+  int ranks() const { return static_cast<int>(_firsts.size()); }
   std::size_t count() const { return _keys.size(); }
   std::uint64_t key(std::size_t page) const { return _keys[page]; }
   int level(std::size_t page) const { return _levels[page]; }
@@ -69,6 +75,8 @@ public:
 private:
   void assign_to_ranks(std::span<const std::int64_t> weights, int ranks);
 
+  parallel::Communicator _communicator;
+  parallel::Rank _rank = 0;
   std::vector<std::uint64_t> _keys{0};
   std::vector<std::uint8_t> _levels{0};
   std::vector<std::size_t> _firsts{0};  // per rank

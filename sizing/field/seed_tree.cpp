@@ -50,23 +50,23 @@ struct SeedTree::Layer {
   std::vector<std::uint64_t> keys;
 };
 
-SharedSeeds::SharedSeeds(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own)
-    : _firsts{0} {
+SharedSeeds::SharedSeeds(const Pages& pages, const std::vector<SizeSeed>& own)
+    : _communicator(pages.communicator()), _firsts{0} {
   std::vector<std::uint64_t> keys;
   std::vector<std::uint8_t> levels;
   std::vector<double> sizes;
-  parallel::agree(communicator, [&] {
+  parallel::agree(_communicator, [&] {
     for (const SizeSeed& seed : own) {
       keys.push_back(morton_key(seed.low)), sizes.push_back(seed.size);
       const int level = std::bit_width(grid_size) - std::bit_width(seed.edge);
       levels.push_back(seed.edge == 0 ? of_point : static_cast<std::uint8_t>(level));
     }
   });
-  for (const auto count : communicator.all_gather_values(static_cast<std::uint64_t>(own.size())))
+  for (const auto count : _communicator.all_gather_values(static_cast<std::uint64_t>(own.size())))
     _firsts.push_back(_firsts.back() + count);
-  _keys = parallel::NodeArray<std::uint64_t>::gathered(communicator, std::move(keys));
-  _levels = parallel::NodeArray<std::uint8_t>::gathered(communicator, std::move(levels));
-  _sizes = parallel::NodeArray<double>::gathered(communicator, std::move(sizes));
+  _keys = parallel::NodeArray<std::uint64_t>::gathered(_communicator, std::move(keys));
+  _levels = parallel::NodeArray<std::uint8_t>::gathered(_communicator, std::move(levels));
+  _sizes = parallel::NodeArray<double>::gathered(_communicator, std::move(sizes));
 }
 
 void SharedSeeds::append(parallel::Rank rank, std::vector<Keyed>& seeds) const {
@@ -122,9 +122,9 @@ struct SeedTree::PartOfRank {
 };
 
 // Seeds travel. The tree does not: the parts of ranks of other nodes are made once more on each node.
-SeedTree::SeedTree(const parallel::Communicator& communicator,
-                   std::initializer_list<const SharedSeeds*> lists, double slope)
+SeedTree::SeedTree(std::initializer_list<const SharedSeeds*> lists, double slope)
     : _slope(slope), _steps_per_size(1 / slope) {
+  const parallel::Communicator& communicator = (*lists.begin())->communicator();
   std::map<parallel::Rank, PartOfRank> parts;
   const auto part_of = [&](parallel::Rank rank) -> const PartOfRank& {
     const auto known = parts.find(rank);

@@ -1,9 +1,8 @@
 /// Cubes that ask for sizes, searched for what counts at a point.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "parallel/communication/node_array.hpp"
-#include "sizing/field/morton.hpp"
+#include "sizing/field/pages.hpp"
 
 #include <array>
 #include <cstddef>
@@ -25,19 +24,22 @@ struct SizeSeed {
 class SharedSeeds {
 public:
   SharedSeeds() = default;
-  /// Each rank gives seeds that lie along the curve before those of higher ranks. Collective.
-  SharedSeeds(const parallel::Communicator& communicator, const std::vector<SizeSeed>& own);
+  /// Each rank gives the seeds in its pages, which lie along the curve before those of higher ranks.
+  /// Collective.
+  SharedSeeds(const Pages& pages, const std::vector<SizeSeed>& own);
 
   struct Keyed {
     std::uint64_t key;  ///< of the low corner
     SizeSeed seed;
   };
+  const parallel::Communicator& communicator() const { return _communicator; }
   /// Adds those of a rank.
   void append(parallel::Rank rank, std::vector<Keyed>& seeds) const;
 
 private:
   static constexpr std::uint8_t of_point = 255;
 
+  parallel::Communicator _communicator;
   std::vector<std::size_t> _firsts;           // per rank, and the end
   parallel::NodeArray<std::uint64_t> _keys;   // of their low corners
   parallel::NodeArray<std::uint8_t> _levels;  // a cube of half the grid's edge has 1
@@ -68,9 +70,8 @@ struct SeedGroup {
 class SeedTree {
 public:
   SeedTree() = default;
-  /// Of the seeds in several lists; `slope` counts in size per finest cell. Collective.
-  SeedTree(const parallel::Communicator& communicator, std::initializer_list<const SharedSeeds*> lists,
-           double slope);
+  /// Of the seeds in one or several lists; `slope` counts in size per finest cell. Collective.
+  SeedTree(std::initializer_list<const SharedSeeds*> lists, double slope);
 
   /// The least offer at a point, `bound` where none is below it. `near` makes the search quick where the last
   /// point was close by: the seed whose offer won there, -1 none. The result does not depend on it.

@@ -43,9 +43,8 @@ SizeField SizeField::build(const geometry::Box& domain, std::span<const SizeSour
   return FieldBuilder(parallel::Communicator::self(), domain, options).build(std::move(bounded));
 }
 
-SizeField SizeField::refined(const parallel::Communicator& communicator,
-                             std::span<const SizeSource> more) const {
-  return FieldBuilder(communicator, *this).build({more.begin(), more.end()});
+SizeField SizeField::refined(std::span<const SizeSource> more) const {
+  return FieldBuilder(*this).build({more.begin(), more.end()});
 }
 
 double SizeField::operator()(geometry::Vec3 x) const {
@@ -58,8 +57,8 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
   const double cells_per_length = grid_size / _root_edge;
   const double tx = dx * cells_per_length, ty = dy * cells_per_length, tz = dz * cells_per_length;
   const GridPoint cell{cell_of(tx), cell_of(ty), cell_of(tz)};
-  const auto leaf = static_cast<std::size_t>(_leaf_table.find(morton_key(cell)));
-  const std::uint32_t edge = grid_size >> _leaf_levels[leaf];
+  const auto leaf = static_cast<std::size_t>(_octree.table.find(morton_key(cell)));
+  const std::uint32_t edge = grid_size >> _octree.levels[leaf];
   const double u = fraction(tx, cell.x, edge), v = fraction(ty, cell.y, edge), w = fraction(tz, cell.z, edge);
   const CornerSizes::Cube h = _corner_sizes.of_leaf(leaf);
   const double low = blend(blend(h(0), h(1), u), blend(h(2), h(3), u), v);
@@ -75,19 +74,19 @@ SizeField SizeField::scaled(double factor) const {
 }
 
 SizeField::Leaf SizeField::leaf(std::int64_t i) const {
-  const GridPoint low = grid_point(_leaf_keys[i]);
+  const GridPoint low = grid_point(_octree.keys[i]);
   const double unit = _root_edge / grid_size;
   const CornerSizes::Cube h = _corner_sizes.of_leaf(i);
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) sum += h(corner);
   return {_low + unit * geometry::Vec3{double(low.x), double(low.y), double(low.z)},
-          unit * (grid_size >> _leaf_levels[i]), std::min(_factor * sum / 8, _options.maximum)};
+          unit * (grid_size >> _octree.levels[i]), std::min(_factor * sum / 8, _options.maximum)};
 }
 
 SizeField::Leaf SizeField::ancestor(std::int64_t i, int levels) const {
-  const int level = std::max(0, _leaf_levels[i] - levels);
+  const int level = std::max(0, _octree.levels[i] - levels);
   const std::uint32_t edge = grid_size >> level, mask = ~(edge - 1);
-  const GridPoint low = grid_point(_leaf_keys[i]);
+  const GridPoint low = grid_point(_octree.keys[i]);
   const double unit = _root_edge / grid_size;
   return {_low + unit * geometry::Vec3{double(low.x & mask), double(low.y & mask), double(low.z & mask)},
           unit * edge, 0};

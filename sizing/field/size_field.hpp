@@ -2,8 +2,6 @@
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/communication/node_array.hpp"
 #include "parallel/storage/digest.hpp"
 #include "sizing/field/corner_sizes.hpp"
 #include "sizing/field/octree.hpp"
@@ -90,11 +88,13 @@ struct SizeSource {
 /// source asks for its size in the whole leaf around it, whose edge is at most that size. From there h grows
 /// by ln(growth) per length. minimum <= h <= maximum, except that `minimum` does not bind against short
 /// edges, narrow faces, sharp corners, open gaps and what refined() asks for. Immutable and identical on
-/// every rank, held once per node where ranks built it together; cheap to copy.
+/// every rank, held once per node where ranks built it together; cheap to copy. It holds the communicator of
+/// the ranks that built it.
 class SizeField {
 public:
   /// Builds the field over `domain` from sources, their sizes raised to the minimum; sources outside count at
-  /// the nearest point of the box. Serial; the result depends on the set of sources, not on their order.
+  /// the nearest point of the box. Serial: the field is of this rank alone, and so is what refined() makes of
+  /// it. The result depends on the set of sources, not on their order.
   /// Throws std::invalid_argument for impossible options, an empty domain, and sizes that are not positive.
   static SizeField build(const geometry::Box& domain, std::span<const SizeSource> sources,
                          const SizingOptions& options);
@@ -105,7 +105,9 @@ public:
   double maximum() const { return _options.maximum; }
   const SizingOptions& options() const { return _options; }
   const geometry::Box& domain() const { return _domain; }
-  std::int64_t leaf_count() const { return static_cast<std::int64_t>(_leaf_keys.size()); }
+  std::int64_t leaf_count() const { return static_cast<std::int64_t>(_octree.keys.size()); }
+  /// Of the ranks that built the field: this one alone after build().
+  const parallel::Communicator& communicator() const { return _octree.communicator; }
 
   /// One leaf of the octree.
   struct Leaf {
@@ -119,7 +121,7 @@ public:
 
   /// The field with further sources, each rank its own: sizes can only fall, below the minimum too. The same
   /// however ranks share them. Used where surfaces come too close. Collective.
-  SizeField refined(const parallel::Communicator& communicator, std::span<const SizeSource> more) const;
+  SizeField refined(std::span<const SizeSource> more) const;
   /// Bit for bit, for another run.
   parallel::Bytes pack() const;
   /// Held once per node. Every rank gives the same bytes. Collective; throws std::logic_error for bytes that
@@ -136,16 +138,13 @@ private:
   static auto fields_of(Field& field);
   /// The size at an offset from the low corner of the root cube.
   double interpolate(double dx, double dy, double dz) const;
-  CellSpans leaves() const { return {_leaf_keys.items(), _leaf_levels.items()}; }
 
   SizingOptions _options;
-  geometry::Box _domain;                           // as asked for
-  geometry::Vec3 _low;                             // corner of the root cube
-  double _root_edge = 1;                           // of the root cube
-  double _factor = 1;                              // of the sizes
-  parallel::NodeArray<std::uint64_t> _leaf_keys;   // Morton keys of the leaves' low corners, ascending
-  parallel::NodeArray<std::uint8_t> _leaf_levels;  // 0 is the root
-  LeafTable _leaf_table;
+  geometry::Box _domain;  // as asked for
+  geometry::Vec3 _low;    // corner of the root cube
+  double _root_edge = 1;  // of the root cube
+  double _factor = 1;     // of the sizes
+  Octree _octree;
   CornerSizes _corner_sizes;  // times the factor
 };
 

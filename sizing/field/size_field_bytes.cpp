@@ -6,20 +6,12 @@
 #include <vector>
 
 namespace aeroloom::sizing {
-namespace {
-
-template <class T>
-std::vector<T> copy_of(const parallel::NodeArray<T>& array) {
-  return {array.items().begin(), array.items().end()};
-}
-
-}  // namespace
 
 /// All but what follows from the leaves.
 template <class Field>
 auto SizeField::fields_of(Field& field) {
   return std::tie(field._options, field._domain, field._low, field._root_edge, field._factor,
-                  field._leaf_keys, field._leaf_levels);
+                  field._octree.keys, field._octree.levels);
 }
 
 parallel::Bytes SizeField::pack() const {
@@ -31,14 +23,13 @@ SizeField SizeField::unpack(const parallel::Communicator& communicator, std::spa
   parallel::NodeArray<float> corner_sizes;
   auto fields = std::tuple_cat(fields_of(field), std::tie(corner_sizes));
   parallel::from_wire_into(bytes, fields);
-  const std::size_t leaves = field._leaf_keys.size();
-  if (field._leaf_levels.size() != leaves)
+  Octree& octree = field._octree;
+  if (octree.levels.size() != octree.keys.size())
     throw std::logic_error("SizeField::unpack: arrays of different lengths");
-  field._corner_sizes = CornerSizes::unpacked(communicator, field.leaves(), std::move(corner_sizes));
-  field._leaf_table =
-      LeafTable({copy_of(field._leaf_keys), copy_of(field._leaf_levels)}).shared(communicator);
-  field._leaf_keys = field._leaf_keys.shared(communicator);
-  field._leaf_levels = field._leaf_levels.shared(communicator);
+  octree.communicator = communicator;
+  field._corner_sizes = CornerSizes::unpacked(octree, std::move(corner_sizes));
+  octree.table = LeafTable(octree.leaves());
+  octree.share();
   return field;
 }
 
@@ -48,8 +39,8 @@ parallel::Digest SizeField::digest() const {
     digester.value(number);
   for (const geometry::Vec3& corner : {_domain.low, _domain.high, _low})
     digester.value(corner.x).value(corner.y).value(corner.z);
-  return digester.items(_leaf_keys.items())
-      .items(_leaf_levels.items())
+  return digester.items(_octree.keys.items())
+      .items(_octree.levels.items())
       .items(_corner_sizes.packed().items())
       .result();
 }

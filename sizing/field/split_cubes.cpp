@@ -44,9 +44,7 @@ void for_each_parent(const std::vector<std::uint64_t>& cells, const Visit& visit
 
 }  // namespace
 
-SplitCubes::SplitCubes(const parallel::Communicator& communicator, Pages pages)
-    : _pages(std::move(pages)), _rank(communicator.rank()) {
-  if (communicator.size() > 1) _communicator = communicator;
+SplitCubes::SplitCubes(Pages pages) : _pages(std::move(pages)) {
   for (std::size_t page = 0; page < _pages.count(); ++page) {
     for (int level = _pages.level(page) - 1; level >= 0; --level) {
       const std::uint64_t cell = _pages.key(page) >> 3 * (finest_level - level);
@@ -64,7 +62,7 @@ void SplitCubes::split_around(std::uint64_t parent, int level, std::uint32_t wan
   const GridPoint c = grid_point(parent);
   const std::size_t home = _pages.find(parent << below);
   const int to_page = 3 * (level - _pages.level(home));
-  const bool is_at_home = to_page >= 0 && _pages.owner(home) == _rank;
+  const bool is_at_home = to_page >= 0 && _pages.owner(home) == _pages.rank();
   for (int place = 0; place < 27; ++place) {
     if ((wanted >> place & 1) == 0) continue;
     const GridPoint p{c.x + static_cast<std::uint32_t>(place % 3) - 1,
@@ -79,7 +77,7 @@ void SplitCubes::split_around(std::uint64_t parent, int level, std::uint32_t wan
     const std::size_t page = _pages.find(cell << below);
     if (level < _pages.level(page)) continue;  // it holds several pages
     const parallel::Rank owner = _pages.owner(page);
-    if (owner == _rank) {
+    if (owner == _pages.rank()) {
       _cells[level].push_back(cell);
     } else {
       _of_others.push_back({cell, owner});
@@ -97,8 +95,8 @@ void SplitCubes::balance() {
     for_each_parent(_above[level], split_neighbours);
     _of_others.clear();
     for_each_parent(_cells[level], split_neighbours);
-    if (!_communicator) continue;
-    for (const Request& request : parallel::deliver(*_communicator, std::exchange(_of_others, {}),
+    if (_pages.ranks() == 1) continue;
+    for (const Request& request : parallel::deliver(_pages.communicator(), std::exchange(_of_others, {}),
                                                     [](const Request& r) { return r.owner; }))
       _cells[level - 1].push_back(request.cell);
   }
@@ -109,7 +107,7 @@ std::int64_t SplitCubes::leaf_count() const {
   std::int64_t split = 0;
   for (const std::vector<std::uint64_t>& cells : _cells) split += static_cast<std::int64_t>(cells.size());
   const std::int64_t pages = static_cast<std::int64_t>(_pages.count());
-  return 7 * (_communicator ? _communicator->sum(split) : split) + pages;
+  return 7 * (_pages.ranks() > 1 ? _pages.communicator().sum(split) : split) + pages;
 }
 
 SplitCubes::Leaves SplitCubes::leaves() const {

@@ -6,7 +6,7 @@
 #include "sizing/features/segment_tree.hpp"
 #include "sizing/features/skin_faces.hpp"
 #include "sizing/lifting/lifting_section.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ constexpr double widest = 0.05;
 class Surveyor {
 public:
   /// `goes_on` tells at which ends another trailing edge begins.
-  Surveyor(const ModelSampler& sampler, Vec3 flow, TrailingSeed seed, std::array<bool, 2> goes_on)
-      : _model(sampler.model()), _flow(flow), _element(std::move(seed.element)), _goes_on(goes_on) {
+  Surveyor(const SampledModel& sampled, Vec3 flow, TrailingSeed seed, std::array<bool, 2> goes_on)
+      : _model(sampled.model()), _flow(flow), _element(std::move(seed.element)), _goes_on(goes_on) {
     const std::set<FaceId> faces = skin_faces(_model, seed.neighbours, _element.strip, Kinks::no_valleys);
-    for (const Wall& wall : sampler.walls().facets)
+    for (const Wall& wall : sampled.walls().facets)
       if (faces.contains(wall.face)) _skin.push_back(wall);
     list_ends(faces);
     measure_lengths();
@@ -286,10 +286,10 @@ bool is_wanted(const std::optional<TrailingSeed>& seed, const std::vector<bool>&
 
 }  // namespace
 
-LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow,
+LiftingBodies find_lifting_bodies(const SampledModel& sampled, Vec3 flow,
                                   const std::vector<std::string>& named) {
-  const parallel::Communicator& communicator = sampler.communicator();
-  const cad::Model& model = sampler.model();
+  const parallel::Communicator& communicator = sampled.communicator();
+  const cad::Model& model = sampled.model();
   std::vector<bool> wanted;
   std::vector<std::int32_t> strips, edges;
   parallel::agree(communicator, [&] {
@@ -300,10 +300,8 @@ LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow,
     for (cad::EdgeId e = communicator.rank(); e < model.edge_count(); e += communicator.size())
       if (is_wanted(sharp_seed(model, e, flow), wanted)) edges.push_back(e);
   });
-  std::vector<std::int32_t> all_strips = communicator.all_gather_items<std::int32_t>(strips),
-                            all_edges = communicator.all_gather_items<std::int32_t>(edges);
-  std::sort(all_strips.begin(), all_strips.end());
-  std::sort(all_edges.begin(), all_edges.end());
+  const std::vector<std::int32_t> all_strips = communicator.gather_sorted(strips),
+                                  all_edges = communicator.gather_sorted(edges);
   LiftingBodies bodies;
   parallel::agree(communicator, [&] {
     std::vector<TrailingSeed> seeds;
@@ -322,10 +320,10 @@ LiftingBodies find_lifting_bodies(const ModelSampler& sampler, Vec3 flow,
         goes_on[side] = std::any_of(vertices.begin(), vertices.end(),
                                     [&](cad::VertexId vertex) { return users[vertex] > 1; });
       }
-      if (auto element = Surveyor(sampler, flow, std::move(seed), goes_on).survey())
+      if (auto element = Surveyor(sampled, flow, std::move(seed), goes_on).survey())
         bodies.elements.push_back(std::move(*element));
     }
-    if (!bodies.elements.empty()) add_reference(model, sampler.body_box(), flow, bodies);
+    if (!bodies.elements.empty()) add_reference(model, sampled.body_box(), flow, bodies);
   });
   return bodies;
 }

@@ -6,7 +6,7 @@
 /// and the direction of the flow alone.
 #pragma once
 
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/sampled_model.hpp"
 #include "sizing/features/lifting_bodies.hpp"
 
 #include <string>
@@ -18,7 +18,7 @@ namespace aeroloom::sizing {
 /// patches; only trailing edges of these faces are taken, of all where there are none. For the model before
 /// any of its faces were joined. The same on every rank; collective. Throws parallel::CollectiveError where
 /// the CAD library fails.
-LiftingBodies find_lifting_bodies(const ModelSampler& sampler, geometry::Vec3 flow,
+LiftingBodies find_lifting_bodies(const SampledModel& sampled, geometry::Vec3 flow,
                                   const std::vector<std::string>& named = {});
 
 }  // namespace aeroloom::sizing

@@ -26,11 +26,11 @@ std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
 }
 
 /// Facets of those faces, and their border but for the strip itself.
-Skin cover(const ModelSampler& sampler, const std::set<FaceId>& faces, FaceId strip) {
+Skin cover(const SampledModel& sampled, const std::set<FaceId>& faces, FaceId strip) {
   constexpr int intervals = 32;  // of each edge of a border; chosen, not measured
-  const cad::Model& model = sampler.model();
+  const cad::Model& model = sampled.model();
   Skin skin;
-  for (const Wall& wall : sampler.walls().facets) {
+  for (const Wall& wall : sampled.walls().facets) {
     if (faces.contains(wall.face)) skin.facets.push_back(wall.corners);
   }
   for (const FaceId face : faces) {
@@ -54,8 +54,8 @@ Skin cover(const ModelSampler& sampler, const std::set<FaceId>& faces, FaceId st
   return skin;
 }
 
-TrailingEdge measure(const ModelSampler& sampler, cad::BluntEdge strip) {
-  const Skin skin = cover(sampler, skin_of(sampler.model(), strip), strip.face);
+TrailingEdge measure(const SampledModel& sampled, cad::BluntEdge strip) {
+  const Skin skin = cover(sampled, skin_of(sampled.model(), strip), strip.face);
   TrailingEdge edge{std::move(strip)};
   const std::vector<cad::BluntStation>& stations = edge.strip.stations;
   std::vector<double> chords(stations.size());
@@ -77,9 +77,9 @@ TrailingEdge measure(const ModelSampler& sampler, cad::BluntEdge strip) {
 
 }  // namespace
 
-std::vector<TrailingEdge> find_trailing_edges(const ModelSampler& sampler, double width) {
-  const parallel::Communicator& communicator = sampler.communicator();
-  const cad::Model& model = sampler.model();
+std::vector<TrailingEdge> find_trailing_edges(const SampledModel& sampled, double width) {
+  const parallel::Communicator& communicator = sampled.communicator();
+  const cad::Model& model = sampled.model();
   std::vector<FaceId> mine;
   parallel::agree(communicator, [&] {
     // Distributed as areas are measured, which widths of faces take.
@@ -88,11 +88,10 @@ std::vector<TrailingEdge> find_trailing_edges(const ModelSampler& sampler, doubl
       if (found.kind == Kind::closable && found.edge.narrowest < width) mine.push_back(f);
     }
   });
-  std::vector<FaceId> all = communicator.all_gather_items<FaceId>(mine);
-  std::sort(all.begin(), all.end());
+  std::vector<FaceId> all = communicator.gather_sorted(mine);
   std::vector<TrailingEdge> edges;
   parallel::agree(communicator, [&] {
-    for (const FaceId f : all) edges.push_back(measure(sampler, cad::examine_blunt_edge(model, f, 0).edge));
+    for (const FaceId f : all) edges.push_back(measure(sampled, cad::examine_blunt_edge(model, f, 0).edge));
   });
   return edges;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cad/model/topology/blunt_edges.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/sampled_model.hpp"
 
 #include <vector>
 
@@ -17,6 +17,6 @@ struct TrailingEdge {
 
 /// Trailing edges narrower than `width` at some place, by face; the same on every rank. Before the sampler's
 /// facets go on to a joined model. Collective. Throws CollectiveError where the CAD library fails.
-std::vector<TrailingEdge> find_trailing_edges(const ModelSampler& sampler, double width);
+std::vector<TrailingEdge> find_trailing_edges(const SampledModel& sampled, double width);
 
 }  // namespace aeroloom::sizing

@@ -76,7 +76,7 @@ struct ConeShape {
 };
 
 /// The sheet that a line, or the trailing edges of faces, leave behind. The model tells where those are, so
-/// that it answers scaled() alone; sized_surface.hpp makes the sheet.
+/// that it answers scaled() alone; surface_demand.hpp makes the sheet.
 struct WakeShape {
   std::vector<std::string> behind;         ///< patterns of faces' or patches' names; none: `from` and `to`
   std::optional<geometry::Vec3> from, to;  ///< ends of the line

@@ -4,9 +4,9 @@
 #include "geometry/place_text.hpp"
 #include "surface/charts/conformal_map.hpp"
 #include "surface/charts/cut_curves.hpp"
+#include "surface/charts/delaunay_flips.hpp"
 #include "surface/charts/plane_cut.hpp"
-#include "surface/charts/support_flips.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 #include "surface/surface_error.hpp"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ constexpr double acceptable_overlap = 1e-3, bearable_overlap = 2e-2;
 constexpr double endurable_excess = 2;
 /// A domain below this area, in squares of the size, is not split any further. Any map does for them.
 constexpr double few_elements = 4;
-/// Supports with more points are split before they are mapped: factors of the map's equations grow faster
-/// than points, and triangles of a file may be any number. Chosen, not measured.
+/// Chart surfaces with more points are split before they are mapped: factors of the map's equations grow
+/// faster than points, and triangles of a file may be any number. Chosen, not measured.
 constexpr std::size_t most_points = 40000;
 /// Of the map that keeps triangles as rigid as may be; each lowers its energy. Chosen, not measured.
 constexpr int rigid_steps = 15;
@@ -63,28 +63,28 @@ bool is_better(const MapQuality& a, const MapQuality& b, const ChartLimits& limi
 }
 
 /// Tries maps from the cheapest to the most patient; the first acceptable one, or the best of all.
-Candidate choose_map(const Support& support, const ChartLimits& limits, double spread) {
-  const PlaneMap projection = project_to_mean_plane(support);
-  Candidate best{projection, judge_map(support, projection)};
+Candidate choose_map(const ChartSurface& surface, const ChartLimits& limits, double spread) {
+  const PlaneMap projection = project_to_mean_plane(surface);
+  Candidate best{projection, judge_map(surface, projection)};
   const auto consider = [&](std::optional<PlaneMap> map) {
     if (!map) return;
     Candidate candidate{std::move(*map), {}};
-    candidate.quality = judge_map(support, candidate.map);
+    candidate.quality = judge_map(surface, candidate.map);
     const bool better =
         is_acceptable(candidate.quality, limits) || is_better(candidate.quality, best.quality, limits);
     if (better) best = std::move(candidate);
   };
   if (spread <= projection_spread && is_acceptable(best.quality, limits)) return best;
-  const std::optional<PlaneMap> conformal = map_conformally(support, projection);
+  const std::optional<PlaneMap> conformal = map_conformally(surface, projection);
   consider(conformal);
   if (!is_acceptable(best.quality, limits) && conformal)
-    consider(map_rigidly(support, *conformal, rigid_steps));
-  if (!is_acceptable(best.quality, limits)) consider(scale_parameters(support));
+    consider(map_rigidly(surface, *conformal, rigid_steps));
+  if (!is_acceptable(best.quality, limits)) consider(scale_parameters(surface));
   return best;
 }
 
 struct ChartDomain {
-  Support support;
+  ChartSurface surface;
   int depth;
   std::optional<Candidate> best = {};  ///< of the maps tried
 };
@@ -95,7 +95,7 @@ public:
              FaceVertices& vertices)
       : _model(model), _field(field), _limits(limits), _vertices(vertices) {}
 
-  std::vector<Chart> run(const Support& whole) {
+  std::vector<Chart> run(const ChartSurface& whole) {
     _joined = joined_vertices(whole);
     const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(whole.triangles);
     std::vector<std::int32_t> component;
@@ -111,67 +111,65 @@ public:
   }
 
 private:
-  void push(std::vector<Support> parts, int depth) {
+  void push(std::vector<ChartSurface> parts, int depth) {
     for (std::size_t i = parts.size(); i-- > 0;) _waiting.push_back({std::move(parts[i]), depth, {}});
   }
 
-  void accept(Support support, PlaneMap map) {
-    Chart chart{std::move(support), std::move(map), {}};
-    chart.scale = point_scales(chart.support, chart.plane);
+  void accept(ChartSurface surface, PlaneMap map) {
+    Chart chart{std::move(surface), std::move(map), {}};
+    chart.scale = point_scales(chart.surface, chart.plane);
     _charts.push_back(std::move(chart));
   }
 
   /// Maps the domain to one chart if it fits the limits, or is not worth being split any further.
   bool map_whole(ChartDomain& domain) {
-    const Support& support = domain.support;
-    if (_model.is_planar(support.face)) {
-      PlaneMap map = project_to_mean_plane(support);
-      accept(std::move(domain.support), std::move(map));
+    const ChartSurface& surface = domain.surface;
+    if (_model.is_planar(surface.face)) {
+      PlaneMap map = project_to_mean_plane(surface);
+      accept(std::move(domain.surface), std::move(map));
       return true;
     }
-    if (!is_planar_domain(support, geometry::match_half_edges(support.triangles))) return false;
-    if (support.points.size() > most_points && domain.depth < deepest_split) return false;
-    const double spread = normal_spread(support);
-    domain.best = choose_map(support, _limits, spread);
+    if (!is_planar_domain(surface)) return false;
+    if (surface.points.size() > most_points && domain.depth < deepest_split) return false;
+    const double spread = normal_spread(surface);
+    domain.best = choose_map(surface, _limits, spread);
     const MapQuality& quality = domain.best->quality;
     const bool flat = spread <= _limits.spread * degree && excess(quality, _limits) <= endurable_excess;
     const bool is_final = flat || domain.depth >= deepest_split || is_small(domain);
     if (!is_acceptable(quality, _limits) && !(is_final && is_bearable(quality))) return false;
-    accept(std::move(domain.support), std::move(domain.best->map));
+    accept(std::move(domain.surface), std::move(domain.best->map));
     return true;
   }
 
   /// Whether a part of a face has room for a few elements only.
   bool is_small(const ChartDomain& domain) const {
-    const double size = _field(domain.support.points.front());
-    return domain.depth > 0 && support_area(domain.support) < few_elements * size * size;
+    const double size = _field(domain.surface.points.front());
+    return domain.depth > 0 && surface_area(domain.surface) < few_elements * size * size;
   }
 
   void split(ChartDomain domain) {
-    if (domain.depth >= deepest_split) fail(domain.support);
-    for (const CutPlane& plane : propose_planes(domain.support)) {
-      std::optional<CutSupport> cut = cut_by_plane(domain.support, plane);
+    if (domain.depth >= deepest_split) fail(domain.surface);
+    for (const CutPlane& plane : propose_planes(domain.surface)) {
+      std::optional<CutSurface> cut = cut_by_plane(domain.surface, plane);
       if (!cut) continue;
-      std::vector<Support> parts = discretise_cuts(_model, _field, std::move(*cut), _vertices, _joined);
-      for (Support& part : parts) flip_to_delaunay(part);
+      std::vector<ChartSurface> parts = discretise_cuts(_model, _field, std::move(*cut), _vertices, _joined);
+      for (ChartSurface& part : parts) flip_to_delaunay(part);
       push(std::move(parts), domain.depth + 1);
       return;
     }
-    const bool may_map =
-        is_planar_domain(domain.support, geometry::match_half_edges(domain.support.triangles));
-    if (!domain.best && may_map)
-      domain.best = choose_map(domain.support, _limits, normal_spread(domain.support));
-    if (!domain.best || !is_bearable(domain.best->quality)) fail(domain.support);
-    accept(std::move(domain.support), std::move(domain.best->map));
+    if (!domain.best && is_planar_domain(domain.surface))
+      domain.best = choose_map(domain.surface, _limits, normal_spread(domain.surface));
+    if (!domain.best || !is_bearable(domain.best->quality)) fail(domain.surface);
+    accept(std::move(domain.surface), std::move(domain.best->map));
   }
 
-  [[noreturn]] void fail(const Support& support) const {
-    const geometry::Vec3 at = support.points.front();
+  [[noreturn]] void fail(const ChartSurface& surface) const {
+    const geometry::Vec3 at = surface.points.front();
     throw SurfaceError(fmt::format(
         "face {} (patch {}): no chart can be found for its part near {}, where the size is {:.4g}; where the "
         "face is rounder than that, ask for a smaller size (SizingOptions::minimum, "
         "SizingOptions::curvature_angle); else it may fold over itself: repair it in the CAD program",
-        _model.face(support.face).name, _model.patches()[_model.face(support.face).patch],
+        _model.face(surface.face).name, _model.patches()[_model.face(surface.face).patch],
         geometry::place_text(at), _field(at)));
   }
 
@@ -187,8 +185,9 @@ private:
 }  // namespace
 
 std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field,
-                               const Support& support, const ChartLimits& limits, FaceVertices& vertices) {
-  return ChartMaker(model, field, limits, vertices).run(support);
+                               const ChartSurface& surface, const ChartLimits& limits,
+                               FaceVertices& vertices) {
+  return ChartMaker(model, field, limits, vertices).run(surface);
 }
 
 }  // namespace aeroloom::surface

@@ -1,8 +1,7 @@
 #include "surface/charts/chart.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace aeroloom::surface {
 namespace {
@@ -25,15 +24,14 @@ double segment_distance(Vec2 p, Vec2 a, Vec2 b) {
 
 ChartLocator::ChartLocator(const Chart& chart)
     : _chart(chart),
-      _twins(geometry::match_half_edges(chart.support.triangles)),
-      _grid(chart.plane, chart.support.triangles) {
-  for (const auto& [a, b, c] : chart.support.triangles) {
+      _twins(geometry::match_half_edges(chart.surface.triangles)),
+      _grid(chart.plane, chart.surface.triangles) {
+  for (const auto& [a, b, c] : chart.surface.triangles)
     _areas.push_back(cross(chart.plane[b] - chart.plane[a], chart.plane[c] - chart.plane[a]));
-  }
 }
 
 std::array<double, 3> ChartLocator::weights(std::int32_t triangle, Vec2 point) const {
-  const auto& [a, b, c] = _chart.support.triangles[triangle];
+  const auto& [a, b, c] = _chart.surface.triangles[triangle];
   const Vec2 pa = _chart.plane[a] - point, pb = _chart.plane[b] - point, pc = _chart.plane[c] - point;
   const double area = _areas[triangle];
   const double first = cross(pb, pc) / area, second = cross(pc, pa) / area;
@@ -55,7 +53,7 @@ std::int32_t ChartLocator::walk(Vec2 point, std::int32_t from) const {
 }
 
 double ChartLocator::distance_to_box(std::int32_t triangle, Vec2 point) const {
-  const auto& [a, b, c] = _chart.support.triangles[triangle];
+  const auto& [a, b, c] = _chart.surface.triangles[triangle];
   const Vec2 p = _chart.plane[a], q = _chart.plane[b], r = _chart.plane[c];
   const double x = std::max({std::min({p.x, q.x, r.x}) - point.x, point.x - std::max({p.x, q.x, r.x}), 0.0});
   const double y = std::max({std::min({p.y, q.y, r.y}) - point.y, point.y - std::max({p.y, q.y, r.y}), 0.0});
@@ -63,7 +61,7 @@ double ChartLocator::distance_to_box(std::int32_t triangle, Vec2 point) const {
 }
 
 double ChartLocator::distance_to(std::int32_t triangle, Vec2 point) const {
-  const auto& corners = _chart.support.triangles[triangle];
+  const auto& corners = _chart.surface.triangles[triangle];
   const auto w = weights(triangle, point);
   if (std::min({w[0], w[1], w[2]}) >= -inside_tolerance) return 0;
   double least = 1e300;
@@ -98,7 +96,7 @@ std::int32_t ChartLocator::nearest(Vec2 point) const {
 }
 
 ChartPoint ChartLocator::evaluate(std::int32_t triangle, Vec2 point) const {
-  const Support& support = _chart.support;
+  const ChartSurface& surface = _chart.surface;
   ChartPoint at;
   at.triangle = triangle;
   at.weights = weights(triangle, point);
@@ -106,8 +104,8 @@ ChartPoint ChartLocator::evaluate(std::int32_t triangle, Vec2 point) const {
   double inside = 0;
   for (const double w : at.weights) inside += std::max(0.0, w);
   for (int i = 0; i < 3; ++i) {
-    at.point += at.weights[i] * support.points[support.triangles[triangle][i]];
-    at.uv += (std::max(0.0, at.weights[i]) / inside) * support.corner_uv[triangle][i];
+    at.point += at.weights[i] * surface.points[surface.triangles[triangle][i]];
+    at.uv += (std::max(0.0, at.weights[i]) / inside) * surface.corner_uv[triangle][i];
   }
   return at;
 }
@@ -124,7 +122,7 @@ double ChartLocator::scale(const ChartPoint& at) const {
   double sum = 0, inside = 0;
   for (int i = 0; i < 3; ++i) {
     const double w = std::max(0.0, at.weights[i]);
-    sum += w * _chart.scale[_chart.support.triangles[at.triangle][i]];
+    sum += w * _chart.scale[_chart.surface.triangles[at.triangle][i]];
     inside += w;
   }
   return sum / inside;

@@ -1,6 +1,6 @@
 #include "surface/charts/conformal_map.hpp"
 
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,12 +27,13 @@ constexpr double regularisation = 1e-9;
 constexpr int inverse_iterations = 12;
 
 /// Half the cotangents of a triangle's angles, by corner.
-std::array<double, 3> half_cotangents(const Support& support, const std::array<std::int32_t, 3>& triangle) {
+std::array<double, 3> half_cotangents(const ChartSurface& surface,
+                                      const std::array<std::int32_t, 3>& triangle) {
   std::array<double, 3> result;
   for (int i = 0; i < 3; ++i) {
-    const Vec3 apex = support.points[triangle[i]];
-    const Vec3 a = support.points[triangle[(i + 1) % 3]] - apex,
-               b = support.points[triangle[(i + 2) % 3]] - apex;
+    const Vec3 apex = surface.points[triangle[i]];
+    const Vec3 a = surface.points[triangle[(i + 1) % 3]] - apex,
+               b = surface.points[triangle[(i + 2) % 3]] - apex;
     const double along = dot(a, b), across = norm(cross(a, b));
     const double limit = largest_cotangent * across;
     result[i] = 0.5 * (std::abs(along) <= limit ? along / std::max(across, least_across)
@@ -42,9 +43,9 @@ std::array<double, 3> half_cotangents(const Support& support, const std::array<s
 }
 
 /// Adds the cotangent Laplacian with its first row and column at `offset`.
-void add_laplacian(const Support& support, int offset, std::vector<Entry>& entries) {
-  for (const auto& triangle : support.triangles) {
-    const auto weights = half_cotangents(support, triangle);
+void add_laplacian(const ChartSurface& surface, int offset, std::vector<Entry>& entries) {
+  for (const auto& triangle : surface.triangles) {
+    const auto weights = half_cotangents(surface, triangle);
     for (int i = 0; i < 3; ++i) {
       const int a = offset + triangle[(i + 1) % 3], b = offset + triangle[(i + 2) % 3];
       entries.emplace_back(a, a, weights[i]);
@@ -63,13 +64,13 @@ Matrix assemble(int size, std::vector<Entry>& entries) {
 }
 
 /// Twice the conformal energy of (u, v): Dirichlet's minus the area enclosed by the image of the boundary.
-Matrix conformal_energy(const Support& support, const std::vector<geometry::HalfEdge>& boundary) {
-  const int n = static_cast<int>(support.points.size());
+Matrix conformal_energy(const ChartSurface& surface, const std::vector<geometry::HalfEdge>& boundary) {
+  const int n = static_cast<int>(surface.points.size());
   std::vector<Entry> entries;
-  add_laplacian(support, 0, entries);
-  add_laplacian(support, n, entries);
+  add_laplacian(surface, 0, entries);
+  add_laplacian(surface, n, entries);
   for (const geometry::HalfEdge h : boundary) {
-    const int i = start_of(support, h), j = end_of(support, h);
+    const int i = start_of(surface, h), j = end_of(surface, h);
     entries.emplace_back(i, n + j, -0.5);
     entries.emplace_back(n + j, i, -0.5);
     entries.emplace_back(j, n + i, 0.5);
@@ -78,25 +79,25 @@ Matrix conformal_energy(const Support& support, const std::vector<geometry::Half
   return assemble(2 * n, entries);
 }
 
-double plane_area(const Support& support, const PlaneMap& map) {
+double plane_area(const ChartSurface& surface, const PlaneMap& map) {
   double area = 0;
-  for (const auto& [a, b, c] : support.triangles) area += 0.5 * cross(map[b] - map[a], map[c] - map[a]);
+  for (const auto& [a, b, c] : surface.triangles) area += 0.5 * cross(map[b] - map[a], map[c] - map[a]);
   return area;
 }
 
-/// Gives the map the area of the support; false where it has none.
-bool normalise_area(const Support& support, PlaneMap& map) {
-  const double area = plane_area(support, map);
-  if (!(area > 0) || !std::isfinite(area)) return false;
-  const double factor = std::sqrt(support_area(support) / area);
+/// Gives the map the area of the chart surface; nothing where it has none.
+std::optional<PlaneMap> normalise_area(const ChartSurface& surface, PlaneMap map) {
+  const double area = plane_area(surface, map);
+  if (!(area > 0) || !std::isfinite(area)) return std::nullopt;
+  const double factor = std::sqrt(surface_area(surface) / area);
   for (Vec2& p : map) p *= factor;
-  return true;
+  return map;
 }
 
 /// A triangle laid into the plane: first corner at the origin, second on the positive x axis.
-std::array<Vec2, 3> lay_flat(const Support& support, const std::array<std::int32_t, 3>& triangle) {
-  const Vec3 a = support.points[triangle[0]];
-  const Vec3 ab = support.points[triangle[1]] - a, ac = support.points[triangle[2]] - a;
+std::array<Vec2, 3> lay_flat(const ChartSurface& surface, const std::array<std::int32_t, 3>& triangle) {
+  const Vec3 a = surface.points[triangle[0]];
+  const Vec3 ab = surface.points[triangle[1]] - a, ac = surface.points[triangle[2]] - a;
   const double length = norm(ab);
   if (!(length > 0)) return {Vec2{}, Vec2{}, Vec2{norm(ac), 0}};
   return {Vec2{}, Vec2{length, 0}, Vec2{dot(ab, ac) / length, norm(cross(ab, ac)) / length}};
@@ -104,11 +105,10 @@ std::array<Vec2, 3> lay_flat(const Support& support, const std::array<std::int32
 
 }  // namespace
 
-PlaneMap project_to_mean_plane(const Support& support) {
+PlaneMap project_to_mean_plane(const ChartSurface& surface) {
   Vec3 normal;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    normal += area_vector(support, static_cast<std::int32_t>(t));
-  }
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    normal += area_vector(surface, static_cast<std::int32_t>(t));
   normal = normalized(normal);
   if (norm(normal) == 0) normal = {0, 0, 1};
   int least = 0;
@@ -118,30 +118,30 @@ PlaneMap project_to_mean_plane(const Support& support) {
   Vec3 axis;
   axis[least] = 1;
   const Vec3 first = normalized(cross(axis, normal)), second = cross(normal, first);
-  const Vec3 origin = support.points.front();
+  const Vec3 origin = surface.points.front();
   PlaneMap map;
-  map.reserve(support.points.size());
-  for (const Vec3 p : support.points) map.push_back({dot(p - origin, first), dot(p - origin, second)});
+  map.reserve(surface.points.size());
+  for (const Vec3 p : surface.points) map.push_back({dot(p - origin, first), dot(p - origin, second)});
   return map;
 }
 
-std::optional<PlaneMap> map_conformally(const Support& support, const PlaneMap& start) {
-  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
+std::optional<PlaneMap> map_conformally(const ChartSurface& surface, const PlaneMap& start) {
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
   std::vector<geometry::HalfEdge> boundary;
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     if (twins[h] < 0) boundary.push_back(h);
   }
-  const int n = static_cast<int>(support.points.size());
+  const int n = static_cast<int>(surface.points.size());
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(n);
   for (const geometry::HalfEdge h : boundary) {
     const double half =
-        0.5 * distance(support.points[start_of(support, h)], support.points[end_of(support, h)]);
-    weight[start_of(support, h)] += half;
-    weight[end_of(support, h)] += half;
+        0.5 * distance(surface.points[start_of(surface, h)], surface.points[end_of(surface, h)]);
+    weight[start_of(surface, h)] += half;
+    weight[end_of(surface, h)] += half;
   }
   const double total = weight.sum();
   if (!(total > 0)) return std::nullopt;
-  const Solver solver(conformal_energy(support, boundary));
+  const Solver solver(conformal_energy(surface, boundary));
   if (solver.info() != Eigen::Success) return std::nullopt;
 
   Eigen::VectorXd x(2 * n);
@@ -161,22 +161,21 @@ std::optional<PlaneMap> map_conformally(const Support& support, const PlaneMap& 
   }
   PlaneMap map(n);
   for (int i = 0; i < n; ++i) map[i] = {x[i], x[n + i]};
-  if (!normalise_area(support, map)) return std::nullopt;
-  return map;
+  return normalise_area(surface, std::move(map));
 }
 
-std::optional<PlaneMap> map_rigidly(const Support& support, const PlaneMap& start, int steps) {
-  const int n = static_cast<int>(support.points.size());
+std::optional<PlaneMap> map_rigidly(const ChartSurface& surface, const PlaneMap& start, int steps) {
+  const int n = static_cast<int>(surface.points.size());
   std::vector<Entry> entries;
-  add_laplacian(support, 0, entries);
+  add_laplacian(surface, 0, entries);
   const Solver solver(assemble(n, entries));
   if (solver.info() != Eigen::Success) return std::nullopt;
   PlaneMap map = start;
   for (int step = 0; step < steps; ++step) {
     Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(n, 2);
-    for (const auto& triangle : support.triangles) {
-      const auto flat = lay_flat(support, triangle);
-      const auto weights = half_cotangents(support, triangle);
+    for (const auto& triangle : surface.triangles) {
+      const auto flat = lay_flat(surface, triangle);
+      const auto weights = half_cotangents(surface, triangle);
       // The rotation nearest to the map's Jacobian on this triangle.
       double c = 0, s = 0;
       for (int i = 0; i < 3; ++i) {
@@ -199,26 +198,25 @@ std::optional<PlaneMap> map_rigidly(const Support& support, const PlaneMap& star
     const Eigen::MatrixX2d solution = solver.solve(right);
     for (int i = 0; i < n; ++i) map[i] = {solution(i, 0), solution(i, 1)};
   }
-  if (!normalise_area(support, map)) return std::nullopt;
-  return map;
+  return normalise_area(surface, std::move(map));
 }
 
-std::optional<PlaneMap> scale_parameters(const Support& support) {
-  PlaneMap map(support.points.size());
-  std::vector<char> known(support.points.size(), 0);
+std::optional<PlaneMap> scale_parameters(const ChartSurface& surface) {
+  PlaneMap map(surface.points.size());
+  std::vector<char> known(surface.points.size(), 0);
   double along_u = 0, along_v = 0, area = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const auto& triangle = support.triangles[t];
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& triangle = surface.triangles[t];
     for (int i = 0; i < 3; ++i) {
-      const Vec2 uv = support.corner_uv[t][i];
+      const Vec2 uv = surface.corner_uv[t][i];
       if (known[triangle[i]] && !(map[triangle[i]] == uv)) return std::nullopt;
       map[triangle[i]] = uv, known[triangle[i]] = 1;
     }
     // Mean squared lengths of the surface's derivatives over the triangle, from its gradients.
-    const Vec3 e1 = support.points[triangle[1]] - support.points[triangle[0]];
-    const Vec3 e2 = support.points[triangle[2]] - support.points[triangle[0]];
-    const Vec2 d1 = support.corner_uv[t][1] - support.corner_uv[t][0];
-    const Vec2 d2 = support.corner_uv[t][2] - support.corner_uv[t][0];
+    const Vec3 e1 = surface.points[triangle[1]] - surface.points[triangle[0]];
+    const Vec3 e2 = surface.points[triangle[2]] - surface.points[triangle[0]];
+    const Vec2 d1 = surface.corner_uv[t][1] - surface.corner_uv[t][0];
+    const Vec2 d2 = surface.corner_uv[t][2] - surface.corner_uv[t][0];
     const double determinant = cross(d1, d2);
     if (determinant == 0) continue;
     const double weight = 0.5 * norm(cross(e1, e2));
@@ -228,25 +226,24 @@ std::optional<PlaneMap> scale_parameters(const Support& support) {
   }
   if (!(area > 0)) return std::nullopt;
   for (Vec2& p : map) p = {p.x * along_u / area, p.y * along_v / area};
-  if (plane_area(support, map) < 0) {
+  if (plane_area(surface, map) < 0) {
     for (Vec2& p : map) p.x = -p.x;
   }
-  if (!normalise_area(support, map)) return std::nullopt;
-  return map;
+  return normalise_area(surface, std::move(map));
 }
 
-std::vector<double> point_scales(const Support& support, const PlaneMap& map) {
-  std::vector<double> chart(support.points.size(), 0), space(support.points.size(), 0);
+std::vector<double> point_scales(const ChartSurface& surface, const PlaneMap& map) {
+  std::vector<double> chart(surface.points.size(), 0), space(surface.points.size(), 0);
   double chart_total = 0, space_total = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const auto& [a, b, c] = support.triangles[t];
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
     const double chart_area = std::max(0.0, 0.5 * cross(map[b] - map[a], map[c] - map[a]));
-    const double space_area = norm(area_vector(support, static_cast<std::int32_t>(t)));
+    const double space_area = norm(area_vector(surface, static_cast<std::int32_t>(t)));
     chart_total += chart_area, space_total += space_area;
     for (const std::int32_t p : {a, b, c}) chart[p] += chart_area, space[p] += space_area;
   }
   const double mean = std::sqrt(chart_total / space_total);
-  std::vector<double> scales(support.points.size(), mean);
+  std::vector<double> scales(surface.points.size(), mean);
   for (std::size_t i = 0; i < scales.size(); ++i) {
     if (space[i] > 0 && chart[i] > 0) scales[i] = std::sqrt(chart[i] / space[i]);
   }

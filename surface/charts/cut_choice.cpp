@@ -1,5 +1,5 @@
 #include "surface/charts/plane_cut.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,12 +19,12 @@ struct Facet {
   std::array<Vec3, 3> corners;
 };
 
-std::vector<Facet> list_facets(const Support& support) {
+std::vector<Facet> list_facets(const ChartSurface& surface) {
   std::vector<Facet> facets;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const auto& [a, b, c] = support.triangles[t];
-    const std::array<Vec3, 3> corners{support.points[a], support.points[b], support.points[c]};
-    const Vec3 vector = area_vector(support, static_cast<std::int32_t>(t));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const std::array<Vec3, 3> corners{surface.points[a], surface.points[b], surface.points[c]};
+    const Vec3 vector = area_vector(surface, static_cast<std::int32_t>(t));
     facets.push_back({(corners[0] + corners[1] + corners[2]) / 3, vector, norm(vector), corners});
   }
   return facets;
@@ -112,8 +112,8 @@ double rate(const std::vector<Facet>& facets, const CutPlane& plane) {
 
 }  // namespace
 
-std::vector<CutPlane> propose_planes(const Support& support) {
-  const std::vector<Facet> facets = list_facets(support);
+std::vector<CutPlane> propose_planes(const ChartSurface& surface) {
+  const std::vector<Facet> facets = list_facets(surface);
   Vec3 center;
   double area = 0;
   for (const Facet& facet : facets) center += facet.area * facet.center, area += facet.area;
@@ -126,7 +126,7 @@ std::vector<CutPlane> propose_planes(const Support& support) {
   std::vector<Rated> rated;
   for (const Vec3 normal : candidate_normals(facets, center)) {
     double low = 1e300, high = -1e300;
-    for (const Vec3 p : support.points)
+    for (const Vec3 p : surface.points)
       low = std::min(low, dot(normal, p)), high = std::max(high, dot(normal, p));
     for (const double shift : {0.0, beside_centroid, -beside_centroid}) {
       const CutPlane plane{normal, dot(normal, center) + shift * (high - low)};

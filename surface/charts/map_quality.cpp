@@ -3,11 +3,10 @@
 #include "geometry/predicates.hpp"
 #include "geometry/runs.hpp"
 #include "surface/charts/conformal_map.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace aeroloom::surface {
 namespace {
@@ -83,9 +82,8 @@ public:
       const Vec2 a = _map[_edges[e][0]], b = _map[_edges[e][1]];
       const auto from = [&](double v, double o) { return static_cast<std::int32_t>((v - o) / cell); };
       for (std::int32_t i = from(std::min(a.x, b.x), low.x); i <= from(std::max(a.x, b.x), low.x); ++i) {
-        for (std::int32_t j = from(std::min(a.y, b.y), low.y); j <= from(std::max(a.y, b.y), low.y); ++j) {
+        for (std::int32_t j = from(std::min(a.y, b.y), low.y); j <= from(std::max(a.y, b.y), low.y); ++j)
           entries.push_back({i, j, static_cast<std::int32_t>(e)});
-        }
       }
     }
     std::sort(entries.begin(), entries.end());
@@ -121,13 +119,13 @@ private:
 
 /// Whether the boundary's image may bound more than one sheet: loops cross, or not exactly one runs
 /// counter-clockwise. With simple loops the number of sheets over a point is its winding number.
-bool may_overlap(const Support& support, const PlaneMap& map) {
+bool may_overlap(const ChartSurface& surface, const PlaneMap& map) {
   std::vector<std::array<std::int32_t, 2>> edges;
   int outer = 0;
-  for (const auto& loop : trace_boundary(support, geometry::match_half_edges(support.triangles))) {
+  for (const auto& loop : trace_boundary(surface, geometry::match_half_edges(surface.triangles))) {
     double area = 0;
     for (const geometry::HalfEdge h : loop) {
-      edges.push_back({start_of(support, h), end_of(support, h)});
+      edges.push_back({start_of(surface, h), end_of(surface, h)});
       area += cross(map[edges.back()[0]] - map[0], map[edges.back()[1]] - map[0]);
     }
     outer += area > 0;
@@ -137,11 +135,11 @@ bool may_overlap(const Support& support, const PlaneMap& map) {
 
 /// The fraction of triangles (by area in space) whose centre lies in another triangle as well. Near sharp
 /// corners chords of curves may cross where the curves do not: that is little.
-double overlap_fraction(const Support& support, const PlaneMap& map) {
-  const geometry::PlaneGrid grid(map, support.triangles);
+double overlap_fraction(const ChartSurface& surface, const PlaneMap& map) {
+  const geometry::PlaneGrid grid(map, surface.triangles);
   const auto is_inside = [&](Vec2 p, std::int32_t triangle) {
-    const auto& [a, b, c] = support.triangles[triangle];
-    // Cells of the grid hold many triangles where the support is fine: boxes sort most of them out.
+    const auto& [a, b, c] = surface.triangles[triangle];
+    // Cells of the grid hold many triangles where the chart surface is fine: boxes sort most of them out.
     if (p.x < std::min({map[a].x, map[b].x, map[c].x}) || p.x > std::max({map[a].x, map[b].x, map[c].x}) ||
         p.y < std::min({map[a].y, map[b].y, map[c].y}) || p.y > std::max({map[a].y, map[b].y, map[c].y})) {
       return false;
@@ -150,9 +148,9 @@ double overlap_fraction(const Support& support, const PlaneMap& map) {
            geometry::orient2d(map[c], map[a], p) > 0;
   };
   double total = 0, covered = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const auto& [a, b, c] = support.triangles[t];
-    const double area = norm(area_vector(support, static_cast<std::int32_t>(t)));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const double area = norm(area_vector(surface, static_cast<std::int32_t>(t)));
     const Vec2 center = (map[a] + map[b] + map[c]) / 3;
     const auto [column, row] = grid.cell_of(center);
     const auto near = grid.triangles_in(column, row);
@@ -167,12 +165,12 @@ double overlap_fraction(const Support& support, const PlaneMap& map) {
 
 }  // namespace
 
-MapQuality judge_map(const Support& support, const PlaneMap& map) {
+MapQuality judge_map(const ChartSurface& surface, const PlaneMap& map) {
   std::vector<Weighted> stretches, scales;
   double total = 0, folded = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const auto& [a, b, c] = support.triangles[t];
-    const double area = norm(area_vector(support, static_cast<std::int32_t>(t)));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const double area = norm(area_vector(surface, static_cast<std::int32_t>(t)));
     total += area;
     if (geometry::orient2d(map[a], map[b], map[c]) <= 0) {
       folded += std::max(area, 0.5 * std::abs(cross(map[b] - map[a], map[c] - map[a])));
@@ -180,7 +178,7 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
     }
     if (!(area > 0)) continue;
     const SingularValues stretch =
-        triangle_stretch(support.points[b] - support.points[a], support.points[c] - support.points[a],
+        triangle_stretch(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a],
                          map[b] - map[a], map[c] - map[a]);
     stretches.push_back({stretch.small > 0 ? stretch.large / stretch.small : 1e300, area});
     scales.push_back({std::sqrt(std::max(0.0, stretch.large * stretch.small)), area});
@@ -190,18 +188,18 @@ MapQuality judge_map(const Support& support, const PlaneMap& map) {
   quality.stretch = quantile(stretches, nearly_all);
   const double smallest = quantile(scales, lowest), largest = quantile(scales, highest);
   quality.scale_ratio = smallest > 0 ? largest / smallest : 1e300;
-  quality.overlap = may_overlap(support, map) ? overlap_fraction(support, map) : 0;
-  quality.loops_cross = !support.loop_edges.empty() && BoundaryCrossings(map, support.loop_edges).any();
+  quality.overlap = may_overlap(surface, map) ? overlap_fraction(surface, map) : 0;
+  quality.loops_cross = !surface.loop_edges.empty() && BoundaryCrossings(map, surface.loop_edges).any();
   return quality;
 }
 
-double normal_spread(const Support& support) {
+double normal_spread(const ChartSurface& surface) {
   Vec3 mean;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t)
-    mean += area_vector(support, static_cast<std::int32_t>(t));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    mean += area_vector(surface, static_cast<std::int32_t>(t));
   std::vector<Weighted> angles;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    const Vec3 normal = area_vector(support, static_cast<std::int32_t>(t));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Vec3 normal = area_vector(surface, static_cast<std::int32_t>(t));
     angles.push_back({angle_between(mean, normal), norm(normal)});
   }
   return quantile(angles, nearly_all);

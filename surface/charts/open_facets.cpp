@@ -8,17 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
 namespace aeroloom::surface {
 namespace {
-
-using cad::Coedge;
-using cad::Model;
-using geometry::Vec2;
-using geometry::Vec3;
 
 /// A facet node moves to a curve vertex within this fraction of the distance to the next node or vertex.
 /// Farther away it is a point of its own. Chosen, not measured.
@@ -34,7 +28,7 @@ using Joining = geometry::DisjointSets<std::int32_t>;
 
 /// Two triangles with the same corners in opposite order enclose nothing: they are left where a narrow part
 /// collapsed.
-void drop_opposite_pairs(Support& support) {
+void drop_opposite_pairs(ChartSurface& surface) {
   struct SortedTriangle {
     std::array<std::int32_t, 3> sorted;
     bool odd;  // order of the corners
@@ -42,8 +36,8 @@ void drop_opposite_pairs(Support& support) {
     auto operator<=>(const SortedTriangle&) const = default;
   };
   std::vector<SortedTriangle> rows;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    auto [a, b, c] = support.triangles[t];
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    auto [a, b, c] = surface.triangles[t];
     bool odd = false;
     if (a > b) std::swap(a, b), odd = !odd;
     if (b > c) std::swap(b, c), odd = !odd;
@@ -51,23 +45,23 @@ void drop_opposite_pairs(Support& support) {
     rows.push_back({{a, b, c}, odd, t});
   }
   std::sort(rows.begin(), rows.end());
-  std::vector<char> drop(support.triangles.size(), 0);
+  std::vector<char> drop(surface.triangles.size(), 0);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i].sorted != rows[i - 1].sorted || rows[i].odd == rows[i - 1].odd || drop[rows[i - 1].triangle])
       continue;
     drop[rows[i].triangle] = drop[rows[i - 1].triangle] = 1;
   }
   std::size_t kept = 0;
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (drop[t]) continue;
-    support.triangles[kept] = support.triangles[t];
-    support.corner_uv[kept++] = support.corner_uv[t];
+    surface.triangles[kept] = surface.triangles[t];
+    surface.corner_uv[kept++] = surface.corner_uv[t];
   }
-  support.triangles.resize(kept);
-  support.corner_uv.resize(kept);
+  surface.triangles.resize(kept);
+  surface.corner_uv.resize(kept);
 }
 
-[[noreturn]] void fail(const Model& model, cad::FaceId face, const Coedge& use, Vec3 at) {
+[[noreturn]] void fail(const cad::Model& model, cad::FaceId face, const cad::Coedge& use, geometry::Vec3 at) {
   throw SurfaceError(fmt::format(
       "face {} (patch {}): its triangulation does not follow edge {} near {}; repair this face in the CAD "
       "program",
@@ -79,40 +73,38 @@ void drop_opposite_pairs(Support& support) {
 /// Finds half-edges by their ends.
 class OpenFacets::SideTable {
 public:
-  explicit SideTable(const Support& support) : _twins(geometry::match_half_edges(support.triangles)) {
-    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h) {
-      _rows.push_back({{start_of(support, h), end_of(support, h)}, h});
-    }
+  explicit SideTable(const ChartSurface& surface) : _twins(geometry::match_half_edges(surface.triangles)) {
+    for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h)
+      _rows.push_back({{start_of(surface, h), end_of(surface, h)}, h});
     std::sort(_rows.begin(), _rows.end());
   }
   geometry::HalfEdge find(std::int32_t from, std::int32_t to) const {
-    const SortedTriangle key{{from, to}, -1};
+    const SideRow key{{from, to}, -1};
     const auto row = std::lower_bound(_rows.begin(), _rows.end(), key);
     return row != _rows.end() && row->first == key.first ? row->second : -1;
   }
   geometry::HalfEdge twin(geometry::HalfEdge h) const { return _twins[h]; }
 
 private:
-  using SortedTriangle = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
+  using SideRow = std::pair<std::array<std::int32_t, 2>, geometry::HalfEdge>;
   std::vector<geometry::HalfEdge> _twins;
-  std::vector<SortedTriangle> _rows;
+  std::vector<SideRow> _rows;
 };
 
-OpenFacets::OpenFacets(const Model& model, cad::FaceId face, const cad::Facets& facets)
+OpenFacets::OpenFacets(const cad::Model& model, cad::FaceId face, const cad::Facets& facets)
     : _model(model), _uv(facets.uv), _in_sheets(model.is_faceted(face)) {
-  _support.face = face;
-  _support.points = facets.points;
-  _support.triangles = facets.triangles;
+  _surface.face = face;
+  _surface.points = facets.points;
+  _surface.triangles = facets.triangles;
   if (_in_sheets) {
-    _support.corner_uv = cad::corner_parameters(model, face);
+    _surface.corner_uv = cad::corner_parameters(model, face);
   } else {
-    for (const auto& [a, b, c] : facets.triangles) _support.corner_uv.push_back({_uv[a], _uv[b], _uv[c]});
+    for (const auto& [a, b, c] : facets.triangles) _surface.corner_uv.push_back({_uv[a], _uv[b], _uv[c]});
   }
   for (const auto& boundary : facets.boundary) {
     Line line{boundary.use, is_constraining(model, boundary.use.edge), {}};
-    for (std::size_t i = 0; i < boundary.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < boundary.nodes.size(); ++i)
       line.nodes.push_back({boundary.parameters[i], boundary.nodes[i], -1});
-    }
     if (line.constraining && !line.nodes.empty()) {
       line.nodes.front().vertex = model.edge(line.use.edge).first;
       line.nodes.back().vertex = model.edge(line.use.edge).last;
@@ -134,7 +126,7 @@ void OpenFacets::match_line_ends() {
     ends.push_back({_model.edge(line.use.edge).last, line.nodes.back().point});
   }
   const auto match_end = [&](const Line& line, cad::VertexId vertex, Node& node) {
-    const Vec2 expected = _model.edge_uv(_support.face, line.use, node.parameter);
+    const geometry::Vec2 expected = _model.edge_uv(_surface.face, line.use, node.parameter);
     for (const End& end : ends) {
       if (end.vertex != vertex) continue;
       if (distance(_uv[end.point], expected) < distance(_uv[node.point], expected)) node.point = end.point;
@@ -148,16 +140,15 @@ void OpenFacets::match_line_ends() {
 }
 
 void OpenFacets::insert_curve_vertices(const CurveMesh& curves) {
-  const SideTable table(_support);
+  const SideTable table(_surface);
   std::vector<EdgePoint> divisions;
   for (Line& line : _lines) {
     if (!line.constraining) continue;
     const auto chain = curves.chain(_model, line.use.edge);
     const auto parameters = curves.chain_parameters(_model, line.use.edge);
     std::vector<Wanted> wanted;
-    for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < chain.size(); ++i)
       wanted.push_back({parameters[i], chain[i], curves.points[chain[i]]});
-    }
     plan(line, wanted, reuse_fraction, table, divisions);
   }
   divide(std::move(divisions));
@@ -171,16 +162,15 @@ OpenFacets::Line* OpenFacets::other_coedge(const Line& line) {
 }
 
 void OpenFacets::match_seams() {
-  const SideTable table(_support);
+  const SideTable table(_surface);
   std::vector<EdgePoint> divisions;
   for (Line& line : _lines) {
     if (line.constraining || _model.edge(line.use.edge).degenerate) continue;
     const Line* other = other_coedge(line);
     if (other == nullptr) continue;
     std::vector<Wanted> wanted;
-    for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i) {
-      wanted.push_back({other->nodes[i].parameter, -1, _support.points[other->nodes[i].point]});
-    }
+    for (std::size_t i = 1; i + 1 < other->nodes.size(); ++i)
+      wanted.push_back({other->nodes[i].parameter, -1, _surface.points[other->nodes[i].point]});
     plan(line, wanted, same_parameter_fraction, table, divisions);
   }
   divide(std::move(divisions));
@@ -201,27 +191,27 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
     double spacing = part;
     if (i > 0) spacing = std::min(spacing, t - wanted[i - 1].parameter);
     if (i + 1 < wanted.size()) spacing = std::min(spacing, wanted[i + 1].parameter - t);
-    const Vec2 uv = _model.edge_uv(_support.face, line.use, t);
+    const geometry::Vec2 uv = _model.edge_uv(_surface.face, line.use, t);
     const std::size_t near = t - old[k].parameter < old[k + 1].parameter - t ? k : k + 1;
     if (!claimed[near] && std::abs(t - old[near].parameter) <= reuse_tolerance * spacing) {
       claimed[near] = 1;
       if (vertex < 0) continue;
       line.nodes[near] = {t, old[near].point, vertex};
-      _support.points[old[near].point] = point;
+      _surface.points[old[near].point] = point;
       _uv[old[near].point] = uv;
       continue;
     }
-    const auto index = static_cast<std::int32_t>(_support.points.size());
+    const auto index = static_cast<std::int32_t>(_surface.points.size());
     const double ahead = std::clamp((t - old[k].parameter) / part, 0.0, 1.0);
     geometry::HalfEdge h = table.find(old[k].point, old[k + 1].point);
     const bool along = h >= 0;
     if (!along) h = table.find(old[k + 1].point, old[k].point);
-    if (h < 0) fail(_model, _support.face, line.use, point);
+    if (h < 0) fail(_model, _surface.face, line.use, point);
     const double fraction = along ? ahead : 1 - ahead;
     divisions.push_back({h, fraction, index, uv});
     if (table.twin(h) >= 0) divisions.push_back({table.twin(h), 1 - fraction, index, uv});
     line.nodes.push_back({t, index, vertex});
-    _support.points.push_back(point);
+    _surface.points.push_back(point);
     _uv.push_back(uv);
   }
   std::stable_sort(line.nodes.begin(), line.nodes.end(),
@@ -229,15 +219,15 @@ void OpenFacets::plan(Line& line, const std::vector<Wanted>& wanted, double reus
 }
 
 void OpenFacets::divide(std::vector<EdgePoint> divisions) {
-  divide_edges(_support, std::move(divisions));
+  divide_edges(_surface, std::move(divisions));
   if (_in_sheets) return;
-  for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) _support.corner_uv[t][i] = _uv[_support.triangles[t][i]];
+  for (std::size_t t = 0; t < _surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) _surface.corner_uv[t][i] = _uv[_surface.triangles[t][i]];
   }
 }
 
 std::vector<std::int32_t> OpenFacets::join_points() const {
-  Joining joining(_support.points.size());
+  Joining joining(_surface.points.size());
   std::map<cad::VertexId, std::int32_t> at_vertex;
   const auto join_vertex = [&](cad::VertexId vertex, std::int32_t point) {
     joining.unite(at_vertex.emplace(vertex, point).first->second, point);
@@ -257,22 +247,22 @@ std::vector<std::int32_t> OpenFacets::join_points() const {
         joining.unite(_lines[m].nodes[i].point, line.nodes[i].point);
     }
   }
-  std::vector<char> is_mesh_vertex(_support.points.size(), 0);
+  std::vector<char> is_mesh_vertex(_surface.points.size(), 0);
   for (const Line& line : _lines) {
     for (const Node& node : line.nodes) is_mesh_vertex[joining.root(node.point)] |= node.vertex >= 0;
   }
   geometry::Box box;
-  for (const Vec3 p : _support.points) box.add(p);
-  for (const auto& triangle : _support.triangles) {
+  for (const geometry::Vec3 p : _surface.points) box.add(p);
+  for (const auto& triangle : _surface.triangles) {
     for (int i = 0; i < 3; ++i) {
       const std::int32_t a = joining.root(triangle[i]), b = joining.root(triangle[(i + 1) % 3]);
-      if (a == b || distance(_support.points[a], _support.points[b]) > no_distance * box.diagonal()) continue;
+      if (a == b || distance(_surface.points[a], _surface.points[b]) > no_distance * box.diagonal()) continue;
       if (is_mesh_vertex[a] && is_mesh_vertex[b]) continue;
       joining.unite(a, b);
       is_mesh_vertex[std::min(a, b)] |= is_mesh_vertex[std::max(a, b)];
     }
   }
-  std::vector<std::int32_t> roots(_support.points.size());
+  std::vector<std::int32_t> roots(_surface.points.size());
   for (std::size_t i = 0; i < roots.size(); ++i) roots[i] = joining.root(static_cast<std::int32_t>(i));
   return roots;
 }
@@ -295,12 +285,12 @@ void OpenFacets::collect_vertices(const CurveMesh& curves, FaceVertices& vertice
   }
 }
 
-Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
+ChartSurface OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
   const std::vector<std::int32_t> roots = join_points();
   collect_vertices(curves, vertices);
-  Support joined;
-  joined.face = _support.face;
-  joined.points = _support.points;
+  ChartSurface joined;
+  joined.face = _surface.face;
+  joined.points = _surface.points;
   joined.mesh_vertex.assign(joined.points.size(), -1);
   for (const Line& line : _lines) {
     for (const Node& node : line.nodes) {
@@ -310,12 +300,12 @@ Support OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) {
       joined.points[roots[node.point]] = vertices.points[index];
     }
   }
-  for (std::size_t t = 0; t < _support.triangles.size(); ++t) {
-    const auto& [a, b, c] = _support.triangles[t];
+  for (std::size_t t = 0; t < _surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = _surface.triangles[t];
     const std::array<std::int32_t, 3> triangle{roots[a], roots[b], roots[c]};
     if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
     joined.triangles.push_back(triangle);
-    joined.corner_uv.push_back(_support.corner_uv[t]);
+    joined.corner_uv.push_back(_surface.corner_uv[t]);
   }
   drop_opposite_pairs(joined);
   const std::vector<std::int32_t> all_one(joined.triangles.size(), 0);

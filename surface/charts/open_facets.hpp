@@ -1,32 +1,30 @@
-/// Facets of a face on their way to a support: open along seams, with the nodes of each coedge along an
-/// edge.
+/// Facets of a face before they become a closed parametric triangulation. They are open along seams.
 #pragma once
 
-#include "surface/charts/support.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/chart_surface.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <vector>
 
 namespace aeroloom::surface {
 
-/// A triangulated face as the CAD library leaves it: cut open along seams and at poles.
+/// The facets of a face as the CAD library makes them, cut open along seams and at poles.
 class OpenFacets {
 public:
   OpenFacets(const cad::Model& model, cad::FaceId face, const cad::Facets& facets);
 
-  /// Makes every curve vertex a node of the lines along its edge: nodes at (nearly) the same parameter move
-  /// there, the others divide a side of a triangle. Throws SurfaceError where a line is no side of the
-  /// triangles.
+  /// Puts every curve vertex on the facet edges along its CAD edge. Facet nodes at nearly the same parameter
+  /// move there; other curve vertices divide a facet edge. Throws SurfaceError where a CAD edge does not run
+  /// along facet edges.
   void insert_curve_vertices(const CurveMesh& curves);
-  /// Gives both coedges along each seam nodes at the same parameters.
+  /// Gives both coedges of each seam nodes at the same parameters.
   void match_seams();
-  /// Connects the points as they lie on the surface, whatever the facets were before curve vertices came in,
-  /// and adds points where the surface turns more than a facet should; not where elements of these sizes are
-  /// far too large to turn as much.
+  /// Reconnects the points as they lie on the surface and adds points where the surface turns too much within
+  /// a facet. Edges far shorter than the local size are not divided.
   void fit_to_surface(const sizing::SizeField& field);
-  /// Joins what is one point: both coedges of a seam, the nodes of a degenerate edge, the ends of lines at a
-  /// CAD vertex, and points at no distance from each other. Triangles that collapse vanish.
-  Support close(const CurveMesh& curves, FaceVertices& vertices);
+  /// Merges points that coincide: both coedges of a seam, the nodes of a degenerate edge, ends of edges at
+  /// one CAD vertex, and points at zero distance. Drops triangles that collapse.
+  ChartSurface close(const CurveMesh& curves, FaceVertices& vertices);
 
 private:
   struct Node {
@@ -47,12 +45,12 @@ private:
   };
 
   class SideTable;
-  /// Lets nodes of the line become the wanted ones, or adds nodes; lists where they divide triangles.
+  /// Turns existing nodes of the line into the wanted ones, or adds nodes. Lists the half-edges to divide.
   void plan(Line& line, const std::vector<Wanted>& wanted, double reuse_tolerance, const SideTable& table,
             std::vector<EdgePoint>& divisions);
   void divide(std::vector<EdgePoint> divisions);
-  /// Where the triangulator mixed up the two sides of a seam at a CAD vertex, lines get the end nodes that
-  /// lie where the edge's parameter curve ends.
+  /// Corrects end nodes where the facets have the two sides of a seam exchanged at a CAD vertex: the node
+  /// nearest to the end of the parameter curve is taken.
   void match_line_ends();
   Line* other_coedge(const Line& line);
   std::vector<std::int32_t> join_points() const;
@@ -61,14 +59,14 @@ private:
   void flip(const std::vector<cad::SurfaceFrame>& frames);
   bool is_folded() const;
   void triangulate_again(const std::vector<cad::SurfaceFrame>& frames);
-  /// Per half-edge, whether its edge is to be divided; marked on the lower half-edge of the two.
+  /// Per half-edge, whether its edge is to be divided. Of the two half-edges the lower is marked.
   std::vector<char> find_turning_edges(const std::vector<geometry::HalfEdge>& twins,
                                        const std::vector<cad::SurfaceFrame>& frames) const;
   bool divide_turning_edges(const std::vector<cad::SurfaceFrame>& frames, const sizing::SizeField& field);
   void collect_vertices(const CurveMesh& curves, FaceVertices& vertices) const;
 
   const cad::Model& _model;
-  Support _support;
+  ChartSurface _surface;
   std::vector<geometry::Vec2> _uv;  // per point
   std::vector<Line> _lines;
   bool _in_sheets;  // parameters belong to corners of triangles, which are the surface

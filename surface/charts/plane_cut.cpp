@@ -1,14 +1,12 @@
 #include "surface/charts/plane_cut.hpp"
 
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace aeroloom::surface {
 namespace {
-
-using geometry::Vec3;
 
 /// An edge is not divided closer to its ends than this fraction of it: a point inside moves onto the cut
 /// instead.
@@ -27,7 +25,7 @@ constexpr std::size_t most_absorbed = 64;
 
 /// A mesh vertex the cut has to pass, and how far the plane misses it.
 struct Bend {
-  Vec3 point;
+  geometry::Vec3 point;
   double miss;
   double radius;
 };
@@ -36,14 +34,14 @@ struct Bend {
 /// mesh vertices alone.
 class CutLevels {
 public:
-  CutLevels(const Support& support, const CutPlane& plane, const std::vector<geometry::HalfEdge>& twins)
-      : _support(support),
+  CutLevels(const ChartSurface& surface, const CutPlane& plane, const std::vector<geometry::HalfEdge>& twins)
+      : _surface(surface),
         _twins(twins),
-        _levels(support.points.size()),
-        _on_boundary(support.points.size(), 0) {
+        _levels(surface.points.size()),
+        _on_boundary(surface.points.size(), 0) {
     double extent = 0;
     for (std::size_t i = 0; i < _levels.size(); ++i) {
-      _levels[i] = dot(plane.normal, support.points[i]) - plane.offset;
+      _levels[i] = dot(plane.normal, surface.points[i]) - plane.offset;
       extent = std::max(extent, std::abs(_levels[i]));
     }
     // Points in the plane but for rounding fall on one side: they come from a CAD file, whose planes are no
@@ -52,11 +50,11 @@ public:
     for (double& level : _levels) {
       if (std::abs(level) < in_plane * extent) level = in_plane * extent;
     }
-    for (const auto& loop : trace_boundary(support, twins)) {
+    for (const auto& loop : trace_boundary(surface, twins)) {
       _loops.emplace_back();
       for (const geometry::HalfEdge h : loop) {
-        _loops.back().push_back(start_of(support, h));
-        _on_boundary[start_of(support, h)] = 1;
+        _loops.back().push_back(start_of(surface, h));
+        _on_boundary[start_of(surface, h)] = 1;
       }
     }
     bend_to_mesh_vertices();
@@ -67,7 +65,7 @@ public:
   const std::vector<double>& values() const { return _levels; }
 
 private:
-  bool is_mesh_vertex(std::int32_t p) const { return _support.mesh_vertex[p] >= 0; }
+  bool is_mesh_vertex(std::int32_t p) const { return _surface.mesh_vertex[p] >= 0; }
 
   /// Calls visit(a, points between, b) for each pair of consecutive mesh vertices of a loop.
   template <class Visit>
@@ -96,7 +94,7 @@ private:
     _on_cut.assign(_levels.size(), 0);
     for (const auto& loop : _loops) {
       for_each_segment(loop, [&](std::int32_t a, const std::vector<std::int32_t>&, std::int32_t b) {
-        const double length = distance(_support.points[a], _support.points[b]);
+        const double length = distance(_surface.points[a], _surface.points[b]);
         for (const std::int32_t p : {a, b}) radius[p] = std::max(radius[p], bend_radius * length);
         if (_levels[a] * _levels[b] >= 0) return;
         const double from_a = std::abs(_levels[a]), from_b = std::abs(_levels[b]);
@@ -105,21 +103,21 @@ private:
     }
     std::vector<Bend> bends;
     for (std::size_t i = 0; i < _levels.size(); ++i) {
-      if (_on_cut[i]) bends.push_back({_support.points[i], _levels[i], radius[i]});
+      if (_on_cut[i]) bends.push_back({_surface.points[i], _levels[i], radius[i]});
     }
     for (std::size_t i = 0; i < _levels.size(); ++i) {
       const double raw = _levels[i];
-      _levels[i] = _on_cut[i] ? 0 : bent(_support.points[i], raw, bends);
+      _levels[i] = _on_cut[i] ? 0 : bent(_surface.points[i], raw, bends);
       // A bend must not push a mesh vertex to the other side: it keeps a part of its distance, and its sign.
       if (!_on_cut[i] && is_mesh_vertex(static_cast<std::int32_t>(i)) && _levels[i] * raw <= 0)
         _levels[i] = kept_fraction * raw;
     }
   }
 
-  static double bent(Vec3 x, double raw, const std::vector<Bend>& bends) {
+  static double bent(geometry::Vec3 x, double raw, const std::vector<Bend>& bends) {
     double weights = 0, miss = 0;
     for (const Bend& bend : bends) {
-      const Vec3 away = x - bend.point;
+      const geometry::Vec3 away = x - bend.point;
       const double s = dot(away, away) / (bend.radius * bend.radius);
       if (s >= 1) continue;
       const double weight = (1 - s) * (1 - s);
@@ -158,7 +156,7 @@ private:
   void snap_interior() {
     std::vector<char> snap(_levels.size(), 0);
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(_twins.size()); ++h) {
-      const std::int32_t a = start_of(_support, h), b = end_of(_support, h);
+      const std::int32_t a = start_of(_surface, h), b = end_of(_surface, h);
       if (_levels[a] * _levels[b] >= 0 || _on_boundary[a]) continue;
       if (std::abs(_levels[a]) < least_edge_fraction * std::abs(_levels[a] - _levels[b])) snap[a] = 1;
     }
@@ -167,7 +165,7 @@ private:
     }
   }
 
-  const Support& _support;
+  const ChartSurface& _surface;
   const std::vector<geometry::HalfEdge>& _twins;
   std::vector<double> _levels;
   std::vector<char> _on_boundary, _on_cut;
@@ -175,39 +173,38 @@ private:
 };
 
 /// Divides every edge whose ends lie on different sides; the new points have level 0.
-void divide_at_zero(Support& support, const std::vector<geometry::HalfEdge>& twins,
+void divide_at_zero(ChartSurface& surface, const std::vector<geometry::HalfEdge>& twins,
                     std::vector<double>& levels) {
   std::vector<EdgePoint> divisions;
   for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
     const geometry::HalfEdge twin = twins[h];
     if (twin >= 0 && twin < h) continue;
-    const std::int32_t a = start_of(support, h), b = end_of(support, h);
+    const std::int32_t a = start_of(surface, h), b = end_of(surface, h);
     if (levels[a] * levels[b] >= 0) continue;
     const double part =
         std::clamp(levels[a] / (levels[a] - levels[b]), least_edge_fraction, 1 - least_edge_fraction);
-    const auto index = static_cast<std::int32_t>(support.points.size());
-    support.points.push_back((1 - part) * support.points[a] + part * support.points[b]);
-    support.mesh_vertex.push_back(-1);
+    const auto index = static_cast<std::int32_t>(surface.points.size());
+    surface.points.push_back((1 - part) * surface.points[a] + part * surface.points[b]);
+    surface.mesh_vertex.push_back(-1);
     levels.push_back(0);
-    divisions.push_back({h, part, index, (1 - part) * start_uv(support, h) + part * end_uv(support, h)});
+    divisions.push_back({h, part, index, (1 - part) * start_uv(surface, h) + part * end_uv(surface, h)});
     if (twin < 0) continue;
     divisions.push_back(
-        {twin, 1 - part, index, part * start_uv(support, twin) + (1 - part) * end_uv(support, twin)});
+        {twin, 1 - part, index, part * start_uv(surface, twin) + (1 - part) * end_uv(surface, twin)});
   }
-  divide_edges(support, std::move(divisions));
+  divide_edges(surface, std::move(divisions));
 }
 
 /// Gives parts that are too small to their neighbours. Returns the number of parts left.
-std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t>& side) {
-  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
-  const double least = least_area * support_area(support);
+std::int32_t absorb_small_parts(const ChartSurface& surface, std::vector<std::int32_t>& side) {
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
+  const double least = least_area * surface_area(surface);
   for (std::size_t round = 0; round < most_absorbed; ++round) {
     std::vector<std::int32_t> component;
     const std::int32_t count = label_components(twins, side, component);
     std::vector<double> area(count, 0);
-    for (std::size_t t = 0; t < side.size(); ++t) {
-      area[component[t]] += norm(area_vector(support, static_cast<std::int32_t>(t)));
-    }
+    for (std::size_t t = 0; t < side.size(); ++t)
+      area[component[t]] += norm(area_vector(surface, static_cast<std::int32_t>(t)));
     const auto smallest = std::min_element(area.begin(), area.end());
     if (count < 2 || *smallest >= least) return count;
     const auto absorbed = static_cast<std::int32_t>(smallest - area.begin());
@@ -220,15 +217,14 @@ std::int32_t absorb_small_parts(const Support& support, std::vector<std::int32_t
 
 }  // namespace
 
-std::optional<CutSupport> cut_by_plane(const Support& support, const CutPlane& plane) {
-  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(support.triangles);
-  std::vector<double> levels = CutLevels(support, plane, twins).values();
-  CutSupport cut{support, {}};
-  divide_at_zero(cut.support, twins, levels);
-  for (const auto& [a, b, c] : cut.support.triangles) {
+std::optional<CutSurface> cut_by_plane(const ChartSurface& surface, const CutPlane& plane) {
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
+  std::vector<double> levels = CutLevels(surface, plane, twins).values();
+  CutSurface cut{surface, {}};
+  divide_at_zero(cut.surface, twins, levels);
+  for (const auto& [a, b, c] : cut.surface.triangles)
     cut.part.push_back(std::min({levels[a], levels[b], levels[c]}) < 0 ? 0 : 1);
-  }
-  if (absorb_small_parts(cut.support, cut.part) < 2) return std::nullopt;
+  if (absorb_small_parts(cut.surface, cut.part) < 2) return std::nullopt;
   return cut;
 }
 

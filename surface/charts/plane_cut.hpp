@@ -1,4 +1,4 @@
-/// Cutting a support in two by a plane.
+/// Cuts a parametric triangulation in two by a plane.
 #pragma once
 
 #include "surface/charts/cut_curves.hpp"
@@ -14,11 +14,11 @@ struct CutPlane {
   double offset;
 };
 
-/// Planes to cut by, the most promising first: those that leave flat, balanced sides behind a short cut.
-std::vector<CutPlane> propose_planes(const Support& support);
+/// Candidate planes, the best first: those with flat sides of similar area and a short cut.
+std::vector<CutPlane> propose_planes(const ChartSurface& surface);
 
-/// Divides the triangles along the plane, into parts 0 and 1. Where it meets the boundary the cut bends to a
-/// mesh vertex; parts that are too small stay with their neighbour. Nothing when only one part is left.
-std::optional<CutSupport> cut_by_plane(const Support& support, const CutPlane& plane);
+/// Divides the triangles along the plane into parts 0 and 1. Near the boundary the cut bends to a mesh
+/// vertex. Components that are too small join their neighbour. Nothing where only one part is left.
+std::optional<CutSurface> cut_by_plane(const ChartSurface& surface, const CutPlane& plane);
 
 }  // namespace aeroloom::surface

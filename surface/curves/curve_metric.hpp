@@ -1,4 +1,4 @@
-/// Lengths of a curve in the metric of a size function.
+/// Lengths of a curve in the metric of a size field.
 #pragma once
 
 #include <array>
@@ -7,31 +7,31 @@
 
 namespace aeroloom::surface {
 
-/// The integral of a positive density over a parameter interval, and its inverse: with density = |c'(t)| /
-/// h(c(t)) it tells how many elements fit on the curve c, and where their ends lie. Adaptive Gauss-Legendre
-/// quadrature by spans of less than half an element; inside a span the density is the parabola through its
-/// three values, whose integral is the quadrature's.
+/// The integral of a positive density over a parameter interval, and its inverse. With the density |c'(t)| /
+/// h(c(t)) it counts the elements on the curve c and places their ends. Quadrature is adaptive
+/// (Gauss-Legendre) with spans of less than half an element. Inside a span the density is the parabola
+/// through its three values, which has the integral of the quadrature.
 class MetricLength {
 public:
   using Density = std::function<double(double)>;
 
-  /// `breaks`: the interval split where the density is not smooth; ascending, ends included.
+  /// `breaks`: the ends of the interval and the parameters where the density is not smooth; ascending.
   MetricLength(Density density, const std::vector<double>& breaks);
 
   double total() const { return _total; }
-  /// The parameter up to which the integral has the given value in [0, total()].
+  /// The parameter up to which the integral has the given value, from 0 to total().
   double parameter_at(double value) const;
 
 private:
   static constexpr int points = 3;  // of the quadrature
-  /// A part of the interval, accepted.
+  /// An accepted subinterval.
   struct Span {
     double from, to;  // parameters
     std::array<double, points> densities;
     double before;  // the integral up to its start
 
     double whole() const;
-    /// The parabola's integral over the part [from, from + s (to - from)].
+    /// The parabola's integral over [from, from + s (to - from)].
     double up_to(double s) const;
   };
 
@@ -43,7 +43,7 @@ private:
   double _total = 0;
 };
 
-/// The parameters that divide the interval into `segments` parts of equal integral, ends excluded.
+/// The inner parameters that divide the interval into `segments` parts of equal integral.
 std::vector<double> equal_parts(const MetricLength& length, int segments);
 
 }  // namespace aeroloom::surface

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace aeroloom::surface {
 namespace {
 
-using cad::EdgeId;
 using cad::Model;
 
 int least_of_edge(const Model& model, const EdgeMeasure& measure) {
@@ -23,7 +21,7 @@ void separate_parallel_edges(const Model& model, const std::vector<EdgeMeasure>&
   struct Joint {
     cad::VertexId low, high;
     double excess;  // of length over chord
-    EdgeId edge;
+    cad::EdgeId edge;
   };
   std::vector<Joint> joints;
   for (const EdgeMeasure& measure : measures) {
@@ -48,7 +46,7 @@ void close_loops(const Model& model, const std::vector<double>& lengths, std::ve
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     for (const auto& loop : model.face(f).loops) {
       int total = 0;
-      EdgeId longest = cad::no_entity;
+      cad::EdgeId longest = cad::no_entity;
       for (const auto& use : loop) {
         total += segments[use.edge];
         if (segments[use.edge] == 0) continue;

@@ -1,4 +1,4 @@
-/// How many segments each CAD edge gets.
+/// How many mesh segments each CAD edge gets.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -8,19 +8,18 @@
 
 namespace aeroloom::surface {
 
-/// Segments of a loop, at least: two between the same two vertices would be one edge of a triangle.
+/// Least number of segments of a loop: two segments with the same ends would be one edge of a triangle.
 inline constexpr int least_of_loop = 3;
-/// Segments of a curve, at most: a count must not overflow before a message says that so many fit in no
-/// memory.
+/// Largest number of segments of a curve. So counts cannot overflow before the limit on memory is reported.
 inline constexpr double most_segments = 1e8;
 
-/// Measures of a constraining edge that decide how many segments it gets.
+/// Measures of a CAD edge that decide on its number of segments.
 struct EdgeMeasure {
   cad::EdgeId edge;
   double metric_length;  ///< integral of ds/h
-  double length;         ///< about
-  double chord;          ///< distance of its ends
-  double turning;        ///< about the integral of the curvature, radians
+  double length;         ///< estimated
+  double chord;          ///< distance between its ends
+  double turning;        ///< estimated integral of the curvature, radians
 
   static constexpr auto fields() {
     return std::tuple(&EdgeMeasure::edge, &EdgeMeasure::metric_length, &EdgeMeasure::length,
@@ -28,9 +27,9 @@ struct EdgeMeasure {
   }
 };
 
-/// Segments per edge of the model, 0 where it carries no vertices: the metric length rounded, but no fewer
-/// than a conforming triangulation needs. Of edges that join the same two vertices at most one is a single
-/// segment, a closed edge has three or more, and so has every loop of a face.
+/// Segments per CAD edge; 0 where the edge carries no vertices. The number is the metric length, rounded, but
+/// at least what a conforming triangulation needs. Of edges between the same two vertices at most one is a
+/// single segment. A closed edge has at least three, and so has every loop of a face.
 std::vector<int> count_segments(const cad::Model& model, std::vector<EdgeMeasure> measures);
 
 }  // namespace aeroloom::surface

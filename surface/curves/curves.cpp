@@ -4,16 +4,14 @@
 #include "geometry/angle.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
+#include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "surface/curves/curve_metric.hpp"
 #include "surface/curves/curve_segments.hpp"
-#include "surface/curves/sharp_corners.hpp"
-#include "surface/curves/tip_alignment.hpp"
+#include "surface/curves/cusp_alignment.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
-#include <stdexcept>
 #include <tuple>
 
 namespace aeroloom::surface {
@@ -71,7 +69,7 @@ MetricLength metric_length(const Model& model, const sizing::SizeField& field, E
 
 /// A cheap guess of the segments of an edge, as its load.
 double estimate_load(const Model& model, const sizing::SizeField& field, EdgeId id) {
-  constexpr int chords = 8;  // rough: loads are dealt by it, no result depends on it
+  constexpr int chords = 8;  // rough: loads are distributed by it, no result depends on it
   const Edge& edge = model.edge(id);
   Vec3 from = model.edge_point(id, edge.first_parameter);
   double load = 1;
@@ -100,9 +98,7 @@ EdgeMeasure measure_edge(const Model& model, EdgeId id, const MetricLength& leng
     measure.length += geometry::norm(step);
     if (geometry::norm(step) > 0) {
       const Vec3 now = geometry::normalized(step);
-      if (direction) {
-        measure.turning += angle_between(*direction, now);
-      }
+      if (direction) measure.turning += angle_between(*direction, now);
       direction = now;
     }
     from = to;
@@ -119,14 +115,12 @@ std::vector<PlacedVertex> place_vertices(const Model& model, EdgeId id, const Me
   if (stretch.has_leg_at_last(edge)) parameters.push_back(stretch.to);
   // An edge without length still gets distinct parameters.
   if (!(length.total() > 0)) {
-    for (int i = 1; i < segments; ++i) {
+    for (int i = 1; i < segments; ++i)
       parameters[i - 1] = edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / segments;
-    }
   }
   std::vector<PlacedVertex> placed;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
+  for (std::size_t i = 0; i < parameters.size(); ++i)
     placed.push_back({id, static_cast<std::int32_t>(i), parameters[i], model.edge_point(id, parameters[i])});
-  }
   return placed;
 }
 
@@ -143,9 +137,8 @@ CurveMesh assemble(const Model& model, std::vector<PlacedVertex> placed) {
     mesh.parameters.push_back(vertex.parameter);
     ++mesh.first_interior[vertex.edge + 1];
   }
-  for (EdgeId e = 0; e < model.edge_count(); ++e) {
+  for (EdgeId e = 0; e < model.edge_count(); ++e)
     mesh.first_interior[e + 1] += mesh.first_interior[e] - model.vertex_count();
-  }
   return mesh;
 }
 
@@ -162,9 +155,8 @@ std::vector<CurveVertex> CurveMesh::chain(const Model& model, EdgeId id) const {
 std::vector<double> CurveMesh::chain_parameters(const Model& model, EdgeId id) const {
   if (!is_constraining(model, id)) return {};
   std::vector<double> result{model.edge(id).first_parameter};
-  for (CurveVertex v = first_interior[id]; v < first_interior[id + 1]; ++v) {
+  for (CurveVertex v = first_interior[id]; v < first_interior[id + 1]; ++v)
     result.push_back(parameters[v - model.vertex_count()]);
-  }
   result.push_back(model.edge(id).last_parameter);
   return result;
 }
@@ -194,15 +186,16 @@ bool is_constraining(const Model& model, EdgeId id) {
   return !edge.faces.empty() && !model.is_seam(id);
 }
 
-CurveMesh discretise_curves(const parallel::Communicator& communicator, const Model& model,
-                            const sizing::SizeField& field, std::span<const cad::VertexId> short_legs) {
+CurveMesh discretise_curves(const Model& model, const sizing::SizeField& field,
+                            std::span<const cad::VertexId> short_legs) {
+  const parallel::Communicator& communicator = field.communicator();
   std::vector<EdgeId> edges;
   std::vector<double> loads;
   std::vector<EdgeId> mine;
   std::vector<MetricLength> lengths;
   std::vector<EdgeMeasure> measures;
   std::vector<FreeStretch> stretches;
-  std::vector<SharpCorner> corners = find_sharp_corners(communicator, model, field);
+  std::vector<SharpCorner> corners = find_sharp_corners(model, field);
   shorten_legs(model, field, short_legs, corners);
   const auto legs = legs_of_edges(model, corners);
   parallel::agree(communicator, [&] {
@@ -242,10 +235,8 @@ CurveMesh discretise_curves(const parallel::Communicator& communicator, const Mo
   });
   CurveMesh mesh = assemble(model, communicator.all_gather_items(std::span<const PlacedVertex>(placed)));
   mesh.sharp_corners = std::move(corners);
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::repeated);
-    align_tips(model, sizing::closing_gap(field.options()), mesh);
-  });
+  parallel::collectively(communicator, parallel::ScopedCpu::As::repeated,
+                         [&] { align_cusps(model, sizing::closing_gap(field.options()), mesh); });
   return mesh;
 }
 

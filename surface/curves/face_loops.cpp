@@ -11,16 +11,14 @@
 namespace aeroloom::surface {
 namespace {
 
-using mesh::SharedVertexKey;
-
 /// A triangle's edge between two vertices of curves.
 struct EdgeRow {
-  std::array<SharedVertexKey, 2> keys;  // as the triangle runs
+  std::array<mesh::SharedVertexKey, 2> keys;  // as the triangle runs
   std::array<geometry::Vec3, 2> points;
   cad::FaceId face;
 
   static constexpr auto fields() { return std::tuple(&EdgeRow::keys, &EdgeRow::points, &EdgeRow::face); }
-  std::array<SharedVertexKey, 2> sorted() const {
+  std::array<mesh::SharedVertexKey, 2> sorted() const {
     return {std::min(keys[0], keys[1]), std::max(keys[0], keys[1])};
   }
   auto place() const { return std::tuple(face, keys[0]); }
@@ -68,21 +66,22 @@ FaceLoops make_loops(std::span<const EdgeRow> rows) {
 }
 
 /// The rank of each face's loops.
-std::vector<parallel::Rank> deal_faces(const parallel::Communicator& communicator,
-                                       const std::vector<EdgeRow>& rows, std::span<const cad::FaceId> faces) {
+std::vector<parallel::Rank> assign_faces(const mesh::DistributedMesh& surface,
+                                         const std::vector<EdgeRow>& rows,
+                                         std::span<const cad::FaceId> faces) {
   std::vector<std::int64_t> counts(faces.size(), 0);
   for (const EdgeRow& row : rows) {
     const auto at = std::lower_bound(faces.begin(), faces.end(), row.face);
     if (at != faces.end() && *at == row.face) ++counts[at - faces.begin()];
   }
-  communicator.sum_each(counts);
+  surface.communicator.sum_each(counts);
   const std::vector<double> loads(counts.begin(), counts.end());
-  return parallel::assign_largest_first(loads, communicator.size());
+  return parallel::assign_largest_first(loads, surface.communicator.size());
 }
 
 }  // namespace
 
-std::int32_t FaceLoops::find(SharedVertexKey vertex_key) const {
+std::int32_t FaceLoops::find(mesh::SharedVertexKey vertex_key) const {
   return static_cast<std::int32_t>(std::lower_bound(vertex_keys.begin(), vertex_keys.end(), vertex_key) -
                                    vertex_keys.begin());
 }
@@ -92,7 +91,7 @@ std::map<cad::FaceId, FaceLoops> gather_loops(const mesh::DistributedMesh& surfa
   const parallel::Communicator& communicator = surface.communicator;
   std::vector<EdgeRow> rows;
   for (const mesh::Piece& piece : surface.pieces) list_edges(piece, rows);
-  const std::vector<parallel::Rank> owners = deal_faces(communicator, rows, faces);
+  const std::vector<parallel::Rank> owners = assign_faces(surface, rows, faces);
   const std::vector<EdgeRow> met =
       mesh::meet_by_key(communicator, std::move(rows), &EdgeRow::sorted, &EdgeRow::place);
   std::vector<EdgeRow> on_loops;

@@ -11,14 +11,12 @@
 namespace aeroloom::surface {
 namespace {
 
-using cad::Edge;
-using cad::EdgeId;
 using geometry::Vec3;
 
 /// A CAD edge whose ends have moved.
 class MovedCurve {
 public:
-  MovedCurve(const cad::Model& model, EdgeId id, Vec3 first, Vec3 last)
+  MovedCurve(const cad::Model& model, cad::EdgeId id, Vec3 first, Vec3 last)
       : _model(model),
         _id(id),
         _edge(model.edge(id)),
@@ -41,8 +39,8 @@ public:
 
 private:
   const cad::Model& _model;
-  EdgeId _id;
-  const Edge& _edge;
+  cad::EdgeId _id;
+  const cad::Edge& _edge;
   Vec3 _first, _last;  // how far the ends have moved
 };
 
@@ -55,8 +53,8 @@ struct Chain {
   std::int32_t first_end, last_end, first_inside, inside;
 };
 
-std::optional<Chain> find_chain(const cad::Model& model, EdgeId id, const FaceLoops& loops) {
-  const Edge& edge = model.edge(id);
+std::optional<Chain> find_chain(const cad::Model& model, cad::EdgeId id, const FaceLoops& loops) {
+  const cad::Edge& edge = model.edge(id);
   const auto first = mesh::cad_vertex_key(edge.first), last = mesh::cad_vertex_key(edge.last);
   if (edge.first == edge.last || !contains(loops, first) || !contains(loops, last)) return std::nullopt;
   // Keys ascend by edge, then along it; some are missing where vertices have become one with others.
@@ -74,7 +72,7 @@ void spread_on_free_curves(const cad::Model& model, const sizing::SizeField& fie
                            std::span<const cad::FaceId> faces, FaceLoops& loops) {
   for (const auto& loop : model.face(face).loops) {
     for (const cad::Coedge& use : loop) {
-      const Edge& edge = model.edge(use.edge);
+      const cad::Edge& edge = model.edge(use.edge);
       const bool is_free = std::all_of(edge.faces.begin(), edge.faces.end(), [&](cad::FaceId other) {
         return std::binary_search(faces.begin(), faces.end(), other);
       });

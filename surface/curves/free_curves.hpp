@@ -1,5 +1,5 @@
-/// Curves between faces that are all meshed again: nobody else knows their vertices, so these follow where
-/// the ends went.
+/// Curves between faces that are all remeshed. No other face has their vertices, so these may follow when the
+/// ends of the curve have moved.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -10,11 +10,11 @@
 
 namespace aeroloom::surface {
 
-/// Spreads the vertices of a face's curves anew where no other faces than these (ascending) have the curve
-/// and one of its ends is no longer where the CAD vertex is: a column of layers, say, went along the line in
-/// which two planes meet. The curve moves with its ends, in proportion between them; as many vertices as it
-/// had are spread over it in the metric of the field. The same for all faces that share the curve, however
-/// its vertices lay before.
+/// Places the vertices of free curves of a face anew: curves that no face outside `faces` (ascending) has,
+/// and with an end that is no longer at its CAD vertex. An example is the line in which two planes meet, when
+/// boundary layers have moved its end. The curve moves with its ends, in proportion between them. It keeps
+/// its number of vertices, placed in the metric of the field. The result does not depend on where its
+/// vertices were, so it is the same for all faces that have the curve.
 void spread_on_free_curves(const cad::Model& model, const sizing::SizeField& field, cad::FaceId face,
                            std::span<const cad::FaceId> faces, FaceLoops& loops);
 

@@ -1,10 +1,8 @@
-/// How curves begin at sharp corners of CAD faces.
+/// Sharp corners of CAD faces, and the first segments of the curves that meet there.
 #pragma once
 
 #include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/model.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <array>
@@ -14,18 +12,18 @@
 
 namespace aeroloom::surface {
 
-/// Where two edges of a face meet below 30 degrees, as elements see it: from the distance of the local size.
-/// In a tip of two faces below 100: the sides of a cone of 50 degrees about its axis.
+/// A corner where two edges of a face meet below 30 degrees, measured at the distance of the local size. In
+/// an apex of two faces below 100 degrees, as the sides of a cone of 50 degrees about its axis.
 struct SharpCorner {
   cad::FaceId face = cad::no_entity;
   cad::VertexId vertex = cad::no_entity;
   std::array<cad::EdgeEnd, 2> ends;
   double degrees = 0;
-  /// Length of the first segment on both edges, so that one triangle fills the corner and elements fit
-  /// between the edges behind it; 0 where the edges bend too much or are too short for one, and where the
-  /// corner is closed instead (cusp_tips.hpp).
+  /// Length of the first segment on both edges. One triangle of these sides fills the corner, and elements of
+  /// the local size fit between the edges behind it. 0 where the edges turn too much or are too short, and
+  /// where the corner is closed instead (cusps.hpp).
   double leg = 0;
-  bool closes = false;  ///< its edges are one as far as they are next to each other (cusp_tips.hpp)
+  bool closes = false;  ///< its two edges are merged near the vertex (cusps.hpp)
 
   static constexpr auto fields() {
     return std::tuple(&SharpCorner::face, &SharpCorner::vertex, &SharpCorner::ends, &SharpCorner::degrees,
@@ -33,27 +31,26 @@ struct SharpCorner {
   }
 };
 
-/// The other face where the same one lies beyond both edges of a corner, else no_entity.
+/// The face on the other side of both edges of a corner; no_entity where these differ.
 cad::FaceId face_beyond_both_edges(const cad::Model& model, const cad::FaceCorner& corner);
-/// Whether the same other face lies beyond both edges of a corner, and its corner there is not reflex either,
-/// as edges are at that distance: both faces end in one tip, halves of a cone or shells of a lens.
-bool is_tip_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);
+/// Whether one other face lies beyond both edges of a corner and its corner there is not reflex either,
+/// measured at `distance`. Then both faces end in one apex: halves of a cone, or shells of a lens.
+bool is_apex_of_two_faces(const cad::Model& model, const cad::FaceCorner& corner, double distance);
 
-/// All of them by face, the same on every rank. Collective.
-std::vector<SharpCorner> find_sharp_corners(const parallel::Communicator& communicator,
-                                            const cad::Model& model, const sizing::SizeField& field);
+/// All sharp corners by face, the same on every rank of the field. Collective.
+std::vector<SharpCorner> find_sharp_corners(const cad::Model& model, const sizing::SizeField& field);
 
-/// Length of a short leg, in sizes at the corner. Chosen, not measured.
+/// Length of a short leg over the local size. Chosen, not measured.
 inline constexpr double longest_short_leg = 4;
 
-/// Makes the legs at the CAD vertices (ascending) no longer than that: a face on the other side of an edge
-/// has to live with its leg.
+/// Limits the legs at these CAD vertices (ascending) to `longest_short_leg`. Long legs can cause needles in
+/// the face on the other side.
 void shorten_legs(const cad::Model& model, const sizing::SizeField& field,
                   std::span<const cad::VertexId> vertices, std::vector<SharpCorner>& corners);
 
-/// Per edge and end (at its first and last parameter): how far from the CAD vertex the first vertex on the
-/// curve is; 0 where the size field alone decides. Corners at one vertex take the longest leg together: they
-/// may share an edge.
+/// Per edge and end (first, last parameter): the distance from the CAD vertex to the first vertex on the
+/// curve. 0 where the size field alone decides. All corners at one CAD vertex take the longest leg, since
+/// they may share an edge.
 std::vector<std::array<double, 2>> legs_of_edges(const cad::Model& model,
                                                  const std::vector<SharpCorner>& corners);
 

@@ -1,10 +1,10 @@
 #include "surface/division/background.hpp"
 
 #include "geometry/angle.hpp"
-#include "surface/charts/support_mesher.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/chart_mesher.hpp"
+#include "surface/charts/parameters.hpp"
+#include "surface/charts/surface_topology.hpp"
 #include "surface/division/boundary_thinning.hpp"
-#include "surface/division/parameters.hpp"
 #include "surface/surface_error.hpp"
 
 #include <algorithm>
@@ -18,16 +18,15 @@ using cad::Model;
 using geometry::Vec2;
 using geometry::Vec3;
 
-using geometry::degree;
 /// Of curves and of the surface along an edge of the background. Chosen, not measured.
-constexpr double largest_turn = 30 * degree;
+constexpr double largest_turn = 30 * geometry::degree;
 /// Edges of the background are as long as so many fine ones at least, however much the surface turns: a
 /// coarser mesh is its point.
 constexpr double fine_edges = 2;
 constexpr int smoothing_sweeps = 3;  // it carries cuts, it is no mesh: a few do
-/// Facets of the support turn less than this: edges between points whose normals differ by more are divided,
-/// in so many rounds.
-constexpr double facet_turn = 12 * degree;
+/// Facets of the chart surface turn less than this: edges between points whose normals differ by more are
+/// divided, in so many rounds.
+constexpr double facet_turn = 12 * geometry::degree;
 constexpr int dividing_rounds = 3;
 
 /// Parameters at the corners of each triangle, without jumps inside it: those of vertices across a seam are
@@ -98,142 +97,142 @@ void carry_over(const std::vector<std::int32_t>& former, std::vector<std::int32_
   part = std::move(now);
 }
 
-/// Builds the support step by step.
-class SupportBuilder {
+/// Builds the chart surface step by step.
+class ChartSurfaceBuilder {
 public:
-  SupportBuilder(const Model& model, const Subface& subface, const Background& background,
-                 std::vector<std::int32_t>& part)
-      : _model(model), _subface(subface), _loops(background.loops), _part(part) {
+  ChartSurfaceBuilder(const Model& model, const PieceProblem& problem, const Background& background,
+                      std::vector<std::int32_t>& part)
+      : _model(model), _problem(problem), _loops(background.loops), _part(part) {
     const FaceMesh& mesh = background.mesh;
     const CornerParameters parameters(model, mesh);
-    _support.face = mesh.face;
-    _support.points = mesh.points;
-    _support.triangles = mesh.triangles;
-    for (const auto& triangle : mesh.triangles) _support.corner_uv.push_back(parameters(triangle));
-    _support.mesh_vertex = background.on_loops;
-    _support.mesh_vertex.resize(mesh.points.size(), -1);
+    _surface.face = mesh.face;
+    _surface.points = mesh.points;
+    _surface.triangles = mesh.triangles;
+    for (const auto& triangle : mesh.triangles) _surface.corner_uv.push_back(parameters(triangle));
+    _surface.mesh_vertex = background.on_loops;
+    _surface.mesh_vertex.resize(mesh.points.size(), -1);
   }
 
   /// Divides the edges on loops at the fine vertices.
   void insert_loop_vertices() {
-    const auto twins = geometry::match_half_edges(_support.triangles);
+    const auto twins = geometry::match_half_edges(_surface.triangles);
     std::vector<EdgePoint> divisions;
     for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
       if (twins[h] < 0) divide_loop_edge(h, divisions);
     }
-    carry_over(divide_edges(_support, std::move(divisions)), _part);
+    carry_over(divide_edges(_surface, std::move(divisions)), _part);
   }
 
   /// Adds points on the surface where it turns much along an edge inside.
   void follow_surface() {
-    if (_model.is_planar(_support.face)) return;
+    if (_model.is_planar(_surface.face)) return;
     for (int round = 0; round < dividing_rounds; ++round) {
-      const auto twins = geometry::match_half_edges(_support.triangles);
+      const auto twins = geometry::match_half_edges(_surface.triangles);
       std::vector<EdgePoint> divisions;
       for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
         if (twins[h] < h) continue;
         if (!turns(h) && !turns(twins[h])) continue;
-        const Vec3 a = _support.points[start_of(_support, h)], b = _support.points[end_of(_support, h)];
-        const Vec2 guess = 0.5 * (start_uv(_support, h) + end_uv(_support, h));
-        const auto middle = _model.project(_support.face, 0.5 * (a + b), _model.wrap(_support.face, guess));
+        const Vec3 a = _surface.points[start_of(_surface, h)], b = _surface.points[end_of(_surface, h)];
+        const Vec2 guess = 0.5 * (start_uv(_surface, h) + end_uv(_surface, h));
+        const auto middle = _model.project(_surface.face, 0.5 * (a + b), _model.wrap(_surface.face, guess));
         if (!middle.converged || distance(middle.point, 0.5 * (a + b)) > 0.5 * distance(a, b)) continue;
         const std::int32_t index = add_point(middle.point, -1);
         divisions.push_back({h, 0.5, index, near(middle.uv, guess)});
-        const Vec2 twin_uv = 0.5 * (start_uv(_support, twins[h]) + end_uv(_support, twins[h]));
+        const Vec2 twin_uv = 0.5 * (start_uv(_surface, twins[h]) + end_uv(_surface, twins[h]));
         divisions.push_back({twins[h], 0.5, index, near(middle.uv, twin_uv)});
       }
       if (divisions.empty()) break;
-      carry_over(divide_edges(_support, std::move(divisions)), _part);
+      carry_over(divide_edges(_surface, std::move(divisions)), _part);
     }
   }
 
-  Support finish() {
-    _support.loop_edges = trace_loop_edges(_support, geometry::match_half_edges(_support.triangles));
-    return std::move(_support);
+  ChartSurface finish() {
+    _surface.loop_edges = trace_loop_edges(_surface);
+    return std::move(_surface);
   }
 
 private:
   std::int32_t add_point(Vec3 point, std::int32_t vertex) {
-    _support.points.push_back(point);
-    _support.mesh_vertex.push_back(vertex);
-    return static_cast<std::int32_t>(_support.points.size()) - 1;
+    _surface.points.push_back(point);
+    _surface.mesh_vertex.push_back(vertex);
+    return static_cast<std::int32_t>(_surface.points.size()) - 1;
   }
 
   void divide_loop_edge(geometry::HalfEdge h, std::vector<EdgePoint>& divisions) {
-    const std::int32_t from = _support.mesh_vertex[start_of(_support, h)];
-    const std::int32_t to = _support.mesh_vertex[end_of(_support, h)];
+    const std::int32_t from = _surface.mesh_vertex[start_of(_surface, h)];
+    const std::int32_t to = _surface.mesh_vertex[end_of(_surface, h)];
     const CoarseSegment* segment = _loops.find(from, to);
     if (segment == nullptr) return;
     std::vector<std::int32_t> inside(_loops.inside.begin() + segment->begin,
                                      _loops.inside.begin() + segment->end);
     if (segment->from != from) std::reverse(inside.begin(), inside.end());
     std::vector<double> along{0};
-    Vec3 last = _subface.vertices.points[from];
+    Vec3 last = _problem.vertices.points[from];
     for (const std::int32_t v : inside) {
-      along.push_back(along.back() + distance(last, _subface.vertices.points[v]));
-      last = _subface.vertices.points[v];
+      along.push_back(along.back() + distance(last, _problem.vertices.points[v]));
+      last = _problem.vertices.points[v];
     }
-    const double length = along.back() + distance(last, _subface.vertices.points[to]);
+    const double length = along.back() + distance(last, _problem.vertices.points[to]);
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const double fraction = along[i + 1] / length;
-      const Vec2 guess = (1 - fraction) * start_uv(_support, h) + fraction * end_uv(_support, h);
-      divisions.push_back({h, fraction, add_point(_subface.vertices.points[inside[i]], inside[i]),
-                           near(_subface.vertices.uv[inside[i]], guess)});
+      const Vec2 guess = (1 - fraction) * start_uv(_surface, h) + fraction * end_uv(_surface, h);
+      divisions.push_back({h, fraction, add_point(_problem.vertices.points[inside[i]], inside[i]),
+                           near(_problem.vertices.uv[inside[i]], guess)});
     }
   }
 
-  Vec2 near(Vec2 uv, Vec2 others) const { return unwrap(_model, _support.face, uv, others); }
+  Vec2 near(Vec2 uv, Vec2 others) const { return unwrap(_model, _surface.face, uv, others); }
 
   bool turns(geometry::HalfEdge h) const {
     const auto normal = [&](Vec2 uv) {
-      return _model.face_frame(_support.face, _model.wrap(_support.face, uv)).normal;
+      return _model.face_frame(_surface.face, _model.wrap(_surface.face, uv)).normal;
     };
-    const Vec3 first = normal(start_uv(_support, h)), second = normal(end_uv(_support, h));
+    const Vec3 first = normal(start_uv(_surface, h)), second = normal(end_uv(_surface, h));
     return norm(first) > 0 && norm(second) > 0 && dot(first, second) < std::cos(facet_turn);
   }
 
   const Model& _model;
-  const Subface& _subface;
+  const PieceProblem& _problem;
   const CoarseLoops& _loops;
   std::vector<std::int32_t>& _part;
-  Support _support;
+  ChartSurface _surface;
 };
 
-/// The subface without the vertices on loops that the background does without. `on_loops` receives the
+/// The piece problem without the vertices on loops that the background does without. `on_loops` receives the
 /// vertices that stay.
-Subface thin_out(const Model& model, const Subface& subface, const CoarseLoops& loops,
-                 std::vector<std::int32_t>& on_loops) {
-  std::vector<char> keep(subface.vertices.points.size(), 0);
+PieceProblem thin_out(const Model& model, const PieceProblem& problem, const CoarseLoops& loops,
+                      std::vector<std::int32_t>& on_loops) {
+  std::vector<char> keep(problem.vertices.points.size(), 0);
   for (const CoarseSegment& segment : loops.segments) keep[segment.from] = keep[segment.to] = 1;
-  Subface thin{subface.support, {}, subface.load};
-  drop_boundary_vertices(model, keep, thin.support);
+  PieceProblem thin{problem.surface, {}, problem.load};
+  drop_boundary_vertices(model, keep, thin.surface);
   std::vector<std::int32_t> number(keep.size(), -1);
   for (std::size_t v = 0; v < keep.size(); ++v) {
     if (!keep[v]) continue;
     number[v] = static_cast<std::int32_t>(on_loops.size());
     on_loops.push_back(static_cast<std::int32_t>(v));
-    thin.vertices.points.push_back(subface.vertices.points[v]);
-    thin.vertices.uv.push_back(subface.vertices.uv[v]);
-    thin.vertices.vertex_keys.push_back(subface.vertices.vertex_keys[v]);
+    thin.vertices.points.push_back(problem.vertices.points[v]);
+    thin.vertices.uv.push_back(problem.vertices.uv[v]);
+    thin.vertices.vertex_keys.push_back(problem.vertices.vertex_keys[v]);
   }
-  for (std::int32_t& v : thin.support.mesh_vertex) v = v < 0 ? -1 : number[v];
+  for (std::int32_t& v : thin.surface.mesh_vertex) v = v < 0 ? -1 : number[v];
   return thin;
 }
 
 }  // namespace
 
-std::optional<Background> mesh_background(const Model& model, const Subface& subface,
+std::optional<Background> mesh_background(const Model& model, const PieceProblem& problem,
                                           const sizing::SizeField& coarse, double factor,
                                           const SurfaceOptions& options) {
   Background background;
-  background.loops = coarsen_loops(subface, coarse, largest_turn);
-  Subface thin = thin_out(model, subface, background.loops, background.on_loops);
-  const SupportMeshing meshing{.chart_spread = options.chart_spread,
-                               .largest_turn = largest_turn,
-                               .least_fraction = std::min(1.0, fine_edges / factor),
-                               .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
+  background.loops = coarsen_loops(problem, coarse, largest_turn);
+  PieceProblem thin = thin_out(model, problem, background.loops, background.on_loops);
+  const ChartMeshing meshing{.chart_spread = options.chart_spread,
+                             .largest_turn = largest_turn,
+                             .least_fraction = std::min(1.0, fine_edges / factor),
+                             .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
-    background.mesh = mesh_support(model, coarse, thin.support, std::move(thin.vertices), meshing);
+    background.mesh = mesh_charts(model, coarse, thin.surface, std::move(thin.vertices), meshing);
   } catch (const FaceConflict&) {
     return std::nullopt;
   } catch (const SurfaceError&) {  // no chart under these sizes
@@ -242,9 +241,9 @@ std::optional<Background> mesh_background(const Model& model, const Subface& sub
   return background;
 }
 
-Support support_of(const Model& model, const Subface& subface, const Background& background,
-                   std::vector<std::int32_t>& part) {
-  SupportBuilder builder(model, subface, background, part);
+ChartSurface chart_surface_of(const Model& model, const PieceProblem& problem, const Background& background,
+                              std::vector<std::int32_t>& part) {
+  ChartSurfaceBuilder builder(model, problem, background, part);
   builder.insert_loop_vertices();
   builder.follow_surface();
   return builder.finish();

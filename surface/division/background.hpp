@@ -1,9 +1,9 @@
-/// The background mesh of a piece that is to be divided: the same surface under sizes several times as large,
-/// from which smaller pieces are cut. A whole CAD face is such a piece, and so is a part of one.
+/// The background mesh of a piece that is to be divided: a mesh of the same surface with several times the
+/// size. It is partitioned in place of the fine mesh. The piece may be a whole CAD face or a part of one.
 #pragma once
 
 #include "surface/division/coarse_loops.hpp"
-#include "surface/division/subface.hpp"
+#include "surface/division/piece_problem.hpp"
 #include "surface/remesh/remesh.hpp"
 #include "surface/surface_options.hpp"
 
@@ -12,23 +12,23 @@
 
 namespace aeroloom::surface {
 
-/// Triangles on the CAD surface. Their vertices on the loops of the piece are a subset of the fine ones.
+/// Triangles on the CAD surface. Their vertices on the loops are a subset of the fine vertices there.
 struct Background {
   FaceMesh mesh;                       ///< its first `mesh.fixed` vertices lie on the loops
-  std::vector<std::int32_t> on_loops;  ///< for those: the vertex of the subface
+  std::vector<std::int32_t> on_loops;  ///< for each of those: the vertex of the piece problem
   CoarseLoops loops;
 };
 
-/// Meshes the piece under `coarse` sizes, `factor` times the fine ones; an edge turns by at most 30 degrees.
-/// Nothing where it has no such mesh: its loops cross, or no chart holds it, when they are as coarse as that.
-/// Not collective. Throws cad::CadError.
-std::optional<Background> mesh_background(const cad::Model& model, const Subface& subface,
+/// Meshes the piece under `coarse` sizes, `factor` times the fine ones. An edge turns by at most 30 degrees.
+/// Nothing where its loops cross at such sizes or no chart can be found. Not collective. Throws
+/// cad::CadError.
+std::optional<Background> mesh_background(const cad::Model& model, const PieceProblem& problem,
                                           const sizing::SizeField& coarse, double factor,
                                           const SurfaceOptions& options);
 
-/// The background as a support: parameters at triangle corners, the fine vertices on its loops (numbered as
-/// those of the subface), and facets that follow the surface. `part` per triangle is kept up.
-Support support_of(const cad::Model& model, const Subface& subface, const Background& background,
-                   std::vector<std::int32_t>& part);
+/// The background as a parametric triangulation. It has the fine vertices on its loops, numbered as in the
+/// problem, and is refined until it follows the surface. `part` per triangle is updated.
+ChartSurface chart_surface_of(const cad::Model& model, const PieceProblem& problem,
+                              const Background& background, std::vector<std::int32_t>& part);
 
 }  // namespace aeroloom::surface

@@ -1,4 +1,4 @@
-/// A background triangulation as its decomposition sees it.
+/// A background triangulation as the partitioner sees it.
 #pragma once
 
 #include "geometry/half_edges.hpp"
@@ -13,10 +13,10 @@ namespace aeroloom::partition {
 using TriangleIndex = std::int32_t;  ///< of a background triangle
 using ClusterIndex = std::int32_t;   ///< of a node of the simplified dual graph
 using PartIndex = std::int32_t;      ///< of a part of the background
-using FanIndex = std::int32_t;       ///< of the triangles around a vertex, in VertexFans
+using FanIndex = std::int32_t;       ///< of a fan of triangles around a vertex, in VertexFans
 
-/// An oriented triangulation, coarse next to the mesh to come. Edges with a triangle on one side alone are
-/// feature curves, or cuts of a division before: they bound pieces whatever the decomposition.
+/// An oriented triangulation, coarse compared with the mesh to come. An edge with a triangle on one side
+/// alone is a feature curve, or a cut of an earlier division. Pieces end there in any decomposition.
 struct BackgroundSurface {
   std::vector<geometry::Vec3> points;
   std::vector<std::array<std::int32_t, 3>> triangles;
@@ -27,7 +27,7 @@ struct BackgroundSurface {
   std::int32_t end(geometry::HalfEdge h) const { return start(geometry::next_half_edge(h)); }
 };
 
-/// The triangles around a vertex in counter-clockwise order. A vertex where feature curves touch may have
+/// The triangles around each vertex in counter-clockwise order. A vertex where feature curves touch may have
 /// several fans.
 struct VertexFans {
   std::vector<geometry::HalfEdge> corners;  ///< half-edges that start at the vertex, fan by fan
@@ -37,8 +37,8 @@ struct VertexFans {
 
   FanIndex count() const { return static_cast<FanIndex>(closed.size()); }
   std::int32_t size(FanIndex fan) const { return first[fan + 1] - first[fan]; }
-  /// Edges leave the vertex between corners: edge i of a fan lies before its corner i; an open fan ends with
-  /// one more. This is its half-edge in one of the triangles beside it.
+  /// The half-edge of edge i of a fan, in a triangle beside it. Edge i lies before corner i; an open fan has
+  /// one more edge at its end.
   geometry::HalfEdge edge(FanIndex fan, std::int32_t i) const {
     return i < size(fan) ? corners[first[fan] + i]
                          : geometry::previous_half_edge(corners[first[fan + 1] - 1]);
@@ -46,11 +46,10 @@ struct VertexFans {
   std::int32_t edge_count(FanIndex fan) const { return size(fan) + (closed[fan] ? 0 : 1); }
 };
 
-/// Fans in the order of their first corners (open ones begin at a feature curve).
+/// All fans, in the order of their first corners. An open fan begins at a feature curve.
 VertexFans gather_fans(const BackgroundSurface& surface);
 
-/// Stretches of a fan between two of its edges: `from` and `to` are edge numbers, the angle between them is
-/// counted counter-clockwise.
+/// The part of a fan from edge `from` to edge `to`. Its angle is counted counter-clockwise.
 struct FanWedge {
   FanIndex fan;
   std::int32_t from, to;

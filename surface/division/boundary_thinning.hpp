@@ -1,16 +1,16 @@
-/// Taking vertices off the boundary of a support.
+/// Removes vertices from the boundary of a parametric triangulation.
 #pragma once
 
 #include "cad/model/model.hpp"
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 
 #include <vector>
 
 namespace aeroloom::surface {
 
-/// Contracts boundary points of the support that are mesh vertices to be dropped (`keep` per mesh vertex is
-/// 0) into the kept ones before them on their loop, where that folds no triangle; those that have to stay are
-/// no mesh vertices any more. `mesh_vertex` and `loop_edges` are kept up; numbers of vertices stay.
-void drop_boundary_vertices(const cad::Model& model, const std::vector<char>& keep, Support& support);
+/// Removes boundary vertices with `keep` 0 (per mesh vertex). Each is contracted into the point before it on
+/// its loop, unless a triangle would fold. A point that cannot be contracted stays, but is no mesh vertex any
+/// more. `mesh_vertex` and `loop_edges` are updated; vertices keep their numbers.
+void drop_boundary_vertices(const cad::Model& model, const std::vector<char>& keep, ChartSurface& surface);
 
 }  // namespace aeroloom::surface

@@ -10,18 +10,16 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec3;
-
-/// The loops as closed sequences of vertices of the subface, in the order of the loop edges. The same vertex
-/// may occur several times where the border touches itself.
-std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
-  std::vector<std::int32_t> next(support.points.size(), -1);
-  for (const auto& [from, to] : support.loop_edges) next[from] = to;
+/// The loops as closed sequences of vertices of the piece problem, in the order of the loop edges. The same
+/// vertex may occur several times where the border touches itself.
+std::vector<std::vector<std::int32_t>> trace_loops(const ChartSurface& surface) {
+  std::vector<std::int32_t> next(surface.points.size(), -1);
+  for (const auto& [from, to] : surface.loop_edges) next[from] = to;
   std::vector<std::vector<std::int32_t>> loops;
-  for (const auto& [first, second] : support.loop_edges) {
+  for (const auto& [first, second] : surface.loop_edges) {
     std::vector<std::int32_t> loop;
     for (std::int32_t p = first; next[p] >= 0;) {
-      loop.push_back(support.mesh_vertex[p]);
+      loop.push_back(surface.mesh_vertex[p]);
       const std::int32_t after = next[p];
       next[p] = -1;
       p = after;
@@ -34,9 +32,9 @@ std::vector<std::vector<std::int32_t>> trace_loops(const Support& support) {
 /// One loop, turned so that it begins at its sharpest corner.
 class LoopCoarsener {
 public:
-  LoopCoarsener(const Subface& subface, const sizing::SizeField& coarse, double largest_turn,
+  LoopCoarsener(const PieceProblem& problem, const sizing::SizeField& coarse, double largest_turn,
                 std::vector<std::int32_t> loop)
-      : _points(subface.vertices.points),
+      : _points(problem.vertices.points),
         _coarse(coarse),
         _largest_turn(largest_turn),
         _loop(std::move(loop)) {
@@ -71,7 +69,7 @@ public:
   }
 
 private:
-  Vec3 step(std::size_t i) const { return _points[vertex(i + 1)] - _points[vertex(i)]; }
+  geometry::Vec3 step(std::size_t i) const { return _points[vertex(i + 1)] - _points[vertex(i)]; }
   double turn(std::size_t i) const { return angle_between(step(i + size() - 1), step(i)); }
 
   /// How many coarse segments the fine one that starts at i is worth.
@@ -80,7 +78,7 @@ private:
       const double angle = turn(k);
       return angle > _largest_turn ? 0 : 0.5 * angle / _largest_turn;
     };
-    const Vec3 from = _points[vertex(i)];
+    const geometry::Vec3 from = _points[vertex(i)];
     return std::max(norm(step(i)) / _coarse(from + 0.5 * step(i)), bend(i) + bend(i + 1));
   }
 
@@ -110,7 +108,7 @@ private:
     kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(longest), at);
   }
 
-  const std::vector<Vec3>& _points;
+  const std::vector<geometry::Vec3>& _points;
   const sizing::SizeField& _coarse;
   double _largest_turn;
   std::vector<std::int32_t> _loop;
@@ -131,11 +129,11 @@ const CoarseSegment* CoarseLoops::find(std::int32_t from, std::int32_t to) const
   return nullptr;
 }
 
-CoarseLoops coarsen_loops(const Subface& subface, const sizing::SizeField& coarse, double largest_turn) {
+CoarseLoops coarsen_loops(const PieceProblem& problem, const sizing::SizeField& coarse, double largest_turn) {
   CoarseLoops result;
   std::set<std::array<std::int32_t, 2>> joined;
-  for (auto& loop : trace_loops(subface.support)) {
-    const LoopCoarsener coarsener(subface, coarse, largest_turn, std::move(loop));
+  for (auto& loop : trace_loops(problem.surface)) {
+    const LoopCoarsener coarsener(problem, coarse, largest_turn, std::move(loop));
     std::vector<std::size_t> kept = coarsener.choose();
     for (std::size_t i = 1; i < kept.size(); ++i) {
       // A second segment between the same vertices is divided where it can be.
@@ -143,9 +141,8 @@ CoarseLoops coarsen_loops(const Subface& subface, const sizing::SizeField& coars
         const std::int32_t a = coarsener.vertex(kept[i - 1]), b = coarsener.vertex(kept[i]);
         return std::array{std::min(a, b), std::max(a, b)};
       };
-      while (joined.contains(joins()) && kept[i] - kept[i - 1] > 1) {
+      while (joined.contains(joins()) && kept[i] - kept[i - 1] > 1)
         kept.insert(kept.begin() + static_cast<std::ptrdiff_t>(i), coarsener.middle(kept[i - 1], kept[i]));
-      }
       joined.insert(joins());
       CoarseSegment segment{coarsener.vertex(kept[i - 1]), coarsener.vertex(kept[i]),
                             static_cast<std::int32_t>(result.inside.size()), 0};

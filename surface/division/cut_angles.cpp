@@ -1,6 +1,6 @@
 #include "surface/division/cut_angles.hpp"
 
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,24 +15,23 @@ using mesh::SharedVertexKey;
 
 /// The corner of a piece at one of its border points.
 struct Corner {
-  std::int32_t before = -1, after = -1;  // support points at the other ends of the fine edges there
+  std::int32_t before = -1, after = -1;  // points at the other ends of the fine edges there
 };
 
-std::vector<Corner> corners_of(const Support& support) {
-  std::vector<Corner> corners(support.points.size());
-  for (const auto& [from, to] : support.loop_edges) {
+std::vector<Corner> corners_of(const ChartSurface& surface) {
+  std::vector<Corner> corners(surface.points.size());
+  for (const auto& [from, to] : surface.loop_edges) {
     corners[from].after = to;
     corners[to].before = from;
   }
   return corners;
 }
 
-std::vector<Vec3> normals_of(const Support& support) {
-  std::vector<Vec3> normals(support.points.size());
-  for (std::size_t t = 0; t < support.triangles.size(); ++t) {
-    for (const std::int32_t p : support.triangles[t]) {
-      normals[p] += area_vector(support, static_cast<std::int32_t>(t));
-    }
+std::vector<Vec3> normals_of(const ChartSurface& surface) {
+  std::vector<Vec3> normals(surface.points.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const std::int32_t p : surface.triangles[t])
+      normals[p] += area_vector(surface, static_cast<std::int32_t>(t));
   }
   return normals;
 }
@@ -45,10 +44,10 @@ double interior_angle(Vec3 normal, Vec3 leaving, Vec3 back) {
 
 }  // namespace
 
-FeatureEdges::FeatureEdges(const Support& support, const FaceVertices& vertices) {
-  for (const auto& [a, b] : support.loop_edges) {
-    const SharedVertexKey first = vertices.vertex_keys[support.mesh_vertex[a]];
-    const SharedVertexKey second = vertices.vertex_keys[support.mesh_vertex[b]];
+FeatureEdges::FeatureEdges(const ChartSurface& surface, const FaceVertices& vertices) {
+  for (const auto& [a, b] : surface.loop_edges) {
+    const SharedVertexKey first = vertices.vertex_keys[surface.mesh_vertex[a]];
+    const SharedVertexKey second = vertices.vertex_keys[surface.mesh_vertex[b]];
     _edges.insert({std::min(first, second), std::max(first, second)});
   }
 }
@@ -57,19 +56,20 @@ bool FeatureEdges::contains(SharedVertexKey a, SharedVertexKey b) const {
   return _edges.contains({std::min(a, b), std::max(a, b)});
 }
 
-std::vector<CutAngle> measure_cut_angles(const std::vector<Subface>& subfaces, const FeatureEdges& features) {
+std::vector<CutAngle> measure_cut_angles(const std::vector<PieceProblem>& problems,
+                                         const FeatureEdges& features) {
   struct VertexAngle {
     SharedVertexKey vertex;
     CutAngle angle;
   };
   std::vector<VertexAngle> found;
   std::map<SharedVertexKey, int> corners_at;
-  for (const Subface& subface : subfaces) {
-    const Support& support = subface.support;
-    const std::vector<Corner> corners = corners_of(support);
-    const std::vector<Vec3> normals = normals_of(support);
+  for (const PieceProblem& problem : problems) {
+    const ChartSurface& surface = problem.surface;
+    const std::vector<Corner> corners = corners_of(surface);
+    const std::vector<Vec3> normals = normals_of(surface);
     const auto vertex_key = [&](std::int32_t p) {
-      return subface.vertices.vertex_keys[support.mesh_vertex[p]];
+      return problem.vertices.vertex_keys[surface.mesh_vertex[p]];
     };
     for (std::int32_t p = 0; p < static_cast<std::int32_t>(corners.size()); ++p) {
       const auto [before, after] = corners[p];
@@ -79,11 +79,11 @@ std::vector<CutAngle> measure_cut_angles(const std::vector<Subface>& subfaces, c
       const bool forced =
           features.contains(here, vertex_key(before)) && features.contains(here, vertex_key(after));
       if (forced) continue;
-      const Vec3 at = support.points[p];
+      const Vec3 at = surface.points[p];
       found.push_back(
           {here,
-           {support.face, at,
-            interior_angle(normals[p], support.points[after] - at, support.points[before] - at)}});
+           {surface.face, at,
+            interior_angle(normals[p], surface.points[after] - at, surface.points[before] - at)}});
     }
   }
   std::vector<CutAngle> angles;

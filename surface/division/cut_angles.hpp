@@ -1,7 +1,7 @@
-/// The angles at which pieces meet, measured between the edges of the fine mesh.
+/// Angles at which cuts between pieces meet, measured between edges of the fine mesh.
 #pragma once
 
-#include "surface/division/subface.hpp"
+#include "surface/division/piece_problem.hpp"
 #include "surface/surface_report.hpp"
 
 #include <array>
@@ -10,18 +10,19 @@
 
 namespace aeroloom::surface {
 
-/// The fine edges of a face on its CAD curves, by the names of their ends.
+/// The fine edges of a face on its CAD curves, by the keys of their ends.
 class FeatureEdges {
 public:
-  FeatureEdges(const Support& support, const FaceVertices& vertices);
+  FeatureEdges(const ChartSurface& surface, const FaceVertices& vertices);
   bool contains(mesh::SharedVertexKey a, mesh::SharedVertexKey b) const;
 
 private:
   std::set<std::array<mesh::SharedVertexKey, 2>> _edges;
 };
 
-/// Angles of the pieces of one face at the ends of cuts: where a cut meets a feature curve, and where three
-/// cuts or more meet. Angles between two feature curves are not listed.
-std::vector<CutAngle> measure_cut_angles(const std::vector<Subface>& subfaces, const FeatureEdges& features);
+/// The angles of the pieces of one face where cuts end: on a feature curve, or where three cuts or more meet.
+/// Angles between two feature curves are not listed.
+std::vector<CutAngle> measure_cut_angles(const std::vector<PieceProblem>& problems,
+                                         const FeatureEdges& features);
 
 }  // namespace aeroloom::surface

@@ -30,9 +30,8 @@ void FaceRemesher::gather_borders(std::int32_t vertex, const std::vector<std::in
     const int k = _links.corner(_fan[i], vertex);
     const std::size_t before = i > 0 ? i - 1 : count - 1;
     const bool first_of_open = i == 0 && !closed;
-    if (first_of_open || part[_fan[before]] != part[_fan[i]]) {
+    if (first_of_open || part[_fan[before]] != part[_fan[i]])
       _borders.push_back(_links.triangles[_fan[i]].vertices[geometry::next_corner(k)]);
-    }
     if (i + 1 == count && !closed)
       _borders.push_back(_links.triangles[_fan[i]].vertices[geometry::previous_corner(k)]);
   }

@@ -1,4 +1,4 @@
-/// The borders between the parts of a background mesh, made straight before they become cuts.
+/// Straightens the borders between the parts of a background mesh before they become cuts.
 #pragma once
 
 #include "surface/remesh/remesh.hpp"
@@ -8,9 +8,9 @@
 
 namespace aeroloom::surface {
 
-/// Moves free vertices so that the borders between the triangles of different parts get straight and meet at
-/// even angles, and smooths the others, as long as triangles stay well shaped. Connections stay. `part` per
-/// triangle. Angles below `smallest_angle` (degrees) between borders do not get smaller.
+/// Moves free vertices so that borders between parts become straight and meet at even angles. Smooths the
+/// other vertices. Triangles stay well shaped, connections do not change. `part`: per triangle. Angles
+/// between borders that are below `smallest_angle` (degrees) do not get smaller.
 void straighten_cuts(const cad::Model& model, const sizing::SizeField& field,
                      const std::vector<std::int32_t>& part, double smallest_angle, FaceMesh& mesh);
 

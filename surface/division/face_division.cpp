@@ -3,7 +3,7 @@
 #include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "surface/charts/cut_curves.hpp"
-#include "surface/charts/support_flips.hpp"
+#include "surface/charts/delaunay_flips.hpp"
 #include "surface/division/background.hpp"
 #include "surface/division/cut_angles.hpp"
 #include "surface/division/cut_straightening.hpp"
@@ -20,19 +20,17 @@
 namespace aeroloom::surface {
 namespace {
 
-using geometry::Vec3;
-
 /// Background triangles in a part of a division, about: chosen, not measured.
 constexpr double triangles_per_part = 64;
-/// How often the background gets twice as fine where its loops cross; a subface that is still no good stays
-/// whole.
+/// How often the background gets twice as fine where its loops cross; a piece problem that is still no good
+/// stays whole.
 constexpr int most_halvings = 4;
 /// No cluster is heavier than this fraction of a part, so that parts can be balanced to about as much.
 constexpr double largest_cluster = 0.15;
 /// A face of more pieces is cut twice, so that ranks divide its parts side by side. Chosen, not measured.
 constexpr double most_pieces_at_once = 24;
 
-/// The pieces that a subface is cut into at once: a part of a face (group > 0) is not cut again.
+/// The pieces that a piece problem is cut into at once: a part of a face (group > 0) is not cut again.
 double count_parts(double load, std::int32_t group, const SurfaceOptions& options) {
   const double pieces = std::max(1.0, std::round(load / static_cast<double>(options.piece_triangles)));
   return group == 0 && pieces > most_pieces_at_once ? std::round(std::sqrt(pieces)) : pieces;
@@ -43,75 +41,74 @@ partition::BackgroundSurface weigh(const FaceMesh& mesh, const sizing::SizeField
   partition::BackgroundSurface surface{
       mesh.points, mesh.triangles, geometry::match_half_edges(mesh.triangles), {}};
   for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
+    const geometry::Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
     double density = 0;
-    for (const Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) {
+    for (const geometry::Vec3 middle : {0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)})
       density += 1 / std::pow(field(middle), 2) / 3;
-    }
     surface.loads.push_back(2 / std::numbers::sqrt3 * norm(cross(q - p, r - p)) * density);
   }
   return surface;
 }
 
-/// A part of a divided support as a subface; its vertices are those of the whole that it has.
-Subface subface_of_part(Support part, const FaceVertices& known,
-                        const std::vector<mesh::SharedVertexKey>& vertex_keys,
-                        const sizing::SizeField& field) {
-  Subface subface;
+/// A part of a divided chart surface as a piece problem; its vertices are those of the whole that it has.
+PieceProblem problem_of_part(ChartSurface part, const FaceVertices& known,
+                             const std::vector<mesh::SharedVertexKey>& vertex_keys,
+                             const sizing::SizeField& field) {
+  PieceProblem problem;
   std::vector<std::int32_t> used;
   for (const std::int32_t v : part.mesh_vertex) {
     if (v >= 0) used.push_back(v);
   }
   geometry::sort_unique(used);
   for (const std::int32_t v : used) {
-    subface.vertices.points.push_back(known.points[v]);
-    subface.vertices.uv.push_back(known.uv[v]);
-    subface.vertices.vertex_keys.push_back(vertex_keys[v]);
+    problem.vertices.points.push_back(known.points[v]);
+    problem.vertices.uv.push_back(known.uv[v]);
+    problem.vertices.vertex_keys.push_back(vertex_keys[v]);
   }
   for (std::int32_t& v : part.mesh_vertex) {
     if (v >= 0) v = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
   }
-  subface.support = std::move(part);
-  subface.load = predict_triangles(subface.support, field);
-  return subface;
+  problem.surface = std::move(part);
+  problem.load = predict_triangles(problem.surface, field);
+  return problem;
 }
 
 /// The parts of a background beside each other, the cuts between them discretised once.
 struct CutFace {
-  std::vector<Support> supports;                   ///< of the parts
-  FaceVertices vertices;                           ///< those of the subface, then those on cuts
+  std::vector<ChartSurface> surfaces;              ///< of the parts
+  FaceVertices vertices;                           ///< those of the piece problem, then those on cuts
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< per vertex
   FeatureEdges features;                           ///< fine edges that are no cuts
 };
 
-CutFace discretise_cuts(const cad::Model& model, const Subface& subface, const Background& background,
+CutFace discretise_cuts(const cad::Model& model, const PieceProblem& problem, const Background& background,
                         std::vector<partition::PartIndex> part, std::int32_t group,
                         const sizing::SizeField& field) {
-  Support whole = support_of(model, subface, background, part);
-  CutFace cut{{}, subface.vertices, {}, FeatureEdges(whole, subface.vertices)};
+  ChartSurface whole = chart_surface_of(model, problem, background, part);
+  CutFace cut{{}, problem.vertices, {}, FeatureEdges(whole, problem.vertices)};
   JoinedVertices joined = joined_vertices(whole);
-  cut.supports = discretise_cuts(model, field, {std::move(whole), std::move(part)}, cut.vertices, joined);
+  cut.surfaces = discretise_cuts(model, field, {std::move(whole), std::move(part)}, cut.vertices, joined);
   cut.vertex_keys = cut.vertices.vertex_keys;
   for (std::size_t v = cut.vertex_keys.size(); v < cut.vertices.points.size(); ++v)
     cut.vertex_keys.push_back(
-        mesh::cut_vertex_key(subface.support.face, group, static_cast<std::int32_t>(v)));
+        mesh::cut_vertex_key(problem.surface.face, group, static_cast<std::int32_t>(v)));
   return cut;
 }
 
-SubfaceParts make_pieces(CutFace cut, const sizing::SizeField& field) {
-  SubfaceParts pieces;
-  for (Support& support : cut.supports) {
-    flip_to_delaunay(support);
-    pieces.subfaces.push_back(subface_of_part(std::move(support), cut.vertices, cut.vertex_keys, field));
+DividedProblem make_pieces(CutFace cut, const sizing::SizeField& field) {
+  DividedProblem pieces;
+  for (ChartSurface& surface : cut.surfaces) {
+    flip_to_delaunay(surface);
+    pieces.problems.push_back(problem_of_part(std::move(surface), cut.vertices, cut.vertex_keys, field));
   }
-  pieces.angles = measure_cut_angles(pieces.subfaces, cut.features);
+  pieces.angles = measure_cut_angles(pieces.problems, cut.features);
   return pieces;
 }
 
-/// The arguments of divide_subface(), which its attempts share.
+/// The arguments of divide_problem(), which its attempts share.
 struct DivisionRequest {
   const cad::Model& model;
-  const Subface& subface;
+  const PieceProblem& problem;
   std::int32_t group;
   partition::PartIndex parts;
   const CutOptions& options;
@@ -119,20 +116,20 @@ struct DivisionRequest {
 
 /// The method of Chen, Zhao, Zheng et al., a verb each. Nothing where there is no background mesh as coarse
 /// as 2^power fine sizes.
-std::optional<SubfaceParts> divide(const DivisionRequest& wanted, int power, CoarseSizes& sizes) {
-  const auto& [model, subface, group, parts, options] = wanted;
+std::optional<DividedProblem> divide(const DivisionRequest& wanted, int power, CoarseSizes& sizes) {
+  const auto& [model, problem, group, parts, options] = wanted;
   const sizing::SizeField& fine = sizes.fine();
   const DivisionSteps& steps = options.division;
   const auto angle_for = [&](bool step) { return step ? options.cut_angle : 0; };
 
   std::optional<Background> background =
-      mesh_background(model, subface, sizes.field(power), std::ldexp(1.0, power), options);
+      mesh_background(model, problem, sizes.field(power), std::ldexp(1.0, power), options);
   if (!background) return std::nullopt;
   const partition::BackgroundSurface surface = weigh(background->mesh, fine);
 
   std::vector<partition::PartIndex> part;
   if (options.divider) {
-    part = options.divider(subface.support.face, surface);
+    part = options.divider(problem.surface.face, surface);
   } else {
     const double total = std::accumulate(surface.loads.begin(), surface.loads.end(), 0.0);
     const partition::VertexFans fans = partition::gather_fans(surface);
@@ -144,7 +141,7 @@ std::optional<SubfaceParts> divide(const DivisionRequest& wanted, int power, Coa
 
   if (angle_for(steps.straightening) > 0)
     straighten_cuts(model, fine, part, options.cut_angle, background->mesh);
-  CutFace cut = discretise_cuts(model, subface, *background, std::move(part), group, fine);
+  CutFace cut = discretise_cuts(model, problem, *background, std::move(part), group, fine);
 
   return make_pieces(std::move(cut), fine);
 }
@@ -174,17 +171,17 @@ bool is_heavy(double load, const SurfaceOptions& options) {
          load >= least_pieces * static_cast<double>(options.piece_triangles);
 }
 
-SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,
-                            const CutOptions& options) {
-  const double parts = count_parts(subface.load, group, options);
-  const double factor = std::sqrt(subface.load / parts / triangles_per_part);
+DividedProblem divide_problem(const cad::Model& model, PieceProblem problem, std::int32_t group,
+                              CoarseSizes& sizes, const CutOptions& options) {
+  const double parts = count_parts(problem.load, group, options);
+  const double factor = std::sqrt(problem.load / parts / triangles_per_part);
   const int power = std::max(0, static_cast<int>(std::round(std::log2(factor))));
-  const DivisionRequest wanted{model, subface, group, static_cast<partition::PartIndex>(parts), options};
+  const DivisionRequest wanted{model, problem, group, static_cast<partition::PartIndex>(parts), options};
   for (int at = power; at >= std::max(0, power - most_halvings); --at) {
-    if (std::optional<SubfaceParts> pieces = divide(wanted, at, sizes)) return std::move(*pieces);
+    if (std::optional<DividedProblem> pieces = divide(wanted, at, sizes)) return std::move(*pieces);
   }
-  SubfaceParts whole;
-  whole.subfaces.push_back(std::move(subface));
+  DividedProblem whole;
+  whole.problems.push_back(std::move(problem));
   return whole;
 }
 

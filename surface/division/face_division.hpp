@@ -1,14 +1,13 @@
-/// From a CAD face to its pieces: background mesh, simplified dual graph, partition, repair, cuts, pieces,
-/// after Chen, Zhao, Zheng et al. (22nd International Meshing Roundtable, 2013,
-/// doi:10.1007/978-3-319-02335-9_31).
+/// Divides a CAD face into pieces: background mesh, simplified dual graph, partition, repair, cuts. After
+/// Chen, Zhao, Zheng et al. (22nd International Meshing Roundtable, 2013, doi:10.1007/978-3-319-02335-9_31).
 ///
-/// A subface that is too heavy is cut along a decomposition of its background mesh. A very heavy one is cut
-/// twice: into about the square root of the number of pieces first, then each of these, by any rank. So no
-/// rank has more to do with a single face than a small fraction of it.
+/// A piece problem that is too heavy is cut along a partition of its background mesh. A very heavy face is
+/// cut twice: first into about the square root of the number of pieces, then each of these parts, on any
+/// rank. So one face never keeps a single rank busy for long.
 #pragma once
 
 #include "surface/division/imposed_cuts.hpp"
-#include "surface/division/subface.hpp"
+#include "surface/division/piece_problem.hpp"
 #include "surface/surface_report.hpp"
 
 #include <deque>
@@ -16,11 +15,11 @@
 
 namespace aeroloom::surface {
 
-/// Sizes for background meshes: the fine ones, a power of two times as large.
+/// Size fields for background meshes: the fine field times powers of two.
 class CoarseSizes {
 public:
   explicit CoarseSizes(const sizing::SizeField& fine) : _fields{fine} {}
-  /// The field 2^power times as large; made when it is asked for first.
+  /// The field 2^power times as large. It is made at the first call.
   const sizing::SizeField& field(int power);
   const sizing::SizeField& fine() const { return _fields.front(); }
 
@@ -28,25 +27,25 @@ private:
   std::deque<sizing::SizeField> _fields;  // references to those made stay good
 };
 
-/// The cost of dividing a subface of so many triangles and facets (group 0: a face), in triangles to mesh. An
-/// estimate by which work is dealt; no result depends on it.
+/// The estimated cost of dividing a problem with so many triangles and facets, in triangles to mesh. Group 0
+/// is a face. Work is scheduled by it; no result depends on it.
 double division_cost(double triangles, double facets, std::int32_t group, const SurfaceOptions& options);
 
-struct SubfaceParts {
-  std::vector<Subface> subfaces;
+struct DividedProblem {
+  std::vector<PieceProblem> problems;
   std::vector<CutAngle> angles;  ///< where cuts end: on loops and where they meet
 };
 
-/// Whether a subface of this load is to be divided.
+/// Whether a problem with this load is divided.
 bool is_heavy(double load, const SurfaceOptions& options);
 
-/// Divides a heavy subface, or any by a divider. Cuts are straightened, discretised once under the
-/// field, and lie on the CAD surface; `group` keeps the names of their vertices apart from those of other
-/// divisions of the same face: 0 for a face, which may be cut into large parts, others for its parts, which
-/// are cut into pieces. Where no background mesh can be had, the subface stays whole. A function of the
+/// Divides a heavy problem, or any problem where a divider is given. Cuts lie on the CAD surface, are
+/// straightened, and are discretised once under the field. `group` distinguishes the vertex keys of several
+/// divisions of one face. Group 0 divides a face, possibly into large parts; other groups divide such a part
+/// into pieces. Where no background mesh can be made the problem stays whole. The result depends on the
 /// arguments alone. Not collective. Throws SurfaceError, cad::CadError, or std::runtime_error where METIS
-/// fails or there are more cuts than can be named.
-SubfaceParts divide_subface(const cad::Model& model, Subface subface, std::int32_t group, CoarseSizes& sizes,
-                            const CutOptions& options);
+/// fails or there are too many cuts for their keys.
+DividedProblem divide_problem(const cad::Model& model, PieceProblem problem, std::int32_t group,
+                              CoarseSizes& sizes, const CutOptions& options);
 
 }  // namespace aeroloom::surface

@@ -1,11 +1,11 @@
-/// The partitioner, for those who may not see it.
+/// The version of METIS, for folders that may not include its header.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::partition {
 
-/// Of METIS, as it was compiled against.
+/// The version that the program was compiled against.
 std::string metis_version();
 
 }  // namespace aeroloom::partition

@@ -47,9 +47,8 @@ WeightedGraph cluster_graph(const BackgroundSurface& surface, const Clusters& cl
   WeightedGraph graph;
   const std::size_t nodes = clusters.loads.size();
   const double total = std::accumulate(clusters.loads.begin(), clusters.loads.end(), 0.0);
-  for (const double load : clusters.loads) {
+  for (const double load : clusters.loads)
     graph.node_weights.push_back(std::max(1, static_cast<std::int32_t>(load / total * total_weight)));
-  }
   graph.first.assign(nodes + 1, 0);
   const auto same_ends = [](const Arc& a, const Arc& b) { return a.from == b.from && a.to == b.to; };
   geometry::for_each_run(std::span<const Arc>(arcs), same_ends, [&](std::size_t first, std::size_t last) {

@@ -1,4 +1,4 @@
-/// From clusters of background triangles to parts of equal load.
+/// Partitions clusters of background triangles into parts of equal load.
 #pragma once
 
 #include "surface/division/background_surface.hpp"
@@ -8,9 +8,9 @@
 
 namespace aeroloom::partition {
 
-/// METIS on the simplified dual graph: the part of each triangle. An arc weighs as much as the fine edges a
-/// cut there would have. Some of the `parts` may stay empty, and a part may fall asunder: repair_parts()
-/// follows. A function of its arguments alone. Throws std::runtime_error when METIS fails.
+/// The part of each triangle, by METIS on the simplified dual graph. The weight of an arc is the number of
+/// fine edges that a cut there would have. Parts may be empty or have several components: repair_parts()
+/// follows. The result depends on the arguments alone. Throws std::runtime_error when METIS fails.
 std::vector<PartIndex> partition_clusters(const BackgroundSurface& surface, const Clusters& clusters,
                                           PartIndex parts);
 

@@ -42,9 +42,8 @@ private:
   bool widen(const FanWedge& wedge) {
     std::vector<std::int32_t> triangles;
     const std::int32_t size = _fans.size(wedge.fan);
-    for (std::int32_t i = wedge.from; i != wedge.to; i = _fans.closed[wedge.fan] ? (i + 1) % size : i + 1) {
+    for (std::int32_t i = wedge.from; i != wedge.to; i = _fans.closed[wedge.fan] ? (i + 1) % size : i + 1)
       triangles.push_back(_fans.corners[_fans.first[wedge.fan] + i] / 3);
-    }
     const std::int32_t mine = _part[triangles.front()];
     const double before = missing_around(triangles);
     double best = before * real_fall;

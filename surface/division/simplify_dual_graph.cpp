@@ -3,9 +3,7 @@
 #include "geometry/disjoint_sets.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
-#include <utility>
 
 namespace aeroloom::partition {
 namespace {

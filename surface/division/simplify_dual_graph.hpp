@@ -1,9 +1,10 @@
-/// Simplification of the dual graph of a background surface before it is partitioned.
+/// Simplifies the dual graph of a background surface before it is partitioned.
 ///
-/// A node of the dual graph is a background triangle, an arc an edge between two. Contracting an arc forbids
-/// a cut along that edge. Arcs are contracted until no two permitted cuts, and no permitted cut and feature
-/// curve, meet at an angle below the threshold (after Chen, Zhao, Zheng et al., 22nd International Meshing
-/// Roundtable, 2013, doi:10.1007/978-3-319-02335-9_31). docs/decomposition.md draws the operations.
+/// Nodes of the dual graph are background triangles, arcs are edges between two triangles. A contracted arc
+/// forbids a cut along its edge. Arcs are contracted until no two permitted cuts meet below the threshold
+/// angle, and no permitted cut meets a feature curve below it (after Chen, Zhao, Zheng et al., 22nd
+/// International Meshing Roundtable, 2013, doi:10.1007/978-3-319-02335-9_31). docs/decomposition.md draws the
+/// operations.
 #pragma once
 
 #include "surface/division/background_surface.hpp"
@@ -14,22 +15,21 @@
 namespace aeroloom::partition {
 
 struct SimplifyOptions {
-  double smallest_angle = 40;  ///< degrees that permitted cuts make with each other and with feature curves;
-                               ///< 0: nothing is contracted, to compare with
-  double largest_load = 0;  ///< a cluster does not grow beyond this load; what that leaves is repaired later;
-                            ///< 0: no limit
+  double smallest_angle = 40;  ///< degrees between permitted cuts, and between these and feature curves; 0:
+                               ///< nothing is contracted, for comparison
+  double largest_load = 0;  ///< largest load of a cluster; wedges that remain are repaired later; 0: no limit
 };
 
-/// The contracted dual graph: clusters of triangles.
+/// The contracted dual graph: its nodes are clusters of triangles.
 struct Clusters {
   std::vector<ClusterIndex> of_triangle;  ///< cluster per triangle, numbered by first triangle
   std::vector<double> loads;              ///< per cluster
   std::int32_t forbidden_edges = 0;       ///< inner edges where no cut is permitted
-  std::int32_t unresolved = 0;            ///< wedges left open because their clusters would grow too heavy
+  std::int32_t unresolved = 0;            ///< wedges that remain because their clusters would be too heavy
 };
 
-/// Contracts arcs, the sharpest wedges first. Of the two edges of a wedge that one is contracted whose
-/// clusters are lighter together; ties go to the lower half-edge. Deterministic.
+/// Contracts arcs, sharpest wedges first. Of the two edges of a wedge it contracts the one whose two clusters
+/// are lighter together. Ties go to the lower half-edge. Deterministic.
 Clusters simplify_dual_graph(const BackgroundSurface& surface, const VertexFans& fans,
                              const SimplifyOptions& options);
 

@@ -1,4 +1,4 @@
-/// What lies between the borders of parts, around a vertex.
+/// Wedges around a vertex: the parts of a fan between borders of parts.
 #pragma once
 
 #include "surface/division/background_surface.hpp"
@@ -17,8 +17,8 @@ inline bool is_border(const BackgroundSurface& surface, const std::vector<PartIn
   return is_feature(surface, h) || part[h / 3] != part[surface.twins[h] / 3];
 }
 
-/// Calls visit(wedge) for each stretch between neighbouring borders of one fan: between cuts, or a cut and a
-/// feature curve. Wedges between two feature curves are left out: no decomposition changes them.
+/// Calls visit(wedge) for each wedge of a fan: between two neighbouring cuts, or a cut and a feature curve.
+/// Wedges between two feature curves are left out, since no decomposition changes them.
 template <class Visit>
 void visit_wedges(const BackgroundSurface& surface, const VertexFans& fans,
                   const std::vector<PartIndex>& part, FanIndex fan, Visit visit) {

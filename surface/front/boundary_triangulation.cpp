@@ -60,9 +60,8 @@ void check_outside(const FrontInput& boundary, const std::vector<Edge>& sorted, 
   for (const auto& [a, b] : boundary.edges) {
     const auto right = geometry::triangle_of(plane.mesh.find(b, a));
     if (state_of(plane.mesh.triangles[right]) == TriangleState::outside) continue;
-    if (!std::binary_search(sorted.begin(), sorted.end(), Edge{b, a})) {
+    if (!std::binary_search(sorted.begin(), sorted.end(), Edge{b, a}))
       throw FrontError("boundary loops disagree about the side the region is on", {});
-    }
   }
 }
 

@@ -1,4 +1,4 @@
-/// From boundary loops to a constrained Delaunay triangulation whose triangles know whether they are inside.
+/// Constrained Delaunay triangulation of boundary loops, with each triangle marked as inside or outside.
 #pragma once
 
 #include "surface/front/delaunay.hpp"
@@ -6,7 +6,7 @@
 
 namespace aeroloom::front {
 
-/// The state of a triangle in the front, kept in the user's bits of its flags.
+/// The state of a triangle in the advancing front. It is kept in the user bits of LinkedTriangle::flags.
 enum class TriangleState : std::uint32_t { outside = 0, waiting = 1, accepted = 2 };
 
 inline TriangleState state_of(const geometry::LinkedTriangle& triangle) {
@@ -16,7 +16,7 @@ inline void set_state(geometry::LinkedTriangle& triangle, TriangleState state) {
   triangle.flags = (triangle.flags & 0b111111u) | static_cast<std::uint32_t>(state) << 6;
 }
 
-/// Triangulates the boundary with all its edges fixed; triangles left of the edges wait, the others are
+/// Triangulates the boundary with all its edges fixed. Triangles left of the edges are waiting, all others
 /// outside. Throws FrontError.
 Delaunay triangulate_region(const FrontInput& boundary);
 

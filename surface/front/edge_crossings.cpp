@@ -57,9 +57,8 @@ std::vector<CrossingEdges> find_edge_crossings(const FrontInput& boundary) {
   for (const Extent& next : extents) {
     std::erase_if(active, [&](const Extent& e) { return e.right < next.left; });
     for (const Extent& e : active) {
-      if (e.low <= next.high && next.low <= e.high && edges_conflict(boundary, e.edge, next.edge)) {
+      if (e.low <= next.high && next.low <= e.high && edges_conflict(boundary, e.edge, next.edge))
         found.push_back({std::min(e.edge, next.edge), std::max(e.edge, next.edge)});
-      }
     }
     active.push_back(next);
   }

@@ -1,4 +1,4 @@
-/// Finds where the edges of a boundary meet although they should not.
+/// Finds boundary edges that cross or touch.
 #pragma once
 
 #include "surface/front/front.hpp"
@@ -7,8 +7,8 @@
 
 namespace aeroloom::front {
 
-/// All pairs of edges that share a point other than a common vertex: crossing, touching, overlapping, or
-/// ending in different vertices at one place. Exact. Pairs ascend, `first` < `second`.
+/// All pairs of edges that have a point in common other than a vertex of both: they cross, touch, overlap, or
+/// end in different vertices at one place. Exact. Pairs ascend, `first` < `second`.
 std::vector<CrossingEdges> find_edge_crossings(const FrontInput& boundary);
 
 }  // namespace aeroloom::front

@@ -73,14 +73,14 @@ private:
   bool place_centre(std::int32_t t, Candidate& best);
   bool insert(const Candidate& candidate, std::int32_t seed);
   bool is_clear(const Candidate& candidate) const;
-  double asked_size(Vec2 point, std::int32_t& hint) const {
+  double wanted_size(Vec2 point, std::int32_t& hint) const {
     const double size = _size(point, hint);
     if (!(size > 0))
       throw std::invalid_argument("the size function of a chart gives a size that is not positive");
     return size;
   }
   double size_at(Vec2 point, double neighbour_size, double distance, std::int32_t& hint) const {
-    return std::min(asked_size(point, hint), neighbour_size + short_edge_growth * distance);
+    return std::min(wanted_size(point, hint), neighbour_size + short_edge_growth * distance);
   }
 
   Delaunay& _plane;
@@ -106,7 +106,7 @@ void Front::measure_boundary(const FrontInput& boundary) {
   _hints.assign(_plane.points.size(), 0);
   std::int32_t hint = 0;
   for (std::size_t v = 0; v < count; ++v) {
-    _sizes[v] = asked_size(boundary.points[v], hint);
+    _sizes[v] = wanted_size(boundary.points[v], hint);
     if (edges[v] > 0) _sizes[v] = std::min(_sizes[v], 2 * length[v] / edges[v]);
     _hints[v] = hint;
   }

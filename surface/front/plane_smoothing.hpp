@@ -1,15 +1,14 @@
-/// Moves the free vertices of a plane triangulation to where its triangles get closer to equilateral.
+/// Smooths a plane triangulation: moves its free vertices so that triangles become more equilateral.
 #pragma once
 
 #include "surface/front/delaunay.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace aeroloom::front {
 
-/// Sweeps over the vertices from `first_free` on, each followed by flips that make the mesh Delaunay again. A
-/// vertex moves only where that folds nothing.
+/// Moves the vertices from `first_free` on, in sweeps. After each sweep flips make the mesh Delaunay again.
+/// No move folds a triangle.
 void smooth_plane(Delaunay& plane, std::int32_t first_free, int sweeps);
 
 }  // namespace aeroloom::front

@@ -2,11 +2,8 @@
 #include "surface/remesh/triangle_angle.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace aeroloom::surface {
-
-using geometry::Vec3;
 
 /// Squared sine of the smallest angle.
 double FaceRemesher::smallest_sine(std::int32_t a, std::int32_t b, std::int32_t c) const {
@@ -21,7 +18,7 @@ bool FaceRemesher::flip_if_better(geometry::LinkedEdge edge) {
                      d = _links.apex(other);
   // Two acute angles face the edge: they add up to less than 180 degrees, and the edge is the better
   // diagonal.
-  const Vec3 pa = _mesh.points[a], pb = _mesh.points[b], pc = _mesh.points[c], pd = _mesh.points[d];
+  const geometry::Vec3 pa = _mesh.points[a], pb = _mesh.points[b], pc = _mesh.points[c], pd = _mesh.points[d];
   if (dot(pb - pa, pc - pa) > 0 && dot(pb - pd, pc - pd) > 0) return false;
   const double sine = std::min(smallest_sine(a, b, c), smallest_sine(d, c, b));
   const double flipped_sine = std::min(smallest_sine(a, b, d), smallest_sine(d, c, a));

@@ -116,6 +116,10 @@ double FaceRemesher::edge_length(geometry::LinkedEdge edge) const {
 
 void FaceRemesher::note_change(std::int32_t vertex) {
   _links.gather_fan(vertex, _fan);
+  note_fan();
+}
+
+void FaceRemesher::note_fan() {
   for (const std::int32_t t : _fan) {
     for (const std::int32_t v : _links.triangles[t].vertices) _next[v] = 1;
   }

@@ -1,4 +1,4 @@
-/// The local operations of remesh_interior on one face, each over all places that still change.
+/// The local operations of remesh_interior() on the mesh of one face.
 #pragma once
 
 #include "geometry/triangle_links.hpp"
@@ -11,11 +11,11 @@
 
 namespace aeroloom::surface {
 
-/// The worst of a set of triangles, in two respects.
+/// The worst values over a set of triangles.
 struct TriangleShapes {
   double mean_ratio = 1;  ///< smallest
-  /// Smallest squared cosine, with its sign, between a triangle's normal and those of the surface at its
-  /// vertices.
+  /// Smallest signed squared cosine between the normal of a triangle and the mean normal of the surface at
+  /// its vertices.
   double facing = 1;
   double energy = 0;  ///< sum of inverse mean ratios
   void add(const TriangleShapes& other) {
@@ -25,34 +25,35 @@ struct TriangleShapes {
   }
 };
 
-/// A triangulation of the face under change.
+/// The mesh of a face while it is changed. Each operation visits all places that changed in the last sweep.
 class FaceRemesher {
 public:
   FaceRemesher(const cad::Model& model, const sizing::SizeField& field, FaceMesh& mesh);
 
   void contract_short_edges();
-  /// Ends after a number of divisions that follows from the sizes, however the surface answers.
+  /// Stops at a number of vertices that follows from the sizes.
   void divide_long_edges();
   void flip_edges();
   void smooth();
-  /// Moves vertices of triangles below 26 degrees where the smallest angle around them is largest.
+  /// Moves vertices of triangles with an angle below 26 degrees to where the smallest angle around them is
+  /// largest.
   void widen_sharp_triangles();
   /// One sweep of straighten_cuts().
   void straighten(const std::vector<std::int32_t>& part, double smallest_angle);
-  /// Ends a sweep: the next one looks only at what this one changed.
+  /// Ends a sweep. The next one visits only places that this one changed.
   void end_sweep();
-  /// Writes back triangles and vertices without those that vanished.
+  /// Writes triangles and vertices back, without those that were removed.
   void finish();
 
 private:
-  /// A vertex as it is or could be.
+  /// The actual or a possible place of a vertex.
   struct VertexPlace {
     geometry::Vec3 point, normal;
     geometry::Vec2 uv;
     double size = 0;
   };
 
-  /// An edge of the ring around a vertex to come, which will be on its left, and what is on its right.
+  /// An edge of the ring around a new vertex, which lies on its left, and the edge on its other side.
   struct StarEdge {
     std::int32_t origin, target;
     geometry::LinkedEdge outside;
@@ -62,13 +63,13 @@ private:
   geometry::Vec3 fan_normal(std::int32_t vertex);
   VertexPlace place_of(std::int32_t vertex) const;
   void put(std::int32_t vertex, const VertexPlace& place);
-  /// The nearest place on the CAD surface; false when that is further off than `most_distance`.
+  /// The nearest place on the CAD surface. False where it is farther off than `most_distance`.
   bool project(geometry::Vec3 point, std::int32_t guess, double most_distance, VertexPlace& place) const;
 
   TriangleShapes shape(const std::array<VertexPlace, 3>& corners) const;
   TriangleShapes shape(std::int32_t triangle) const;
   TriangleShapes shape(std::int32_t a, std::int32_t b, std::int32_t c) const;
-  /// The triangle with its corner at `vertex` moved.
+  /// The shape of the triangle after its corner at `vertex` has moved.
   TriangleShapes shape_with(std::int32_t triangle, std::int32_t vertex, const VertexPlace& moved) const;
 
   bool is_free(std::int32_t vertex) const { return _movable[vertex] != 0; }
@@ -81,6 +82,7 @@ private:
     return 0.5 * (_sizes[_links.origin(edge)] + _sizes[_links.target(edge)]);
   }
   void note_change(std::int32_t vertex);
+  void note_fan();  // that was gathered last
 
   bool is_contraction_wanted(geometry::LinkedEdge edge) const;
   bool contract(geometry::LinkedEdge edge);
@@ -96,7 +98,8 @@ private:
   void smooth_vertex(std::int32_t vertex);
   std::optional<double> judge_fan(const std::vector<double>& before) const;
   bool widen_vertex(std::int32_t vertex);
-  /// The ends of the borders that leave a vertex, counter-clockwise; edges of one triangle are borders too.
+  /// Collects the other ends of the borders at a vertex, counter-clockwise. Borders are edges between parts,
+  /// and edges of one triangle.
   void gather_borders(std::int32_t vertex, const std::vector<std::int32_t>& part);
   double smallest_border_angle(std::int32_t vertex, const std::vector<std::int32_t>& part);
   bool straighten_vertex(std::int32_t vertex, const std::vector<std::int32_t>& part, double smallest_angle);
@@ -116,11 +119,12 @@ private:
   std::vector<StarEdge> _star, _replaced;
 };
 
-/// Triangles may turn from the surface by 45 degrees (squared cosine); what is further off must not get
-/// worse.
+/// A triangle may deviate from the surface by 45 degrees (squared cosine). If it deviates more already, that
+/// must not get worse.
 inline constexpr double least_facing = 0.5;
 
-/// Whether a change is allowed: nothing folds, and nothing gets worse than it was, unless it is still good.
+/// Whether a change is allowed: no triangle folds, and the worst shape does not get worse unless it is still
+/// good.
 bool is_acceptable(const TriangleShapes& before, const TriangleShapes& after);
 
 }  // namespace aeroloom::surface

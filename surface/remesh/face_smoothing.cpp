@@ -1,6 +1,5 @@
 #include "surface/remesh/face_remesher.hpp"
 
-#include <cmath>
 #include <numbers>
 
 namespace aeroloom::surface {
@@ -45,9 +44,7 @@ void FaceRemesher::smooth_vertex(std::int32_t vertex) {
   }
   if (!(after.energy < before.energy) || !is_acceptable(before, after)) return;
   put(vertex, place);
-  for (const std::int32_t t : _fan) {
-    for (const std::int32_t v : _links.triangles[t].vertices) _next[v] = 1;
-  }
+  note_fan();
 }
 
 void FaceRemesher::smooth() {

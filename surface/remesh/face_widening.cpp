@@ -90,15 +90,12 @@ void FaceRemesher::widen_sharp_triangles() {
     bool changed = false;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
       if (!is_live(t)) continue;
-      const std::array<std::int32_t, 3> corners{
-          _links.triangles[t].vertices[0], _links.triangles[t].vertices[1], _links.triangles[t].vertices[2]};
+      const std::array<std::int32_t, 3> corners = _links.triangles[t].vertices;
       if (smallest_sine(corners[0], corners[1], corners[2]) >= sharp_sine) continue;
       for (const std::int32_t v : corners) {
         if (!_active[v] || !is_free(v) || !widen_vertex(v)) continue;
         changed = true;
-        for (const std::int32_t s : _fan) {
-          for (const std::int32_t w : _links.triangles[s].vertices) _next[w] = 1;
-        }
+        note_fan();
       }
     }
     if (!changed) return;

@@ -1,4 +1,4 @@
-/// The smallest angle of a triangle, cheaply.
+/// A fast measure of the smallest angle of a triangle.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -7,7 +7,7 @@
 
 namespace aeroloom::surface {
 
-/// Squared sine of the smallest angle: that between the two longest sides. 0 where there is none.
+/// Squared sine of the smallest angle, which lies between the two longest sides. 0 for a degenerate triangle.
 inline double smallest_squared_sine(geometry::Vec3 a, geometry::Vec3 b, geometry::Vec3 c) {
   const geometry::Vec3 u = b - a, v = c - a, w = v - u;
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);

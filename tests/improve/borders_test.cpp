@@ -23,7 +23,7 @@ DistributedMesh shaken(const Communicator& communicator, std::uint32_t seed) {
 }
 
 std::string hash(const DistributedMesh& mesh) {
-  return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
+  return mesh::hash_mesh(mesh::number_mesh(mesh));
 }
 
 std::int64_t relax(DistributedMesh& mesh, int passes) {

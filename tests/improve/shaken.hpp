@@ -116,7 +116,7 @@ inline Extremes examine(const std::vector<mesh::Piece>& pieces, double target_an
 
 /// A valid mesh that fills the unit cube.
 inline void expect_valid(const mesh::DistributedMesh& mesh) {
-  const auto report = mesh::check_volume_mesh(mesh, mesh::number_mesh(mesh), nullptr);
+  const auto report = mesh::check_volume_mesh(mesh::number_mesh(mesh), nullptr);
   EXPECT_TRUE(report.valid()) << report.violations.front();
   EXPECT_NEAR(report.volume, 1, 1e-12);
 }

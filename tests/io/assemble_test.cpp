@@ -54,7 +54,7 @@ RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
 }
 
 void expect_sound(const FileMesh& mesh) {
-  const mesh::LinkDefects defects = mesh::link_faces(*mesh.pieces, *mesh.numbering).defects;
+  const mesh::LinkDefects defects = mesh::link_faces(*mesh.pieces).defects;
   EXPECT_EQ(defects.open_faces + defects.stray_faces + defects.crowded_faces + defects.repeated_faces, 0);
 }
 

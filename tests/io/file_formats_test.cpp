@@ -64,9 +64,9 @@ TEST_F(FileFormats, PatchesOfAPieceStandInAnyOrder) {
   const mesh::DistributedMesh straight = mesh::examples::mixed_mesh(world, 4, 3);
   mesh::DistributedMesh turned = straight;
   for (mesh::Piece& piece : turned.pieces) turn_patches_round(piece);
-  const mesh::Numbering numbering = mesh::number_mesh(straight);
+  const mesh::Numbering numbering = mesh::number_mesh(straight).numbering;
   for (const auto& [name, mesh] : {std::pair("straight", &straight), {"turned", &turned}}) {
-    const FileMesh layout = file_mesh_of(*mesh, numbering);
+    const FileMesh layout = file_mesh_of({*mesh, numbering});
     for (const FormatRow& format : file_formats()) {
       const std::filesystem::path to = folder / name / std::string(format.name);
       if (world.is_root()) std::filesystem::create_directories(to);

@@ -51,9 +51,8 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
 
 TEST(FileMesh, PiecesBecomePartsWithoutCopies) {
   const Communicator world = Communicator::world();
-  const mesh::DistributedMesh pieces = mesh::examples::two_tets(world);
-  const mesh::Numbering numbering = mesh::number_mesh(pieces);
-  const FileMesh mesh = file_mesh_of(pieces, numbering);
+  const mesh::NumberedMesh pieces = mesh::number_mesh(mesh::examples::two_tets(world));
+  const FileMesh mesh = file_mesh_of(pieces);
   EXPECT_EQ(mesh.part_count, 2);
   EXPECT_EQ(mesh.vertex_count, 5);
   EXPECT_EQ(mesh.cell_count(), 2);
@@ -69,10 +68,9 @@ TEST(FileMesh, PiecesBecomePartsWithoutCopies) {
 TEST(FileMesh, BrokenMeshesAreRefusedEverywhere) {
   const Communicator world = Communicator::world();
   const auto expect_refused = [&](const auto& spoil) {
-    mesh::DistributedMesh pieces = mesh::examples::mixed_mesh(world, 2, 2);
-    mesh::Numbering numbering = mesh::number_mesh(pieces);
-    if (world.is_root()) spoil(pieces.pieces[0], numbering);
-    EXPECT_THROW(file_mesh_of(pieces, numbering), std::runtime_error);
+    mesh::NumberedMesh mesh = mesh::number_mesh(mesh::examples::mixed_mesh(world, 2, 2));
+    if (world.is_root()) spoil(mesh.pieces[0], mesh.numbering);
+    EXPECT_THROW(file_mesh_of(mesh), std::runtime_error);
   };
   using mesh::Numbering;
   using mesh::Piece;
@@ -92,8 +90,8 @@ TEST(FileMesh, FacesComeByPatchWhateverTheirOrder) {
     std::rotate(piece.quad_face.begin(), piece.quad_face.begin() + 1, piece.quad_face.end());
     std::rotate(piece.quad_patch.begin(), piece.quad_patch.begin() + 1, piece.quad_patch.end());
   }
-  const mesh::Numbering numbering = mesh::number_mesh(pieces);
-  const FileMesh mesh = file_mesh_of(pieces, numbering);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(pieces);
+  const FileMesh mesh = file_mesh_of(numbered);
   const FileMesh plain = examples::mixed_mesh(world, 3, 2);
   EXPECT_EQ(mesh.patch_faces, plain.patch_faces);
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
@@ -142,7 +140,7 @@ TEST(FileMesh, RepartitionedMeshIsTheSameMesh) {
     EXPECT_EQ(cut.patch_faces, mesh.patch_faces);
     const auto before = volumes(mesh), after = volumes(cut);
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-9);
-    const mesh::FaceLinks links = mesh::link_faces(*cut.pieces, *cut.numbering);
+    const mesh::FaceLinks links = mesh::link_faces(*cut.pieces);
     EXPECT_EQ(links.defects.open_faces + links.defects.stray_faces + links.defects.crowded_faces, 0);
     for (const FilePart& part : cut.parts) {
       EXPECT_NEAR(static_cast<double>(part.cell_count()), static_cast<double>(mesh.cell_count()) / parts,

@@ -27,9 +27,7 @@ protected:
     return names;
   }
 
-  std::string hash_of(const mesh::DistributedMesh& mesh) {
-    return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
-  }
+  std::string hash_of(const mesh::DistributedMesh& mesh) { return mesh::hash_mesh(mesh::number_mesh(mesh)); }
 };
 
 TEST_F(MeshCheckpoint, MixedPiecesComeBack) {

@@ -13,9 +13,7 @@ using mesh::examples::WholeCell;
 using mesh::examples::WholeFace;
 
 inline FileMesh distribute(const parallel::Communicator& communicator, const MixedMesh& whole, int parts) {
-  mesh::DistributedMesh pieces = mesh::examples::distribute(communicator, whole, parts);
-  mesh::Numbering numbering = mesh::number_mesh(pieces);
-  return file_mesh_of({std::move(pieces), std::move(numbering)});
+  return file_mesh_of(mesh::number_mesh(mesh::examples::distribute(communicator, whole, parts)));
 }
 
 /// The mesh with `squares` along each side.

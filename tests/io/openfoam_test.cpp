@@ -30,7 +30,7 @@ struct OrderedPart {
 };
 
 std::vector<OrderedPart> order_all(const FileMesh& mesh, FoamPlan& plan) {
-  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces, *mesh.numbering);
+  const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces);
   plan = plan_faces(mesh, links);
   std::vector<OrderedPart> parts;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i)
@@ -214,9 +214,9 @@ TEST_F(OpenFoam, OpenMeshesAreRefused) {
   mesh::DistributedMesh open = mesh::examples::mixed_mesh(world, 2, 1);
   for (mesh::Piece& piece : open.pieces)
     piece.boundary = {}, piece.triangle_face = {}, piece.triangle_patch = {};
-  const mesh::Numbering numbering = mesh::number_mesh(open);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(open);
   try {
-    write_openfoam(file_mesh_of(open, numbering), path("case"));
+    write_openfoam(file_mesh_of(numbered), path("case"));
     ADD_FAILURE();
   } catch (const CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::input);

@@ -41,9 +41,9 @@ class VtkWriter : public examples::ScratchFolder {
 protected:
   void write_cube(const Communicator& communicator, int n, int pieces, const std::string& where) {
     const auto mesh = mesh::examples::cube(communicator, n, pieces);
-    write_volume(mesh, mesh::number_mesh(mesh), where, "mesh");
+    write_volume(mesh::number_mesh(mesh), where, "mesh");
     const auto surface = mesh::examples::cube_surface(communicator, n, pieces);
-    write_surface(surface, mesh::number_mesh(surface), where, "surface");
+    write_surface(mesh::number_mesh(surface), where, "surface");
   }
 };
 
@@ -67,17 +67,17 @@ TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
     EXPECT_EQ(part.find("compressor"), std::string::npos);
   }
   const auto mesh = mesh::examples::cube(Communicator::self(), 4, 7);
-  const auto numbering = mesh::number_mesh(mesh);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const auto& expected = mesh.pieces[i];
     for (mesh::LocalIndex c = 0; c < expected.cell_count(); ++c) {
-      const vtkIdType cell = numbering.first_cell[i] + c;
+      const vtkIdType cell = numbered.numbering.first_cell[i] + c;
       ASSERT_EQ(grid.GetCellType(cell), VTK_TETRA);
       vtkNew<vtkIdList> corners;
       grid.GetCellPoints(cell, corners);
       for (int k = 0; k < 4; ++k) {
         const mesh::LocalIndex v = expected.cell(c)[k];
-        EXPECT_EQ(ids.GetTuple1(corners->GetId(k)), numbering.vertices[i][v]);
+        EXPECT_EQ(ids.GetTuple1(corners->GetId(k)), numbered.numbering.vertices[i][v]);
         double p[3];
         grid.GetPoint(corners->GetId(k), p);
         EXPECT_EQ((geometry::Vec3{p[0], p[1], p[2]}), expected.point(v));
@@ -93,13 +93,13 @@ TEST_F(VtkWriter, WritesTetrahedraThatReadBackTheSame) {
 
 TEST_F(VtkWriter, CompressedFilesAreSmallerAndHoldTheSame) {
   const auto mesh = mesh::examples::cube(world, 12, 3);
-  const auto numbering = mesh::number_mesh(mesh);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
   struct Read {
     std::uintmax_t bytes = 0;
     std::vector<double> coordinates, ids, connectivity;
   };
   const auto read = [&](Compression compression, const char* name) {
-    write_volume(mesh, numbering, folder, name, compression);
+    write_volume(numbered, folder, name, compression);
     vtkNew<vtkXMLPUnstructuredGridReader> reader;
     reader->SetFileName((folder / (std::string(name) + ".pvtu")).c_str());
     reader->Update();
@@ -206,7 +206,7 @@ TEST_F(VtkWriter, CutsALargeSurfaceIntoPartsThatReadTogether) {
   surface.faces = {"a", "b", "c", "d", "e"};
   surface.patches = {"wall"};
   for (int p = world.rank(); p < pieces; p += world.size()) surface.pieces.push_back(sheet(p, n));
-  write_surface(surface, mesh::number_mesh(surface), folder, "surface");
+  write_surface(mesh::number_mesh(surface), folder, "surface");
   if (!world.is_root()) return;
   std::set<std::string> names;
   for (const auto& [name, bytes] : examples::files_below(folder)) names.insert(name);
@@ -230,7 +230,7 @@ TEST_F(VtkWriter, LeavesOrphansOut) {
     piece.vertex_dimension.push_back(mesh::CadDimension::region);
     piece.vertex_entity.push_back(0);
   }
-  write_volume(mesh, mesh::number_mesh(mesh), folder, "mesh");
+  write_volume(mesh::number_mesh(mesh), folder, "mesh");
   vtkNew<vtkXMLPUnstructuredGridReader> reader;
   reader->SetFileName((folder / "mesh.pvtu").c_str());
   reader->Update();
@@ -264,7 +264,7 @@ TEST_F(VtkWriter, RemovesPartsOfAnEarlierRunAndNothingElse) {
 
 TEST_F(VtkWriter, EscapesWhatXmlReserves) {
   const auto mesh = mesh::examples::two_tets(world);
-  write_volume(mesh, mesh::number_mesh(mesh), folder, "a<&\"b");
+  write_volume(mesh::number_mesh(mesh), folder, "a<&\"b");
   vtkNew<vtkXMLPUnstructuredGridReader> reader;
   reader->SetFileName((folder / "a<&\"b.pvtu").c_str());
   reader->Update();
@@ -287,7 +287,7 @@ TEST_F(VtkWriter, NamesThePathItCannotCreateOnAllRanks) {
 TEST_F(VtkWriter, SaysWhenAFileCannotGrow) {
   // A limit on the size of files stands for a full disk: the system refuses to write on.
   const auto mesh = mesh::examples::cube(world, 6, 3);
-  const auto numbering = mesh::number_mesh(mesh);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
   rlimit before;
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit small{20000, before.rlim_max};
@@ -295,7 +295,7 @@ TEST_F(VtkWriter, SaysWhenAFileCannotGrow) {
   setrlimit(RLIMIT_FSIZE, &small);
   std::string message;
   try {
-    write_volume(mesh, numbering, folder, "mesh");
+    write_volume(numbered, folder, "mesh");
   } catch (const parallel::CollectiveError& error) {
     message = error.what();
     EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -311,7 +311,7 @@ TEST_F(VtkWriter, SaysWhenAFileCannotGrow) {
 
 TEST_F(VtkWriter, WritesAnEmptyMesh) {
   mesh::DistributedMesh mesh(world);
-  write_volume(mesh, mesh::number_mesh(mesh), folder, "mesh");
+  write_volume(mesh::number_mesh(mesh), folder, "mesh");
   EXPECT_TRUE(fs::exists(folder / "mesh.pvtu"));
 }
 

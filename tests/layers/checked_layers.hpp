@@ -30,7 +30,7 @@ inline LayerOptions options_for(std::vector<double> first) {
 
 inline Layers build(const mesh::DistributedMesh& mesh, const LayerOptions& options,
                     const PlaneRemesher& remesh = {}) {
-  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(mesh)};
+  const mesh::NumberedMesh wall{mesh::number_mesh(mesh)};
   return build_layers(wall, options, remesh);
 }
 

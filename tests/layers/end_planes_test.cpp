@@ -64,7 +64,7 @@ std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& cap) 
 }
 
 Layers build(const mesh::DistributedMesh& mesh, const LayerOptions& options, const PlaneRemesher& remesh) {
-  const mesh::NumberedMesh wall{mesh, mesh::number_mesh(mesh)};
+  const mesh::NumberedMesh wall{mesh::number_mesh(mesh)};
   return build_layers(wall, options, remesh);
 }
 

@@ -78,7 +78,7 @@ TEST(LayerCap, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
     Unaware columns(mesh);
     LayerReport report;
     const mesh::DistributedMesh cap = clear(columns, report);
-    return mesh::hash_mesh(cap, mesh::number_mesh(cap));
+    return mesh::hash_mesh(mesh::number_mesh(cap));
   };
   EXPECT_EQ(cleared(world), cleared(self));
 }

@@ -38,9 +38,9 @@ WantedColumn on_ball(Vec3 p, std::int32_t count) {
 }
 
 void expect_valid(const Layered& layered, const mesh::DistributedMesh* surface) {
-  const mesh::ValidityReport report = mesh::check_volume_mesh(layered.mesh, layered.numbering, surface);
+  const mesh::ValidityReport report = mesh::check_volume_mesh(layered.mesh, surface);
   for (const std::string& violation : report.violations) ADD_FAILURE() << violation;
-  mesh::ValidityReport of_wall = mesh::check_surface_mesh(layered.wall.mesh, layered.wall.numbering);
+  mesh::ValidityReport of_wall = mesh::check_surface_mesh(layered.wall);
   EXPECT_NEAR(report.volume / of_wall.volume, 1, 1e-12);
 }
 
@@ -51,8 +51,8 @@ struct CellCounts {
 
 CellCounts expected_cells(const Layered& layered) {
   CellCounts cells;
-  for (std::size_t p = 0; p < layered.wall.mesh.pieces.size(); ++p) {
-    const Piece& piece = layered.wall.mesh.pieces[p];
+  for (std::size_t p = 0; p < layered.wall.pieces.size(); ++p) {
+    const Piece& piece = layered.wall.pieces[p];
     const std::vector<std::int32_t>& counts = layered.columns.pieces[p].counts;
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (piece.triangle_patch[t] != 0) continue;
@@ -68,7 +68,7 @@ CellCounts expected_cells(const Layered& layered) {
 
 void expect_cells(const Layered& layered) {
   const CellCounts expected = expected_cells(layered);
-  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh);
   EXPECT_EQ(counts.prisms, expected.prisms);
   EXPECT_EQ(counts.pyramids, expected.pyramids);
   EXPECT_EQ(counts.cells, layered.tetrahedra + expected.prisms + expected.pyramids + expected.tetrahedra);
@@ -79,7 +79,7 @@ TEST(LayerCells, FillWhatIsBetweenWallAndCap) {
   Layered layered(world, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
   layered.grow(0.02, [](Vec3 p) { return on_ball(p, 4); });
   layered.fill(volume::fields::uniform(0.4), 1000);
-  expect_valid(layered, &layered.wall.mesh);
+  expect_valid(layered, &layered.wall);
   expect_cells(layered);
   EXPECT_EQ(expected_cells(layered).prisms, 20 * 25 * 4);
   EXPECT_EQ(layered.improved.changed_triangles, 0);
@@ -90,7 +90,7 @@ TEST(LayerCells, ConformForAnyCounts) {
   Layered layered(world, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
   layered.grow(0.02, [](Vec3 p) { return on_ball(p, any_count(p)); });
   layered.fill(volume::fields::uniform(0.4), 100);
-  expect_valid(layered, &layered.wall.mesh);
+  expect_valid(layered, &layered.wall);
   expect_cells(layered);
   EXPECT_GT(expected_cells(layered).pyramids, 100);
   EXPECT_GT(expected_cells(layered).tetrahedra, 100);
@@ -101,7 +101,7 @@ TEST(LayerCells, WithoutColumnsThereAreNone) {
   Layered layered(world, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
   layered.grow(0.02, [](Vec3) { return WantedColumn{}; });
   layered.fill(volume::fields::uniform(0.4), 100);
-  expect_valid(layered, &layered.wall.mesh);
+  expect_valid(layered, &layered.wall);
   for (const Piece& piece : layered.mesh.pieces) EXPECT_TRUE(piece.layers.empty());
 }
 
@@ -185,7 +185,7 @@ TEST(LayerCells, EndOnPlanesInTheirQuadrilaterals) {
   const Layered layered = on_the_floor(world, [](Vec3) { return 3; });
   expect_valid(layered, nullptr);
   expect_cells(layered);
-  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh);
   EXPECT_EQ(counts.boundary_quads, 4 * 6 * 3);
   EXPECT_EQ(counts.boundary_triangles, 6 * 6 * 6 * 2);
   for (const Piece& piece : layered.mesh.pieces) {
@@ -201,7 +201,7 @@ TEST(LayerCells, EndOnPlanesForAnyCounts) {
   const Layered layered = on_the_floor(world, any_count);
   expect_valid(layered, nullptr);
   expect_cells(layered);
-  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh);
   for (const Piece& piece : layered.mesh.pieces) {
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const Vec3 p = piece.point(v);
@@ -222,7 +222,7 @@ std::int64_t expected_tetrahedra(const Layered& layered) {
 }
 
 void expect_tetrahedra_alone(const Layered& layered) {
-  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh, layered.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(layered.mesh);
   EXPECT_EQ(counts.prisms + counts.pyramids + counts.boundary_quads, 0);
   EXPECT_EQ(counts.cells, layered.tetrahedra + expected_tetrahedra(layered));
 }
@@ -234,7 +234,7 @@ TEST(LayerTetrahedra, ConformForAnyCounts) {
   layered.grow(0.02, [](Vec3 p) { return on_ball(p, any_count(p)); });
   constexpr std::int64_t most = 100;
   layered.fill(volume::fields::uniform(0.4), most);
-  expect_valid(layered, &layered.wall.mesh);
+  expect_valid(layered, &layered.wall);
   expect_tetrahedra_alone(layered);
   std::int64_t of_layers = 0;
   for (const Piece& piece : layered.mesh.pieces) {
@@ -251,7 +251,7 @@ TEST(LayerTetrahedra, EndOnPlanesInTriangles) {
       world, [](Vec3) { return 3; }, LayerElements::tets);
   expect_valid(full, nullptr);
   expect_tetrahedra_alone(full);
-  const mesh::MeshCounts counts = mesh::count_mesh(full.mesh, full.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(full.mesh);
   EXPECT_EQ(counts.boundary_triangles, 6 * 6 * 6 * 2 + 4 * 6 * 3 * 2);
   const Layered stepped = on_the_floor(world, any_count, LayerElements::tets);
   expect_valid(stepped, nullptr);

@@ -39,20 +39,20 @@ struct Layered {
   Layered(const parallel::Communicator& ranks, const volume::surfaces::Surface& surface,
           std::int32_t wall_face, mesh::PatchType others)
       : communicator(ranks) {
-    wall.mesh = volume::surfaces::spread(ranks, surface);
-    wall.mesh.patches = {"wall", "others"};
-    wall.mesh.patch_types = {mesh::PatchType::wall, others};
-    for (mesh::Piece& piece : wall.mesh.pieces) {
+    static_cast<mesh::DistributedMesh&>(wall) = volume::surfaces::spread(ranks, surface);
+    wall.patches = {"wall", "others"};
+    wall.patch_types = {mesh::PatchType::wall, others};
+    for (mesh::Piece& piece : wall.pieces) {
       for (std::size_t t = 0; t < piece.triangle_face.size(); ++t)
         piece.triangle_patch[t] = piece.triangle_face[t] == wall_face ? 0 : 1;
     }
-    wall.numbering = mesh::number_mesh(wall.mesh);
+    wall = mesh::number_mesh(std::move(wall));
   }
 
   /// Heights are `first`, twice, then half as much again each. Vertices with a direction that is not zero
   /// have columns.
   void grow(double first, const ColumnAt& column_at) {
-    mesh::DistributedMesh moved = wall.mesh;
+    mesh::DistributedMesh moved = wall;
     columns.pieces.clear();
     for (mesh::Piece& end : moved.pieces) {
       const mesh::Piece piece = end;
@@ -67,33 +67,32 @@ struct Layered {
         end.set_point(v, node(piece, of_piece, v, column.count));
       }
     }
-    cap = name_cap(std::move(moved));
+    cap = mesh::number_mesh(std::move(moved));
   }
 
   /// Tetrahedra beyond the cap, improved, and the layers before it.
   void fill(const sizing::SizeField& field, std::int64_t most_cells_per_piece,
             volume::VolumeOptions options = {}) {
     volume::VolumeReport report;
-    const volume::VolumeInput input{cap.mesh, cap.numbering, field, options};
-    mesh = volume::fill_zones(input, volume::decompose(input), report);
+    const sizing::SizedSurface boundary{cap, field};
+    const volume::VolumeInput input{boundary, options, nullptr, true};
+    mesh::DistributedMesh volume = volume::fill_zones(input, volume::decompose(input), report);
     improve::ImproveOptions improvement;
     improvement.boundary_may_change = false;
-    improved = improve::improve_mesh(mesh, improvement, {nullptr, &field});
+    improved = improve::improve_mesh(volume, improvement, {nullptr, &field});
     tetrahedra = 0;
-    for (const mesh::Piece& piece : mesh.pieces) tetrahedra += piece.cell_count();
+    for (const mesh::Piece& piece : volume.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);
-    append_layers(wall, columns, cap, {most_cells_per_piece, elements}, mesh);
-    numbering = mesh::number_mesh(mesh);
+    append_layers(wall, columns, cap, {most_cells_per_piece, elements}, volume);
+    mesh = mesh::number_mesh(std::move(volume));
   }
 
-  std::string hash() const { return mesh::hash_mesh(mesh, numbering); }
+  std::string hash() const { return mesh::hash_mesh(mesh); }
 
   parallel::Communicator communicator;
   mesh::NumberedMesh wall;
   Columns columns;
-  NamedFront cap;
-  mesh::DistributedMesh mesh;
-  mesh::Numbering numbering;
+  mesh::NumberedMesh cap, mesh;
   improve::ImproveReport improved;
   LayerElements elements = LayerElements::prisms;
   std::int64_t tetrahedra = 0;  ///< beyond the cap

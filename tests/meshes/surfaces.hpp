@@ -7,7 +7,7 @@
 #include "mesh/data/mixing.hpp"
 #include "parallel/communication/communicator.hpp"
 #include "volume/filling/owned_cells.hpp"
-#include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/lattice/surface_triangles.hpp"
 
 #include <algorithm>
 #include <array>

@@ -39,11 +39,10 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;
-  Aircraft aircraft{model, surface::mesh_surface(ranks, model, field, surface_options), {}, {}, {}};
-  const mesh::Numbering numbering = mesh::number_mesh(aircraft.surface.mesh);
+  Aircraft aircraft{model, surface::mesh_surface(model, field, surface_options), {}, {}, {}};
   volume::VolumeOptions options;
   options.piece_tets = 10'000;
-  const volume::VolumeInput input{aircraft.surface.mesh, numbering, aircraft.surface.field, options};
+  const volume::VolumeInput input{aircraft.surface, options};
   aircraft.volume = volume::fill_zones(input, volume::decompose(input), aircraft.report);
   cad::PointLocator locator(model);
   aircraft.improved = improve::improve_mesh(aircraft.volume, {}, {&locator, &aircraft.surface.field});
@@ -103,8 +102,8 @@ TEST_F(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
   EXPECT_GT(aircraft.surface.report.divided_faces, 3) << "faces are cut into pieces";
   EXPECT_GT(aircraft.volume.piece_count, 2) << "the volume is filled in zones";
   EXPECT_GT(ranks.sum(aircraft.improved.changed_triangles), 0) << "there is something to compare";
-  const mesh::Numbering numbering = mesh::number_mesh(aircraft.volume);
-  const mesh::ValidityReport validity = mesh::check_volume_mesh(aircraft.volume, numbering, nullptr);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(aircraft.volume);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(numbered, nullptr);
   EXPECT_TRUE(validity.violations.empty());
   const double length = aircraft.model.body_bounds().diagonal();
   EXPECT_LT(ranks.maximum(largest_distance(aircraft.model, aircraft.volume)), 1e-7 * length);
@@ -120,9 +119,7 @@ TEST_F(AircraftOnCad, TheImprovedBoundaryIsThatOfTheCad) {
 }
 
 TEST_F(AircraftOnCad, IsTheSameMeshOnAnyNumberOfRanks) {
-  const auto hash = [](const Aircraft& of) {
-    return mesh::hash_mesh(of.volume, mesh::number_mesh(of.volume));
-  };
+  const auto hash = [](const Aircraft& of) { return mesh::hash_mesh(mesh::number_mesh(of.volume)); };
   const std::string together = hash(aircraft);
   if (!ranks.is_root()) return;
   const auto self = parallel::Communicator::self();

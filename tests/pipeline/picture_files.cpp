@@ -20,11 +20,10 @@ namespace {
 
 std::vector<report::Picture> pictures_of_mesh(const parallel::Communicator& world, const std::string& file) {
   const mesh::DistributedMesh volume = imported::import_mesh(world, file, 100'000);
-  const mesh::DistributedMesh surface = mesh::boundary_mesh(volume, mesh::number_mesh(volume));
-  const mesh::Numbering numbering = mesh::number_mesh(surface);
+  const mesh::NumberedMesh surface = mesh::number_mesh(mesh::boundary_mesh(mesh::number_mesh(volume)));
   const std::clock_t begin = std::clock();
   std::vector<report::Picture> pictures =
-      report::pictures_or_warning(world, &volume, {surface, numbering, volume.patch_types, ""});
+      report::pictures_or_warning(world, &volume, {surface, volume.patch_types, ""});
   if (world.is_root())
     std::printf("pictures: %.2f s of CPU\n", double(std::clock() - begin) / CLOCKS_PER_SEC);
   return pictures;

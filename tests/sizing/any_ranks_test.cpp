@@ -3,6 +3,9 @@
 #include "cad/domain/domain.hpp"
 #include "cad/model/topology/joined_faces.hpp"
 #include "sizing/choice/choose_sizes.hpp"
+#include "sizing/choice/coincident_faces.hpp"
+#include "sizing/choice/narrow_regions.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "sizing/features/narrow_faces.hpp"
 #include "sizing/lifting/level_demands.hpp"
 #include "sizing/lifting/lifting.hpp"
@@ -88,9 +91,9 @@ TEST(OnAnyRanks, FieldsOfThinPartsAndGaps) {
     with_gaps.gap_minimum = 0.01;
     findings << build_size_field(ranks, plate(0.02), with_gaps)
              << build_size_field(ranks, shapes::slotted_block(0.02), with_gaps);
-    const ModelSampler sampler(ranks, plate(0.02), 1, Fields::one);
-    findings << sampler.narrowest_gap();
-    for (const UnseenGaps& unseen : sampler.unseen_gaps())
+    const GapSearch gaps(SampledModel(ranks, plate(0.02)), 1);
+    findings << gaps.narrowest_gap();
+    for (const UnseenGaps& unseen : gaps.unseen_gaps())
       findings << unseen.face << unseen.place << unseen.size;
   });
 }
@@ -99,11 +102,12 @@ TEST(OnAnyRanks, CountsOfTetrahedra) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     const Model model = make_primitive_domain(cad::PrimitiveKind::box_with_sphere);
     const SizingOptions options{0.02, 0.2, 12, 1.3, 0};
-    ModelSampler sampler(ranks, model, 0, Fields::several);
-    findings << sampler.predict(sampler.build_field(options)) << sampler.build_rough_field(options).counts
-             << sampler.estimate_tetrahedra(options, 4, 1'000'000'000).value_or(-1)
-             << sampler.count_triangles(sampler.build_field(options));
-    for (const BoundedFace& face : sampler.faces_bounded_by_minimum(options))
+    FieldFactory factory(SampledModel(ranks, model), 0, Fields::several);
+    findings << predict_counts(factory.sampled(), factory.build_field(options))
+             << factory.build_rough_field(options).counts
+             << factory.estimate_tetrahedra(options, 4, 1'000'000'000).value_or(-1)
+             << count_triangles(factory.sampled(), factory.build_field(options));
+    for (const BoundedFace& face : factory.faces_bounded_by_minimum(options))
       findings << face.face << face.fraction << face.degrees;
   });
 }
@@ -114,12 +118,13 @@ TEST(OnAnyRanks, StripsAndNarrowFaces) {
     const std::vector<double> aspects{1, 4, 20};
     for (const Model& model : {cad::shapes::split_cylinder(3, 2), cad::shapes::tapered_wedge(0.01, 0.001),
                                cad::shapes::creased_prism(10)}) {
-      ModelSampler sampler(ranks, model, 0, Fields::one);
-      for (const Strip& strip : sampler.strips_narrower_than(0.06, 0.05))
+      FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
+      for (const Strip& strip : strips_narrower_than(factory.sampled(), 0.06, 0.05))
         findings << strip.face << strip.width << strip.place;
-      for (const double elements : sampler.elements_along_strips(aspects, options)) findings << elements;
+      for (const double elements : elements_along_strips(factory.sampled(), aspects, options))
+        findings << elements;
       const std::vector<Vec3> places{{0, 0, 0}, {1, 0.5, 0.2}};
-      for (const double size : sampler.sizes_without_features(places, options)) findings << size;
+      for (const double size : factory.sizes_without_features(places, options)) findings << size;
       for (const NarrowFace& face : find_narrow_faces(ranks, model, 0.06, 0.1))
         findings << face.face << face.into << face.width << face.degrees << face.deviation << face.place;
     }
@@ -133,18 +138,18 @@ TEST(OnAnyRanks, FieldsOfAModelWhoseFacesAreJoined) {
     const Model joined = cad::join_faces(model, group_narrow_faces(model, narrow, 1e-3));
     EXPECT_LT(joined.face_count(), model.face_count());
     const SizingOptions options{0.05, 0.5, 15, 1.3, 0, 1};
-    ModelSampler before(ranks, model, 1, Fields::several);
+    FieldFactory before(SampledModel(ranks, model), 1, Fields::several);
     findings << before.build_field(options);
-    ModelSampler after(std::move(before), joined);
+    FieldFactory after(std::move(before), joined);
     const SizeField field = after.build_field(options);
-    findings << field << after.predict(field) << after.narrowest_gap();
+    findings << field << predict_counts(after.sampled(), field) << after.gaps().narrowest_gap();
   });
 }
 
 TEST(OnAnyRanks, CoincidentFaces) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     for (const Model& model : {shapes::cracked_block(4e-7), shapes::slotted_block(2e-5)}) {
-      const auto found = ModelSampler(ranks, model, 1, Fields::one).find_coincident_faces();
+      const auto found = find_coincident_faces(SampledModel(ranks, model));
       EXPECT_EQ(found.size(), 1u);
       for (const CoincidentFaces& pair : found)
         findings << pair.first << pair.second << pair.area << pair.place << pair.apart;
@@ -156,12 +161,12 @@ TEST(OnAnyRanks, SharesOfFeatures) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     SizingOptions options{0.05, 0.2, 15, 1.3, 0};
     options.feature_minimum = options.minimum;
-    ModelSampler blunt(ranks, cad::shapes::blunt_wedge(0.004), 0, Fields::several);
+    FieldFactory blunt(SampledModel(ranks, cad::shapes::blunt_wedge(0.004)), 0, Fields::several);
     for (const double budget : {1.0, 1.5, 1e9})
       findings << share_of_features(blunt, options, budget, 1, 1'000'000'000);
-    ModelSampler thin(ranks, cad::shapes::tapered_wedge(0.01, 0.0005), 0, Fields::several);
+    FieldFactory thin(SampledModel(ranks, cad::shapes::tapered_wedge(0.01, 0.0005)), 0, Fields::several);
     findings << share_of_features(thin, options, 4, 1, 60'000);
-    ModelSampler slot(ranks, plate(0.02), 1, Fields::several);
+    FieldFactory slot(SampledModel(ranks, plate(0.02)), 1, Fields::several);
     findings << share_of_features(slot, options, 1e9, 1, 1'000'000'000);
   });
 }
@@ -169,8 +174,8 @@ TEST(OnAnyRanks, SharesOfFeatures) {
 TEST(OnAnyRanks, ChosenSizes) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     const auto choose = [&](const Model& model, double layers, double target, double budget) {
-      ModelSampler sampler(ranks, model, layers, Fields::several);
-      const ChosenSizes chosen = choose_sizes(sampler, target, budget);
+      FieldFactory factory(SampledModel(ranks, model), layers, Fields::several);
+      const ChosenSizes chosen = choose_sizes(factory, target, budget);
       findings << chosen.options << chosen.counts << chosen.features << chosen.field.leaf_count();
     };
     choose(make_primitive_domain(cad::PrimitiveKind::box_with_sphere), 1, 6e4, default_feature_budget);
@@ -185,10 +190,10 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
     aircraft.transport = cad::TransportDimensions{};
     const Model model = cad::prepare_domain(aircraft).model;
     const Vec3 flow{1, 0, 0};
-    ModelSampler sampler(ranks, model, 0, Fields::one);
-    for (const TrailingEdge& edge : find_trailing_edges(sampler, 1))
+    FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
+    for (const TrailingEdge& edge : find_trailing_edges(factory.sampled(), 1))
       findings << edge.strip.face << edge.strip.narrowest << edge.chord << edge.share;
-    const LiftingBodies bodies = find_lifting_bodies(sampler, flow);
+    const LiftingBodies bodies = find_lifting_bodies(factory.sampled(), flow);
     findings << bodies.reference_chord << bodies.semispan;
     for (const LiftingElement& element : bodies.elements) {
       findings << element.strip << element.edge;
@@ -198,8 +203,8 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
     const LevelSizes level = sizes_of(Level::a);
     GivenSizes given = level_bounds(model, bodies, level);
     given.growth = 2.5, given.curvature_angle = 60, given.surface_maximum = 1;
-    sampler.demand(level_lines(model, bodies, level, flow));
-    const SizeField field = sampler.build_field(with_given({}, given));
+    factory.demand(level_lines(model, bodies, level, flow));
+    const SizeField field = factory.build_field(with_given({}, given));
     findings << field.leaf_count();
     for (const LiftingElement& element : bodies.elements) {
       for (const LiftingStation& station : element.stations)
@@ -211,10 +216,10 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
 TEST(OnAnyRanks, RefusalsAreThoseOfAllRanks) {
   const auto world = Communicator::world();
   const Model model = cad::shapes::split_cylinder(3, 2);
-  ModelSampler sampler(world, model, 0, Fields::several);
-  EXPECT_THROW(sampler.build_field({1e-7, 1e-7, 15, 1.3, 0}), std::invalid_argument);
-  EXPECT_THROW(choose_sizes(sampler, 0), std::invalid_argument);
-  EXPECT_THROW(share_of_features(sampler, {0.05, 0.5, 15, 1.3, 0}, 0.5, 1, 1000), std::invalid_argument);
+  FieldFactory factory(SampledModel(world, model), 0, Fields::several);
+  EXPECT_THROW(factory.build_field({1e-7, 1e-7, 15, 1.3, 0}), std::invalid_argument);
+  EXPECT_THROW(choose_sizes(factory, 0), std::invalid_argument);
+  EXPECT_THROW(share_of_features(factory, {0.05, 0.5, 15, 1.3, 0}, 0.5, 1, 1000), std::invalid_argument);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ public:
   };
 
   Outline(const Communicator& communicator, const Model& model, const Meshed& meshed, double distance) {
-    for (const auto& [face, loops] : gather_loops(meshed.surface.mesh, meshed.planes)) {
+    for (const auto& [face, loops] : gather_loops(meshed.surface, meshed.planes)) {
       std::vector<Vec3> inwards(loops.points.size());
       for (const auto& [a, b] : loops.edges) {
         // The fluid lies at y > 0: its normal out of the plane is (0, -1, 0).
@@ -86,17 +86,17 @@ private:
 };
 
 /// The field hears of segments on the loops of planes that are shorter than it asks for.
-void refine_at_loops(const Communicator& communicator, Meshed& meshed) {
+void refine_at_loops(Meshed& meshed) {
   constexpr double much_shorter = 1.3;
   std::vector<sizing::SizeSource> sources;
-  for (const auto& [face, loops] : gather_loops(meshed.surface.mesh, meshed.planes)) {
+  for (const auto& [face, loops] : gather_loops(meshed.surface, meshed.planes)) {
     for (const auto& [a, b] : loops.edges) {
       const Vec3 middle = 0.5 * (loops.points[a] + loops.points[b]);
       const double length = distance(loops.points[a], loops.points[b]);
       if (meshed.surface.field(middle) > much_shorter * length) sources.push_back({middle, length});
     }
   }
-  meshed.surface.field = meshed.surface.field.refined(communicator, sources);
+  meshed.surface.field = meshed.surface.field.refined(sources);
 }
 
 /// The hash of the surface whose outline has moved.
@@ -106,7 +106,7 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
   Outline outline(communicator, model, meshed, 0.02 * 37.6);
   EXPECT_GT(outline.size(), 30u);
   const auto move = [&] {
-    move_vertices([&](SharedVertexKey key, Vec3) { return outline.place(key); }, meshed.surface.mesh);
+    move_vertices([&](SharedVertexKey key, Vec3) { return outline.place(key); }, meshed.surface);
   };
   move();
   int attempts = 1;
@@ -119,7 +119,7 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
   EXPECT_LT(attempts, 40);
   EXPECT_GT(attempts, 1);
   EXPECT_EQ(outline.longest(), 0.02 * 37.6);
-  refine_at_loops(communicator, meshed);
+  refine_at_loops(meshed);
   EXPECT_TRUE(remesh(model, options, meshed).empty());
   expect_closed(meshed);
   EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
@@ -127,7 +127,7 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
   EXPECT_EQ(measures.off, 0);
   EXPECT_GT(measures.pieces, 1);
   EXPECT_GT(measures.least_angle, 10);
-  return hash_of(meshed.surface.mesh);
+  return hash_of(meshed.surface);
 }
 
 /// An aircraft's outline moves by two hundredths of its length where it can; where it would cross itself, as

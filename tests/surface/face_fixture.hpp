@@ -1,4 +1,4 @@
-/// Faces of small shapes and of real files, ready to be turned into supports and charts.
+/// Faces of small shapes and of real files, ready to be turned into chart surfaces and charts.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -6,7 +6,7 @@
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/charts/chart.hpp"
-#include "surface/charts/support.hpp"
+#include "surface/charts/chart_surface.hpp"
 #include "surface/curves/curves.hpp"
 #include "tests/source_tree.hpp"
 
@@ -19,20 +19,21 @@
 
 namespace aeroloom::surface::testing {
 
-/// A field of one size everywhere.
-inline sizing::SizeField uniform_field(const cad::Model& model, double size) {
-  return sizing::SizeField::build(model.bounds(), {}, {size, size, 12, 1.3});
+/// A field of one size everywhere, held by these ranks together. Collective.
+inline sizing::SizeField uniform_field(
+    const cad::Model& model, double size,
+    const parallel::Communicator& ranks = parallel::Communicator::world()) {
+  const auto field = sizing::SizeField::build(model.bounds(), {}, {size, size, 12, 1.3});
+  return sizing::SizeField::unpack(ranks, field.pack());
 }
 
-/// A field that grows with the distance from a point.
+/// A field that grows from `least` to `most` with the distance from a point. Collective.
 inline sizing::SizeField graded_field(const cad::Model& model, geometry::Vec3 point, double least,
-                                      double most) {
+                                      double most,
+                                      const parallel::Communicator& ranks = parallel::Communicator::world()) {
   const std::vector<sizing::SizeSource> sources{{point, least}};
-  return sizing::SizeField::build(model.bounds(), sources, {least, most, 12, 1.3});
-}
-
-inline CurveMesh curves_of(const cad::Model& model, const sizing::SizeField& field) {
-  return discretise_curves(parallel::Communicator::world(), model, field);
+  const auto field = sizing::SizeField::build(model.bounds(), sources, {least, most, 12, 1.3});
+  return sizing::SizeField::unpack(ranks, field.pack());
 }
 
 inline cad::Facets facets_of(const cad::Model& model, cad::FaceId face) {

@@ -39,8 +39,8 @@ cad::Model model_of(const cad::FacetSoup& soup) {
 double meshed_volume(const cad::Model& model) {
   const auto world = parallel::Communicator::world();
   const sizing::SizingOptions sizes{.minimum = 0.01, .maximum = 0.04, .curvature_angle = 10, .growth = 1.3};
-  const SurfaceMesh surface = mesh_surface(world, model, sizing::build_size_field(world, model, sizes), {});
-  const auto report = mesh::check_surface_mesh(surface.mesh, mesh::number_mesh(surface.mesh));
+  const SurfaceMesh surface = mesh_surface(model, sizing::build_size_field(world, model, sizes), {});
+  const auto report = mesh::check_surface_mesh(surface);
   EXPECT_TRUE(report.valid());
   return report.volume;
 }

@@ -38,24 +38,22 @@ Model joined_spline_cylinder() {
 
 struct Meshed {
   SurfaceMesh surface;
-  mesh::Numbering numbering;
 };
 
 Meshed mesh_model(const Communicator& communicator, const Model& model, const SurfaceOptions& options) {
   const sizing::SizeField field = sizing::build_size_field(communicator, model, {size, size, 30, 1.3, 0});
-  SurfaceMesh surface = mesh_surface(communicator, model, field, options);
-  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  return {std::move(surface), std::move(numbering)};
+  SurfaceMesh surface = mesh_surface(model, field, options);
+  return {std::move(surface)};
 }
 
 void expect_sound(const Meshed& meshed) {
-  const Communicator& communicator = meshed.surface.mesh.communicator;
-  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
+  const Communicator& communicator = meshed.surface.communicator;
+  const auto report = mesh::check_surface_mesh(meshed.surface);
   EXPECT_TRUE(report.valid()) << report.violations.front();
   const double volume = 2 * std::numbers::pi;
   EXPECT_NEAR(report.volume, volume, 0.01 * volume);
   std::int64_t small = 0, off = 0;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       const Vec3 p = piece.point(v);
       const double radius = std::hypot(p.x, p.y);
@@ -84,10 +82,10 @@ void expect_no_trace(const Communicator& communicator, const Model& model) {
     EXPECT_EQ(meshed.surface.report.divided_faces, piece_triangles == 150 ? 3 : 0);
     EXPECT_EQ(meshed.surface.report.mending_rounds, 0) << "pieces of a face intersect";
     if (communicator.size() == 1) continue;
-    const std::string together = mesh::hash_mesh(meshed.surface.mesh, meshed.numbering);
+    const std::string together = mesh::hash_mesh(meshed.surface);
     const Communicator alone = Communicator::self();
     const Meshed again = mesh_model(alone, model, {.piece_triangles = piece_triangles});
-    EXPECT_EQ(together, mesh::hash_mesh(again.surface.mesh, again.numbering));
+    EXPECT_EQ(together, mesh::hash_mesh(again.surface));
   }
 }
 

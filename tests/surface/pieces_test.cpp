@@ -28,22 +28,20 @@ using testing::uniform_field;
 
 struct Meshed {
   SurfaceMesh surface;
-  mesh::Numbering numbering;
 };
 
-Meshed mesh_model(const Communicator& communicator, const cad::Model& model, const sizing::SizeField& field,
-                  const SurfaceOptions& options, const FaceDivider& divider = {}) {
-  SurfaceMesh surface = mesh_surface_with_cuts(communicator, model, field, {options, divider});
-  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  return {std::move(surface), std::move(numbering)};
+Meshed mesh_model(const cad::Model& model, const sizing::SizeField& field, const SurfaceOptions& options,
+                  const FaceDivider& divider = {}) {
+  SurfaceMesh surface = mesh_surface_with_cuts(model, field, {options, divider});
+  return {std::move(surface)};
 }
 
 std::string hash_of(const Meshed& meshed) {
-  return mesh::hash_mesh(meshed.surface.mesh, meshed.numbering);
+  return mesh::hash_mesh(meshed.surface);
 }
 
 void expect_valid(const Meshed& meshed) {
-  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
+  const auto report = mesh::check_surface_mesh(meshed.surface);
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 
@@ -91,17 +89,18 @@ void PrintTo(const Shape& shape, std::ostream* out) {
 class Pieces : public ::testing::TestWithParam<Shape> {
 protected:
   cad::Model model = make_primitive_domain(GetParam().kind);
-  sizing::SizeField field = GetParam().graded
-                                ? graded_field(model, {0.25, 0, 0}, 0.4 * GetParam().size, GetParam().size)
-                                : uniform_field(model, GetParam().size);
+  sizing::SizeField field_on(const Communicator& ranks) const {
+    const auto& [name, kind, size, graded] = GetParam();
+    return graded ? graded_field(model, {0.25, 0, 0}, 0.4 * size, size, ranks)
+                  : uniform_field(model, size, ranks);
+  }
   SurfaceOptions options{.piece_triangles = 300};
 };
 
 TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
-  const Communicator world = Communicator::world();
-  const Meshed meshed = mesh_model(world, model, field, options);
+  const Meshed meshed = mesh_model(model, field_on(Communicator::world()), options);
   expect_valid(meshed);
-  EXPECT_GE(meshed.surface.mesh.piece_count, 16);
+  EXPECT_GE(meshed.surface.piece_count, 16);
   EXPECT_EQ(meshed.surface.report.mending_rounds, 0);
   EXPECT_LT(meshed.surface.report.load_error_90, 0.15);
   ASSERT_FALSE(meshed.surface.report.cut_angles.empty());
@@ -109,18 +108,18 @@ TEST_P(Pieces, HaveNoSeamAndFollowTheSurface) {
     EXPECT_GE(angle.degrees, 30) << "near " << angle.point.x << ", " << angle.point.y << ", "
                                  << angle.point.z;
   }
-  const Seam seam = measure_seam(meshed.surface.mesh);
+  const Seam seam = measure_seam(meshed.surface);
   EXPECT_GT(seam.count[1], 100);
   EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
   EXPECT_GE(seam.worst[1], 0.6);
-  const auto quality = mesh::summarise_quality(meshed.surface.mesh, meshed.numbering);
+  const auto quality = mesh::summarise_quality(meshed.surface);
   EXPECT_GT(quality.min_dihedral.minimum, 20);
   EXPECT_GT(quality.mean_ratio.mean, 0.95);
 }
 
 TEST_P(Pieces, AreTheSameOnAnyNumberOfRanks) {
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
-    return hash_of(mesh_model(communicator, model, field, options));
+    return hash_of(mesh_model(model, field_on(communicator), options));
   });
 }
 
@@ -134,14 +133,13 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Pieces,
 /// Very heavy faces are cut twice; the second cuts end on the first ones.
 TEST(DividedTwice, HasNoSeamEither) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
-  const sizing::SizeField field = uniform_field(model, 0.008);
   const SurfaceOptions options{.piece_triangles = 500};
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
-    const Meshed meshed = mesh_model(communicator, model, field, options);
+    const Meshed meshed = mesh_model(model, uniform_field(model, 0.008, communicator), options);
     expect_valid(meshed);
-    EXPECT_GT(meshed.surface.mesh.piece_count, 40);
+    EXPECT_GT(meshed.surface.piece_count, 40);
     for (const CutAngle& angle : meshed.surface.report.cut_angles) EXPECT_GE(angle.degrees, 30);
-    const Seam seam = measure_seam(meshed.surface.mesh);
+    const Seam seam = measure_seam(meshed.surface);
     EXPECT_GE(seam.mean[1], seam.mean[0] - 0.005);
     return fmt::format("{} {}", hash_of(meshed), meshed.surface.report.cut_angles.size());
   });
@@ -152,38 +150,35 @@ TEST(DividedTwice, LeavesNoHeavyPiece) {
   const Communicator world = Communicator::world();
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const SurfaceOptions options{.piece_triangles = 100};
-  const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.005), options);
+  const Meshed meshed = mesh_model(model, uniform_field(model, 0.005), options);
   expect_valid(meshed);
   std::int64_t most = 0;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces)
+  for (const mesh::Piece& piece : meshed.surface.pieces)
     most = std::max<std::int64_t>(most, piece.cell_count());
   EXPECT_LT(world.maximum(most), 2 * options.piece_triangles);
 }
 
 /// Any step of the division can be left out: other cuts, and a mesh all the same.
 TEST(DivisionSteps, CanBeLeftOut) {
-  const Communicator world = Communicator::world();
   const cad::Model model = make_primitive_domain(PrimitiveKind::sphere);
   const sizing::SizeField field = graded_field(model, {0.25, 0, 0}, 0.008, 0.02);
   SurfaceOptions options{.piece_triangles = 300};
-  const std::string complete = hash_of(mesh_model(world, model, field, options));
+  const std::string complete = hash_of(mesh_model(model, field, options));
   for (bool DivisionSteps::*const step : {&DivisionSteps::contraction, &DivisionSteps::straightening}) {
     options.division = {};
     options.division.*step = false;
-    const Meshed meshed = mesh_model(world, model, field, options);
+    const Meshed meshed = mesh_model(model, field, options);
     expect_valid(meshed);
     EXPECT_NE(hash_of(meshed), complete);
   }
   options.division = {false, false, false, false};
-  expect_valid(mesh_model(world, model, field, options));
+  expect_valid(mesh_model(model, field, options));
 }
 
 /// The stage takes cuts whoever asks for them: here a box that the surface reaches into.
 TEST(ImposedCuts, FollowABox) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::torus, PrimitiveKind::cylinder}) {
     const cad::Model model = make_primitive_domain(kind);
-    const sizing::SizeField field = uniform_field(model, 0.03);
     const SurfaceOptions options{.piece_triangles = 1'000'000};
     const auto is_inside = [](Vec3 p) { return p.x > -0.1 && p.y > -0.05 && p.z > -0.12; };
     const FaceDivider divider = [&](cad::FaceId, const partition::BackgroundSurface& surface) {
@@ -193,29 +188,31 @@ TEST(ImposedCuts, FollowABox) {
       }
       return part;
     };
-    const Meshed meshed = mesh_model(world, model, field, options, divider);
+    const auto mesh_on = [&](const Communicator& ranks) {
+      return mesh_model(model, uniform_field(model, 0.03, ranks), options, divider);
+    };
+    const Meshed meshed = mesh_on(Communicator::world());
     expect_valid(meshed);
-    EXPECT_GT(meshed.surface.mesh.piece_count, model.face_count());
+    EXPECT_GT(meshed.surface.piece_count, model.face_count());
     EXPECT_GT(meshed.surface.report.divided_faces, 0);
-    EXPECT_GT(measure_seam(meshed.surface.mesh).count[1], 50);
-    EXPECT_EQ(hash_of(meshed), hash_of(mesh_model(self, model, field, options, divider)));
+    EXPECT_GT(measure_seam(meshed.surface).count[1], 50);
+    EXPECT_EQ(hash_of(meshed), hash_of(mesh_on(Communicator::self())));
   }
 }
 
 TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
-  const Communicator world = Communicator::world();
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const SurfaceOptions options{.decomposition = SurfaceDecomposition::faces, .piece_triangles = 100};
-  const Meshed meshed = mesh_model(world, model, uniform_field(model, 0.03), options);
-  EXPECT_EQ(meshed.surface.mesh.piece_count, model.face_count());
+  const Meshed meshed = mesh_model(model, uniform_field(model, 0.03), options);
+  EXPECT_EQ(meshed.surface.piece_count, model.face_count());
   EXPECT_EQ(meshed.surface.report.divided_faces, 0);
   EXPECT_TRUE(meshed.surface.report.cut_angles.empty());
 }
 
-Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
-  const CurveMesh curves = discretise_curves(Communicator::self(), model, field);
+PieceProblem side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    if (!model.is_planar(f)) return subface_of_face(model, f, curves, field, {});
+    if (!model.is_planar(f)) return problem_of_face(model, f, curves, field, {});
   }
   throw std::logic_error("a cylinder without a side");
 }
@@ -223,12 +220,12 @@ Subface side_of_cylinder(const cad::Model& model, const sizing::SizeField& field
 TEST(CoarseLoopsLocal, KeepASubsetInOrder) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.02);
-  const Subface subface = side_of_cylinder(model, field);
+  const PieceProblem problem = side_of_cylinder(model, field);
   const auto fine = static_cast<std::size_t>(std::round(2 * std::numbers::pi * 0.25 / 0.02));
-  ASSERT_NEAR(subface.support.loop_edges.size(), 2 * fine, 2);
-  const CoarseLoops by_size = coarsen_loops(subface, field.scaled(4), std::numbers::pi);
+  ASSERT_NEAR(problem.surface.loop_edges.size(), 2 * fine, 2);
+  const CoarseLoops by_size = coarsen_loops(problem, field.scaled(4), std::numbers::pi);
   EXPECT_NEAR(by_size.segments.size(), 0.5 * static_cast<double>(fine), 2);
-  const CoarseLoops by_turn = coarsen_loops(subface, field.scaled(1000), 30 * std::numbers::pi / 180);
+  const CoarseLoops by_turn = coarsen_loops(problem, field.scaled(1000), 30 * std::numbers::pi / 180);
   EXPECT_GE(by_turn.segments.size(), 24u);
   EXPECT_LE(by_turn.segments.size(), 30u);
   for (const CoarseLoops& loops : {by_size, by_turn}) {
@@ -240,30 +237,30 @@ TEST(CoarseLoopsLocal, KeepASubsetInOrder) {
       // What lies between comes in order along the circle: every step is a fine edge.
       std::int32_t last = segment.from;
       const auto step = [&](std::int32_t v) {
-        EXPECT_LT(distance(subface.vertices.points[last], subface.vertices.points[v]), 0.025);
+        EXPECT_LT(distance(problem.vertices.points[last], problem.vertices.points[v]), 0.025);
         last = v;
       };
       for (std::int32_t i = segment.begin; i < segment.end; ++i) step(loops.inside[i]);
       step(segment.to);
     }
-    EXPECT_EQ(seen.size(), subface.vertices.points.size());
+    EXPECT_EQ(seen.size(), problem.vertices.points.size());
   }
   EXPECT_EQ(by_size.find(-1, 0), nullptr);
 }
 
-TEST(SubfacesLocal, TravelBitForBit) {
+TEST(PieceProblemsLocal, TravelBitForBit) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
   const sizing::SizeField field = uniform_field(model, 0.1);
-  const Subface subface = side_of_cylinder(model, field);
-  const Subface copy = parallel::from_wire<Subface>(parallel::to_wire(subface));
-  EXPECT_EQ(parallel::to_wire(copy), parallel::to_wire(subface));
+  const PieceProblem problem = side_of_cylinder(model, field);
+  const PieceProblem copy = parallel::from_wire<PieceProblem>(parallel::to_wire(problem));
+  EXPECT_EQ(parallel::to_wire(copy), parallel::to_wire(problem));
   EXPECT_EQ(parallel::to_wire(mesh_piece(model, copy, field, {})),
-            parallel::to_wire(mesh_piece(model, subface, field, {})));
+            parallel::to_wire(mesh_piece(model, problem, field, {})));
 }
 
 TEST(SharedVertexKeysLocal, NameVerticesOfCurvesAndCuts) {
   const cad::Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  const CurveMesh curves = discretise_curves(Communicator::self(), model, uniform_field(model, 0.1));
+  const CurveMesh curves = discretise_curves(model, uniform_field(model, 0.1));
   std::set<mesh::SharedVertexKey> names;
   for (CurveVertex v = 0; v < static_cast<CurveVertex>(curves.points.size()); ++v) {
     const mesh::SharedVertexKey vertex_key = curves.vertex_key(model, v);

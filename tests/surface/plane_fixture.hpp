@@ -40,11 +40,11 @@ struct Meshed {
 inline Meshed mesh_model(const Communicator& communicator, const Model& model,
                          const sizing::SizingOptions& sizes, const SurfaceOptions& options) {
   const sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
-  return {mesh_surface(communicator, model, field, options), cad::shapes::faces_of_patch(model, "symmetry")};
+  return {mesh_surface(model, field, options), cad::shapes::faces_of_patch(model, "symmetry")};
 }
 
 inline PlaneConflicts remesh(const Model& model, const SurfaceOptions& options, Meshed& meshed) {
-  return remesh_planes(model, meshed.surface.field, {meshed.planes, options}, meshed.surface.mesh);
+  return remesh_planes(model, meshed.surface.field, {meshed.planes, options}, meshed.surface);
 }
 
 /// Moves the vertices that `moved` has a place for.
@@ -59,7 +59,7 @@ inline void move_vertices(const std::function<std::optional<Vec3>(SharedVertexKe
 }
 
 inline std::string hash_of(const mesh::DistributedMesh& surface) {
-  return mesh::hash_mesh(surface, mesh::number_mesh(surface));
+  return mesh::hash_mesh(mesh::number_mesh(surface));
 }
 
 inline bool is_of(const std::vector<cad::FaceId>& faces, const mesh::Piece& piece) {
@@ -74,7 +74,7 @@ struct PlaneMeasures {
 
 inline PlaneMeasures measure_planes(const Communicator& communicator, const Meshed& meshed) {
   PlaneMeasures measures;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     if (!is_of(meshed.planes, piece)) continue;
     ++measures.pieces;
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
@@ -96,11 +96,11 @@ inline PlaneMeasures measure_planes(const Communicator& communicator, const Mesh
 /// Intersections that triangles of planes have a part in.
 inline std::int64_t count_plane_hits(const Communicator& communicator, const Meshed& meshed) {
   std::vector<mesh::PieceId> planes;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     if (is_of(meshed.planes, piece)) planes.push_back(piece.id);
   }
   planes = communicator.all_gather_items<mesh::PieceId>(planes);
-  const auto hits = mesh::find_intersections(meshed.surface.mesh);
+  const auto hits = mesh::find_intersections(meshed.surface);
   return std::count_if(hits.begin(), hits.end(), [&](const mesh::TriangleHit& hit) {
     return std::find(planes.begin(), planes.end(), hit.first_piece) != planes.end() ||
            std::find(planes.begin(), planes.end(), hit.second_piece) != planes.end();
@@ -108,7 +108,7 @@ inline std::int64_t count_plane_hits(const Communicator& communicator, const Mes
 }
 
 inline void expect_closed(const Meshed& meshed) {
-  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, mesh::number_mesh(meshed.surface.mesh));
+  const auto report = mesh::check_surface_mesh(mesh::number_mesh(meshed.surface));
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 

@@ -61,12 +61,12 @@ TEST(PlaneRemesher, MeshesThePlaneAroundAThickenedBall) {
   ASSERT_EQ(before.planes.size(), 1u);
   for (const double thickness : {0.5 * ball_size, 2 * ball_size, 4 * ball_size}) {
     Meshed meshed = before;
-    thicken_ball(thickness, meshed.surface.mesh);
-    const auto others = other_pieces(meshed.planes, meshed.surface.mesh);
+    thicken_ball(thickness, meshed.surface);
+    const auto others = other_pieces(meshed.planes, meshed.surface);
     EXPECT_TRUE(remesh(model, options, meshed).empty());
     expect_closed(meshed);
     EXPECT_EQ(count_plane_hits(world, meshed), 0);
-    EXPECT_EQ(other_pieces(meshed.planes, meshed.surface.mesh), others);
+    EXPECT_EQ(other_pieces(meshed.planes, meshed.surface), others);
     const PlaneMeasures was = measure_planes(world, before), is = measure_planes(world, meshed);
     EXPECT_EQ(is.off, 0);
     EXPECT_GT(is.least_angle, 25);
@@ -80,10 +80,10 @@ TEST(PlaneRemesher, IsTheSameOnAnyNumberOfRanks) {
   const SurfaceOptions options{.piece_triangles = 60};
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
     Meshed meshed = mesh_model(communicator, model, ball_sizes, options);
-    thicken_ball(2 * ball_size, meshed.surface.mesh);
+    thicken_ball(2 * ball_size, meshed.surface);
     EXPECT_TRUE(remesh(model, options, meshed).empty());
     EXPECT_GT(measure_planes(communicator, meshed).pieces, 3);
-    return hash_of(meshed.surface.mesh);
+    return hash_of(meshed.surface);
   });
 }
 
@@ -93,16 +93,16 @@ TEST(PlaneRemesher, CutsHeavyPlanesIntoPieces) {
   const Model model = half_ball();
   const SurfaceOptions options{.piece_triangles = 60};
   Meshed meshed = mesh_model(world, model, ball_sizes, options);
-  thicken_ball(2 * ball_size, meshed.surface.mesh);
+  thicken_ball(2 * ball_size, meshed.surface);
   EXPECT_TRUE(remesh(model, options, meshed).empty());
   expect_closed(meshed);
   const PlaneMeasures once = measure_planes(world, meshed);
   EXPECT_GT(once.pieces, 3);
   EXPECT_GT(once.least_angle, 20);
   EXPECT_EQ(once.off, 0);
-  const std::string hash = hash_of(meshed.surface.mesh);
+  const std::string hash = hash_of(meshed.surface);
   EXPECT_TRUE(remesh(model, options, meshed).empty());
-  EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
+  EXPECT_EQ(hash_of(meshed.surface), hash);
 }
 
 /// The new pieces come last; what they share with others is classified as there.
@@ -110,14 +110,14 @@ TEST(PlaneRemesher, KeepsOrderAndClassification) {
   const Communicator world = Communicator::world();
   const Model model = half_ball();
   Meshed meshed = mesh_model(world, model, ball_sizes, {});
-  for (mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (mesh::Piece& piece : meshed.surface.pieces) {
     if (is_of(meshed.planes, piece)) continue;
     for (const mesh::LocalIndex v : piece.shared_vertices)
       piece.vertex_dimension[v] = mesh::CadDimension::region, piece.vertex_entity[v] = 7;
   }
   EXPECT_TRUE(remesh(model, {}, meshed).empty());
-  mesh::PieceId last_other = -1, first_plane = meshed.surface.mesh.piece_count;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  mesh::PieceId last_other = -1, first_plane = meshed.surface.piece_count;
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     if (!is_of(meshed.planes, piece)) {
       last_other = std::max(last_other, piece.id);
       continue;
@@ -140,7 +140,7 @@ TEST(PlaneRemesher, BlamesTheVerticesOfEdgesThatCross) {
   Meshed meshed = mesh_model(world, model, ball_sizes, {});
   const auto on_ball = [](Vec3 p) { return p.y == 0 && std::abs(norm(p) - 1) < 1e-6; };
   std::vector<SharedVertexKey> ball;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     for (std::size_t s = 0; s < piece.shared_vertices.size(); ++s)
       if (on_ball(piece.point(piece.shared_vertices[s]))) ball.push_back(piece.shared_keys[s]);
   }
@@ -151,13 +151,13 @@ TEST(PlaneRemesher, BlamesTheVerticesOfEdgesThatCross) {
       [&](SharedVertexKey key, Vec3 p) {
         return key == far && on_ball(p) ? std::optional(Vec3{9 * p.x, p.y, 9 * p.z}) : std::nullopt;
       },
-      meshed.surface.mesh);
-  const std::string hash = hash_of(meshed.surface.mesh);
+      meshed.surface);
+  const std::string hash = hash_of(meshed.surface);
   const PlaneConflicts conflicts = remesh(model, {}, meshed);
   EXPECT_TRUE(std::binary_search(conflicts.vertices.begin(), conflicts.vertices.end(), far));
   EXPECT_LT(conflicts.vertices.size(), 10u);
-  EXPECT_NE(conflicts.complaint.find("crosses or touches itself"), std::string::npos) << conflicts.complaint;
-  EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
+  EXPECT_NE(conflicts.message.find("crosses or touches itself"), std::string::npos) << conflicts.message;
+  EXPECT_EQ(hash_of(meshed.surface), hash);
 }
 
 TEST(PlaneRemesher, RefusesVerticesBesideThePlane) {
@@ -168,7 +168,7 @@ TEST(PlaneRemesher, RefusesVerticesBesideThePlane) {
       [](SharedVertexKey, Vec3 p) {
         return p.y == 0 && norm(p) < 1.5 ? std::optional(Vec3{p.x, 1e-15, p.z}) : std::nullopt;
       },
-      meshed.surface.mesh);
+      meshed.surface);
   EXPECT_THROW(remesh(model, {}, meshed), parallel::CollectiveError);
 }
 
@@ -200,7 +200,7 @@ std::vector<cad::FaceId> planes_through_centre(const Model& model) {
 /// How far vertices of planes through the centre are off them, at most.
 double distance_off_planes(const Communicator& communicator, const Model& model, const Meshed& meshed) {
   double most = 0;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     if (!is_of(meshed.planes, piece)) continue;
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
       most = std::max(most, std::abs(dot(piece.point(v), normal_of(model, piece.common_face()))));
@@ -216,16 +216,16 @@ TEST(PlaneRemesher, SpreadsVerticesOnLinesBetweenPlanesAnew) {
       Meshed meshed = mesh_model(communicator, model, {ball_size, 0.4, 12, 1.3}, {});
       meshed.planes = planes_through_centre(model);
       EXPECT_EQ(meshed.planes.size(), 3u);
-      thicken_ball(4 * ball_size, meshed.surface.mesh);
+      thicken_ball(4 * ball_size, meshed.surface);
       const PlaneConflicts conflicts = remesh(model, {}, meshed);
-      EXPECT_TRUE(conflicts.empty()) << conflicts.complaint;
+      EXPECT_TRUE(conflicts.empty()) << conflicts.message;
       expect_closed(meshed);
       EXPECT_EQ(count_plane_hits(communicator, meshed), 0);
       EXPECT_GT(measure_planes(communicator, meshed).least_angle, 20);
       EXPECT_LE(distance_off_planes(communicator, model, meshed), degrees == 0 ? 0 : 1e-13);
-      std::string hash = hash_of(meshed.surface.mesh);
+      std::string hash = hash_of(meshed.surface);
       EXPECT_TRUE(remesh(model, {}, meshed).empty());
-      EXPECT_EQ(hash_of(meshed.surface.mesh), hash);
+      EXPECT_EQ(hash_of(meshed.surface), hash);
       return hash;
     });
   }

@@ -27,16 +27,14 @@ struct Meshed {
   cad::Model model;
   sizing::SizeField field;
   SurfaceMesh surface;
-  mesh::Numbering numbering;
 };
 
 Meshed mesh_model(const Communicator& communicator, const cad::Model& model, double angle, double maximum) {
   const sizing::SizingOptions sizes{
       .minimum = 1e-3, .maximum = maximum, .curvature_angle = angle, .growth = 1.3};
   sizing::SizeField field = sizing::build_size_field(communicator, model, sizes);
-  SurfaceMesh surface = mesh_surface(communicator, model, field, {});
-  mesh::Numbering numbering = mesh::number_mesh(surface.mesh);
-  return {model, std::move(field), std::move(surface), std::move(numbering)};
+  SurfaceMesh surface = mesh_surface(model, field, {});
+  return {model, std::move(field), std::move(surface)};
 }
 
 /// Areas of the triangles by CAD face.
@@ -48,7 +46,7 @@ std::vector<double> face_areas(const Communicator& communicator, const Meshed& m
     static constexpr auto fields() { return std::tuple(&Row::face, &Row::area); }
   };
   std::vector<Row> mine;
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
     double area = 0;
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
@@ -67,7 +65,7 @@ TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
   const double exact = std::numbers::pi / 6;
   for (const double degrees : {12.0, 8.0, 5.0}) {
     const Meshed meshed = mesh_model(world, model, degrees, 1);
-    const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
+    const auto report = mesh::check_surface_mesh(meshed.surface);
     ASSERT_TRUE(report.valid()) << report.violations.front();
     const double theta = degrees * std::numbers::pi / 180, expected = 3 * theta * theta / 8;
     EXPECT_NEAR((exact - report.volume) / exact, expected, 0.2 * expected) << degrees << " degrees";
@@ -82,10 +80,9 @@ TEST(SurfaceMesher, ChordalDeviationIsBounded) {
     for (const double wanted : {1e-2, 1e-3}) {
       sizing::SizingOptions sizes{.minimum = 1, .maximum = 1, .curvature_angle = 60, .growth = 1.3};
       sizes.chordal_deviation = wanted;
-      const SurfaceMesh surface =
-          mesh_surface(world, model, sizing::build_size_field(world, model, sizes), {});
+      const SurfaceMesh surface = mesh_surface(model, sizing::build_size_field(world, model, sizes), {});
       double largest = 0;
-      for (const mesh::Piece& piece : surface.mesh.pieces) {
+      for (const mesh::Piece& piece : surface.pieces) {
         if (model.is_planar(piece.common_face())) continue;
         for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
           const mesh::LocalIndex* v = piece.cell(t);
@@ -106,7 +103,7 @@ class SurfaceShapes : public testing::TestWithParam<PrimitiveKind> {};
 TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
   const Communicator world = Communicator::world();
   const Meshed meshed = mesh_model(world, cad::make_primitive_domain(GetParam()), 5, 0.1);
-  const auto report = mesh::check_surface_mesh(meshed.surface.mesh, meshed.numbering);
+  const auto report = mesh::check_surface_mesh(meshed.surface);
   ASSERT_TRUE(report.valid()) << report.violations.front();
   const std::vector<double> areas = face_areas(world, meshed);
   for (cad::FaceId f = 0; f < meshed.model.face_count(); ++f) {
@@ -118,7 +115,7 @@ TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
     }
     EXPECT_NEAR(areas[f], exact, (straight ? 1e-12 : 5e-3) * exact) << meshed.model.face(f).name;
   }
-  const auto quality = mesh::summarise_quality(meshed.surface.mesh, meshed.numbering);
+  const auto quality = mesh::summarise_quality(meshed.surface);
   EXPECT_GT(quality.min_dihedral.minimum, 20);
   EXPECT_GT(quality.mean_ratio.mean, 0.95);
 }
@@ -129,12 +126,12 @@ INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapes,
 
 /// The same pieces come out alone, in another order, and in the run of all: no piece knows of any other.
 TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
-  const Communicator world = Communicator::world(), self = Communicator::self();
-  const Meshed meshed = mesh_model(world, cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
-  const CurveMesh curves = discretise_curves(self, meshed.model, meshed.field);
-  for (const mesh::Piece& piece : meshed.surface.mesh.pieces) {
-    const Subface subface = subface_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
-    mesh::Piece alone = mesh_piece(meshed.model, subface, meshed.field, {});
+  const Meshed meshed =
+      mesh_model(Communicator::world(), cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
+  const CurveMesh curves = discretise_curves(meshed.model, meshed.field);
+  for (const mesh::Piece& piece : meshed.surface.pieces) {
+    const PieceProblem problem = problem_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
+    mesh::Piece alone = mesh_piece(meshed.model, problem, meshed.field, {});
     alone.id = piece.id;
     EXPECT_EQ(parallel::to_wire(piece), parallel::to_wire(alone)) << "face " << piece.common_face();
   }
@@ -144,7 +141,7 @@ TEST(SurfaceMesher, HashDoesNotDependOnRanks) {
   const cad::Model model = cad::make_primitive_domain(PrimitiveKind::box_with_sphere);
   references::expect_as_on_one_rank([&](const Communicator& communicator) {
     const Meshed meshed = mesh_model(communicator, model, 8, 0.1);
-    return mesh::hash_mesh(meshed.surface.mesh, meshed.numbering);
+    return mesh::hash_mesh(meshed.surface);
   });
 }
 

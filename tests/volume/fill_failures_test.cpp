@@ -85,11 +85,11 @@ TEST(RetryPolicy, leads_to_the_same_mesh_on_any_number_of_ranks) {
   for (const int retries : {0, 3}) {
     const Faulty options(Fault::throws, 1, retries);
     const Filled filled(world, body(), sizes(), options);
-    const std::string hash = mesh::hash_mesh(filled.mesh, filled.numbering);
+    const std::string hash = mesh::hash_mesh(filled.mesh);
     if (!world.is_root()) continue;
     EXPECT_EQ(hash, references::of_one_rank(world, hash, [&] {
                 const Filled same(Communicator::self(), body(), sizes(), options);
-                return mesh::hash_mesh(same.mesh, same.numbering);
+                return mesh::hash_mesh(same.mesh);
               }));
   }
 }
@@ -131,7 +131,7 @@ Ending failure_of(const Communicator& communicator, const surfaces::Surface& sur
   Ending ending;
   try {
     const Filled filled(communicator, surface, field, options);
-    ADD_FAILURE() << "filled " << filled.numbering.cell_count << " cells";
+    ADD_FAILURE() << "filled " << filled.mesh.numbering.cell_count << " cells";
   } catch (const VolumeFailure& failure) {
     ending = {failure.what(), failure.points(), failure.triangles()};
     EXPECT_EQ(failure.kind(), parallel::FailureKind::input);

@@ -136,7 +136,7 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   const Communicator world = Communicator::world();
   const auto& [name, surface, field, few, many, is_unique] = GetParam();
   const Filled filled(world, surface, field, in_zones_of(many));
-  const std::string hash = mesh::hash_mesh(filled.mesh, filled.numbering);
+  const std::string hash = mesh::hash_mesh(filled.mesh);
   // The mesh and what is known of it.
   const auto facts = [](const std::string& mesh, const Filled& of) {
     return fmt::format("{} {} {} {} {}", mesh, of.decomposed.lattice_points, of.decomposed.blocks,
@@ -146,7 +146,7 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   if (!world.is_root()) return;
   EXPECT_EQ(here, references::of_one_rank(world, here, [&] {
               const Filled same(Communicator::self(), surface, field, in_zones_of(many));
-              return facts(mesh::hash_mesh(same.mesh, same.numbering), same);
+              return facts(mesh::hash_mesh(same.mesh), same);
             }));
 }
 
@@ -171,12 +171,12 @@ Quality quality_of(const Filled& filled) {
       ratios += mesh::mean_ratio(p[0], p[1], p[2], p[3]);
       flat += mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest < 10;
       for (const auto& [i, j] : mesh::tetrahedron_edges) {
-        const double ratio = distance(p[i], p[j]) / filled.problem.field(0.5 * (p[i] + p[j]));
+        const double ratio = distance(p[i], p[j]) / filled.problem.surface.field(0.5 * (p[i] + p[j]));
         edges += (ratio > 0.7 && ratio < 1.4) / 6.0;
       }
     }
   }
-  const auto cells = static_cast<double>(filled.numbering.cell_count);
+  const auto cells = static_cast<double>(filled.mesh.numbering.cell_count);
   return {communicator.sum(ratios) / cells, communicator.sum(edges) / cells, communicator.sum(flat) / cells};
 }
 
@@ -198,7 +198,7 @@ TEST(FillZones, make_good_cells_of_the_sizes_asked_for) {
 TEST(FillZones, expect_about_the_tetrahedra_that_come) {
   const Communicator world = Communicator::world();
   const Filled filled(world, surfaces::cube_with_ball(18, 6), fields::uniform(0.22), in_zones_of(8'000));
-  const auto cells = static_cast<double>(filled.numbering.cell_count);
+  const auto cells = static_cast<double>(filled.mesh.numbering.cell_count);
   EXPECT_NEAR(filled.decomposed.expected_tetrahedra / cells, 1, 0.15);
   const auto core = static_cast<double>(filled.decomposed.core_tetrahedra);
   EXPECT_NEAR(core / static_cast<double>(filled.report.core_tetrahedra), 1, 0.05);
@@ -248,7 +248,7 @@ TEST(FillZones, keep_names_regions_and_sides) {
     EXPECT_EQ(filled.mesh.sides_of(static_cast<std::int32_t>(f)).front, surface.sides[f].front);
     EXPECT_EQ(filled.mesh.sides_of(static_cast<std::int32_t>(f)).back, surface.sides[f].back);
   }
-  const mesh::MeshCounts counts = mesh::count_mesh(filled.mesh, filled.numbering);
+  const mesh::MeshCounts counts = mesh::count_mesh(filled.mesh);
   EXPECT_EQ(counts.boundary_triangles, 6 * 2 * 64);
   EXPECT_EQ(counts.inner_triangles, 6 * 2 * 16);
   // Every vertex at a place where a surface vertex is has that one's classification.

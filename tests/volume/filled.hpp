@@ -35,15 +35,13 @@ struct Filled {
     Decomposition decomposition = decompose(problem.input());
     if (change) change(problem, decomposition.data());
     decomposed = decomposition.report();
-    mesh = fill_zones(problem.input(), std::move(decomposition), report);
-    numbering = mesh::number_mesh(mesh);
+    mesh = mesh::number_mesh(fill_zones(problem.input(), std::move(decomposition), report));
   }
 
   Problem problem;
   DecompositionReport decomposed;
   VolumeReport report;
-  mesh::DistributedMesh mesh;
-  mesh::Numbering numbering;
+  mesh::NumberedMesh mesh;
 };
 
 /// The places of vertices, each once, over all ranks.
@@ -61,15 +59,14 @@ inline std::int64_t count_places(const Filled& filled) {
 
 /// Valid, with the surface as its boundary, the volume it encloses, and one vertex at each place.
 inline void expect_valid(const Filled& filled, const surfaces::Surface& surface) {
-  const mesh::ValidityReport validity =
-      mesh::check_volume_mesh(filled.mesh, filled.numbering, &filled.problem.surface);
+  const mesh::ValidityReport validity = mesh::check_volume_mesh(filled.mesh, &filled.problem.surface);
   for (const std::string& violation : validity.violations) ADD_FAILURE() << violation;
   for (mesh::RegionId region = 0; region < surfaces::region_count(surface); ++region) {
     const double expected = surfaces::volume(surface, region);
     ASSERT_LT(static_cast<std::size_t>(region), validity.region_volumes.size());
     EXPECT_NEAR(validity.region_volumes[region] / expected, 1, 1e-8) << "region " << region;
   }
-  EXPECT_EQ(filled.numbering.vertex_count, count_places(filled));
+  EXPECT_EQ(filled.mesh.numbering.vertex_count, count_places(filled));
 }
 
 /// What names each cell by the bits of its corners' coordinates, ascending, on every rank.

@@ -4,8 +4,8 @@
 #include "tests/meshes/surfaces.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/block_regions.hpp"
-#include "volume/lattice/near_surface.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
+#include "volume/lattice/local_surface.hpp"
 #include "volume/volume_mesher.hpp"
 #include "volume/zones/zones.hpp"
 
@@ -37,17 +37,13 @@ struct Problem {
   Problem(const parallel::Communicator& ranks, const surfaces::Surface& of, sizing::SizeField sizes,
           VolumeOptions claims = {})
       : communicator(ranks),
-        surface(surfaces::spread(ranks, of)),
-        numbering(mesh::number_mesh(surface)),
-        field(std::move(sizes)),
+        surface{mesh::number_mesh(surfaces::spread(ranks, of)), std::move(sizes)},
         options(claims) {}
 
-  VolumeInput input() const { return {surface, numbering, field, options}; }
+  VolumeInput input() const { return {surface, options}; }
 
   parallel::Communicator communicator;
-  mesh::DistributedMesh surface;
-  mesh::Numbering numbering;
-  sizing::SizeField field;
+  sizing::SizedSurface surface;
   VolumeOptions options;
 };
 
@@ -58,9 +54,8 @@ inline geometry::Box box_of(const surfaces::Surface& surface) {
   return box;
 }
 
-struct Clocked {};
 /// The lattice of a problem, and what changes of its blocks a test may make.
-struct GrownLattice : Clocked, Lattice {
+struct GrownLattice : Lattice {
   GrownLattice(const Problem& problem, const geometry::Box& box)
       : Lattice(grow_lattice(problem.input(), box)), changes(tree.block_count()) {}
   GrownLattice(const GrownLattice&) = delete;
@@ -71,20 +66,20 @@ struct GrownLattice : Clocked, Lattice {
 
 /// The triangles near a rank's blocks, and the regions of these, which the lattice gets.
 struct Surroundings {
-  Surroundings(const Problem& problem, GrownLattice& lattice)
-      : triangles(deliver(problem, lattice)),
+  explicit Surroundings(GrownLattice& lattice)
+      : triangles(deliver(lattice)),
         surface(triangles),
         found(find_block_regions(lattice, triangles, surface)) {
     lattice.regions = found.of_block;
   }
 
-  static std::vector<SurfaceTriangle> deliver(const Problem& problem, GrownLattice& lattice) {
+  static std::vector<SurfaceTriangle> deliver(GrownLattice& lattice) {
     lattice.radii = search_radii_of_blocks(lattice, lattice.tree.first(), lattice.tree.last());
-    return add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
+    return add_ghost_triangles(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
   }
 
   std::vector<SurfaceTriangle> triangles;
-  NearSurface surface;
+  LocalSurface surface;
   BlockRegions found;
 };
 

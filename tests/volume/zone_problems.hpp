@@ -21,11 +21,6 @@ inline std::vector<double> flat(const std::vector<Vec3>& points) {
   return coordinates;
 }
 
-inline LocalTriangle face_of(const LocalCell& cell, int face) {
-  const int* corner = mesh::tetrahedron_faces[face];
-  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
-}
-
 template <std::size_t n>
 std::array<LocalIndex, n> sorted(std::array<LocalIndex, n> indices) {
   std::sort(indices.begin(), indices.end());
@@ -44,8 +39,8 @@ ZoneProblem make_problem(const surfaces::Surface& surface, int inner, double cle
   problem.points = surface.points;
   problem.triangles = surface.triangles;
   for (const std::int32_t f : surface.face) {
-    problem.front.push_back(surface.sides[f].front);
-    problem.back.push_back(surface.sides[f].back);
+    problem.inside.push_back(surface.sides[f].front);
+    problem.outside.push_back(surface.sides[f].back);
   }
   geometry::Box box;
   for (const Vec3& p : surface.points) box.add(p);

@@ -1,6 +1,7 @@
 #include "volume/core/core_border.hpp"
 
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -9,11 +10,11 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// Cells that are counted to a core leaf with core all around: four at each of its six sides, half of which
-/// are the neighbours'.
+/// Tetrahedra per core leaf deep in the core: four at each of its six sides, half of them counted by
+/// neighbours.
 constexpr int cells_per_leaf = 12;
 
-/// Whether core leaves touch a block, as far as is seen without looking closer.
+/// Whether core leaves may touch a block. Never false where one does.
 bool may_be_beside_core(const LeafSurroundings& around, const CoreLeaves& core) {
   bool found = false;
   around.for_each_cube([&](const LeafSurroundings::Cube& cube) {
@@ -23,7 +24,7 @@ bool may_be_beside_core(const LeafSurroundings& around, const CoreLeaves& core) 
   return found;
 }
 
-/// Of all points keeps those of the shell, and finds the border.
+/// Keeps the points of the shell, and finds the border.
 void find_shell(const LatticeTree& tree, const BlockPoints& points, LocalShell& shell) {
   BlockPoints& kept = shell.points;
   kept.first = shell.borders.first = points.first;
@@ -76,13 +77,11 @@ void find_shell(const LatticeTree& tree, const BlockPoints& points, LocalShell& 
 
 }  // namespace
 
-LocalShell make_local_shell(const Lattice& lattice, std::unique_ptr<const NearSurface> surface,
+LocalShell make_local_shell(const Lattice& lattice, std::unique_ptr<const LocalSurface> surface,
                             std::vector<BlockChange> changes) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   using parallel::ScopedCpu;
   BlockPoints points;
-  parallel::agree(communicator, [&] {
-    const ScopedCpu task(ScopedCpu::As::task);
+  parallel::collectively(lattice.tree.communicator(), ScopedCpu::As::task, [&] {
     points =
         make_points(lattice, changes, lattice.tree.first(), lattice.tree.last(), *surface, lattice.radii);
     surface.reset();

@@ -50,7 +50,7 @@ const CoreCells::Point& CoreCells::point(const HalfPlace& at) {
   return _points[i];
 }
 
-/// The points of a square of the side, `step` halves of a leaf wide, from its low corner there.
+/// Takes the points of a square on the side, `step` half leaf edges wide, from its low corner.
 void CoreCells::take_square(const Side& side, int first, int second, int step) {
   _pattern = 0;
   for (int k = 0; k < 8; ++k) {
@@ -65,8 +65,7 @@ void CoreCells::take_square(const Side& side, int first, int second, int step) {
   }
 }
 
-/// The pyramid of the centre over the square, and that of the other leaf's, where it is core: both are cut
-/// alike.
+/// Makes the pyramid from the centre to the square, and the one of the other leaf if it is core.
 void CoreCells::cover_square(const Side& side, const Leaf& other, bool counts_both) {
   const bool is_core = _core.is_core(other);
   if (is_core && !counts_both) return;
@@ -74,7 +73,7 @@ void CoreCells::cover_square(const Side& side, const Leaf& other, bool counts_bo
   const Point across{is_core ? center_of(_around.tree(), other) : -1, false};
   for (const auto& [p, q, r] : _squares.triangles(side.axis, _pattern)) {
     const Point *x = &_square[p], *y = &_square[q], *z = &_square[r];
-    // Seen against the axis they turn counter-clockwise: the volume above is positive.
+    // Triangles are counter-clockwise seen against the axis: the volume above is positive.
     if (side.sign > 0) std::swap(y, z);
     add_cell(side.child, {x, y, z, &center});
     if (is_core)
@@ -84,14 +83,14 @@ void CoreCells::cover_square(const Side& side, const Leaf& other, bool counts_bo
   }
 }
 
-/// Tetrahedra around the line to the centre of a leaf as large, for each part of an edge of the square.
+/// Makes a tetrahedron for each edge of the square, or half edge, around the line between two centres.
 void CoreCells::surround_axis(const Side& side, const Leaf& other) {
   const bool is_core = _core.is_core(other);
   const unsigned claims = is_core ? 0 : _core.claims(other);
   const Point center{center_of(_around.tree(), {_around.block(), side.child}), false};
   const Point across{center_of(_around.tree(), other), !is_core && claims != CoreLeaves::all_sides};
   const Point &below = side.sign > 0 ? center : across, &above = side.sign > 0 ? across : center;
-  // Across each edge of the square lies another side of the leaf across it.
+  // The sides of the other leaf at the four edges of the square.
   const int b = side.first_axis(), d = side.second_axis();
   const int across_edge[4] = {2 * d, 2 * b + 1, 2 * d + 1, 2 * b};
   const Point* last = &_square[0];
@@ -107,7 +106,7 @@ void CoreCells::surround_axis(const Side& side, const Leaf& other) {
   }
 }
 
-/// The cells between a core leaf and the cube beside it, unless they are counted to the cube.
+/// Makes the cells between a core leaf and the cube beside it, unless that cube makes them.
 void CoreCells::make_side(const Side& side) {
   using Size = LeafSurroundings::Size;
   const int b = side.first_axis(), d = side.second_axis();

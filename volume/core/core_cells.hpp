@@ -1,10 +1,12 @@
-/// The tetrahedra of the core, and the triangles of its border, block by block.
+/// The tetrahedra of the core and the triangles of its border, block by block.
 ///
-/// Three cases. Between two core leaves of one size: a tetrahedron for each part of an edge of their square,
-/// around the line between their centres; the same across a plain square to a leaf of the shell that has its
-/// centre, and the border goes around that leaf's pyramid. Between unequal ones: the pyramid of each centre
-/// over the finer square, cut in two, by the same diagonal on both sides. Towards the shell: the pyramid over
-/// the finer square, cut with the points that stand on its edges.
+/// A *square* is a face between two leaves; a *plain* square has no points on its edges. Three cases:
+/// 1. Two core leaves of one size: one tetrahedron for each edge of the square, or half edge. Its other
+///    points are the centres of both leaves. The same at a plain square to a shell leaf of that size with a
+///    centre point. The pyramid in the shell leaf is then core, and the border follows its other faces.
+/// 2. Two core leaves of different size: two pyramids over the finer square, one to each centre. Both are cut
+///    in two by the same diagonal.
+/// 3. Otherwise, towards the shell: one pyramid over the finer square, cut with the points on its edges.
 #pragma once
 
 #include "volume/core/core_leaves.hpp"
@@ -17,44 +19,46 @@
 
 namespace aeroloom::volume {
 
-/// A tetrahedron of the core, positive volume in VTK's order.
+/// A tetrahedron of the core. Its volume is positive in VTK's order.
 struct CoreCell {
-  std::array<std::int64_t, 4> points;  ///< running numbers of the lattice
-  std::uint8_t child;                  ///< the leaf it is counted to
-  std::uint8_t of_shell;               ///< points that belong to the shell too, a bit each
+  std::array<std::int64_t, 4> points;  ///< numbers of lattice points
+  std::uint8_t child;                  ///< the leaf that makes it
+  std::uint8_t of_shell;               ///< which points belong to the shell too, as bits
 };
 
-/// A triangle between core and shell, counter-clockwise seen from the core.
+/// A triangle between core and shell, counter-clockwise if seen from the core.
 struct BorderTriangle {
   std::array<std::int64_t, 3> points;
   std::uint8_t child;  ///< the core leaf beside it
 };
 
-/// Makes those of this rank's blocks, one after the other.
+/// Makes the tetrahedra and the border of one block after the other.
 class CoreCells {
 public:
   CoreCells(const LatticeTree& tree, const CoreLeaves& core, const CoreSquares& squares);
 
+  /// move_to() and make_here().
   void make(BlockIndex b);
-  /// Moves to a block and makes nothing there; what is asked for is known of it.
+  /// Sets the block, so that around(), is_of_shell() and is_deep() can be called. Makes no tetrahedra.
   void move_to(BlockIndex b);
+  /// Makes the tetrahedra and the border of the block.
   void make_here();
   const LeafSurroundings& around() const { return _around; }
   bool is_of_shell(const HalfPlace& at) { return point(at).of_shell; }
-  /// Whether no point of the shell stands on a leaf of the block.
+  /// Whether a leaf of the block has no point of the shell.
   bool is_deep(int child);
-  /// Of the block made last.
+  /// Of the block that was made last.
   std::span<const CoreCell> cells() const { return _cells; }
   std::span<const BorderTriangle> borders() const { return _borders; }
 
 private:
-  /// A point of the lattice at a half place of the block.
+  /// A lattice point at a half place of the block.
   struct Point {
     std::int64_t number;
     bool of_shell;
   };
   const Point& point(const HalfPlace& at);
-  /// A side of a core leaf; sign -1 the lower one along the axis, 1 the higher.
+  /// A side of a core leaf. sign: -1 for the lower side along the axis, 1 for the upper one.
   struct Side {
     int child;
     HalfPlace leaf;
@@ -75,7 +79,7 @@ private:
   std::array<Point, 125> _points;
   std::array<std::uint8_t, 125> _known{};
   std::array<Point, 8> _square;  // in the order of square_places
-  SquarePattern _pattern = 0;    // of it
+  SquarePattern _pattern = 0;    // of _square
   std::vector<CoreCell> _cells;
   std::vector<BorderTriangle> _borders;
 };

@@ -1,6 +1,7 @@
 #include "volume/core/core_leaves.hpp"
 
 #include "geometry/sort_unique.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <utility>
 
@@ -32,7 +33,7 @@ CoreLeaves::CoreLeaves(const LatticeTree& tree, std::span<const BlockChange> cha
     choose(tree, changes, points);
   }
   _ghosts.update(_core);
-  shrink_until_stable(tree);
+  demote_until_stable(tree);
   {
     const ScopedCpu task(ScopedCpu::As::task);
     claim(tree);
@@ -51,8 +52,7 @@ std::vector<BlockIndex> CoreLeaves::blocks_unlike(const CoreLeaves& other) const
   return found;
 }
 
-/// Whether all leaves around have one size and all their points in a region: nothing is to be looked for
-/// then.
+/// Whether all leaves around have one size and all their points in the region. Saves a search.
 bool CoreLeaves::has_all_around(const LeafSurroundings& around, RegionId region) const {
   constexpr std::uint64_t corner_and_center = 0x81;
   bool all = true;
@@ -68,7 +68,7 @@ bool CoreLeaves::has_all_around(const LeafSurroundings& around, RegionId region)
   return all;
 }
 
-/// Leaves that have all their points, clear of the surface.
+/// Chooses the leaves whose points all exist and that keep their distance from the surface.
 void CoreLeaves::choose(const LatticeTree& tree, std::span<const BlockChange> changes,
                         const BlockPoints& points) {
   LeafSurroundings around(tree);
@@ -95,8 +95,8 @@ void CoreLeaves::choose(const LatticeTree& tree, std::span<const BlockChange> ch
   }
 }
 
-/// Whether a core leaf of the block has a plain square to the shell and points of the shell around it.
-bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const {
+/// Whether one of the two rules demotes a core leaf of the block (core_leaves.hpp).
+bool CoreLeaves::is_demoted(const LeafSurroundings& around, const HalfPlace& leaf) const {
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2, b = (axis + 1) % 3, d = (axis + 2) % 3, sign = side % 2 == 0 ? -1 : 1;
     HalfPlace across = leaf;
@@ -122,11 +122,11 @@ bool CoreLeaves::leaves_core(const LeafSurroundings& around, const HalfPlace& le
   return false;
 }
 
-/// A leaf of the shell has none at a corner where the core claims all three sides, and none at its centre
-/// where it claims all six.
+/// Whether a leaf has a part of the shell at a place. A shell leaf has none at a corner where the core claims
+/// all three sides, and none at its centre where it claims all six.
 bool CoreLeaves::has_shell_at(const Leaf& leaf, const LeafSurroundings& around, const HalfPlace& at) const {
   if (is_core(leaf)) return false;
-  if (_claims.empty()) return true;  // while leaves still leave the core
+  if (_claims.empty()) return true;  // while leaves are still demoted
   const unsigned claimed = claims(leaf);
   if (claimed == 0) return true;
   if ((at[0] & 1) && (at[1] & 1) && (at[2] & 1)) return claimed != all_sides;
@@ -139,7 +139,7 @@ bool CoreLeaves::has_shell_at(const Leaf& leaf, const LeafSurroundings& around, 
   return (claimed & sides) != sides;
 }
 
-/// Finds the plain squares between leaves of the shell that have their centre and core leaves of their size.
+/// Finds the plain squares between core leaves and shell leaves of the same size with a centre point.
 void CoreLeaves::claim(const LatticeTree& tree) {
   constexpr int center_slot = 7;
   _claims.assign(_ghosts.count(), 0);
@@ -174,10 +174,9 @@ bool CoreLeaves::is_beside_shell(const LeafSurroundings& around) const {
   return found;
 }
 
-void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
-  const parallel::Communicator& communicator = tree.communicator();
+void CoreLeaves::demote_until_stable(const LatticeTree& tree) {
   LeafSurroundings around(tree);
-  std::vector<std::size_t> open;  // own blocks that leaves may have to leave
+  std::vector<std::size_t> open;  // own blocks whose leaves must be checked
   _beside_shell.assign(_ghosts.own_count(), 0);
   {
     const ScopedCpu task(ScopedCpu::As::task);
@@ -205,7 +204,7 @@ void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
         around.move_to(_ghosts.first() + static_cast<BlockIndex>(i));
         const std::uint8_t before = _core[i];
         for (int child = 0; child < 8; ++child) {
-          if ((_core[i] >> child & 1) && leaves_core(around, around.place_of(child)))
+          if ((_core[i] >> child & 1) && is_demoted(around, around.place_of(child)))
             _core[i] &= static_cast<std::uint8_t>(~(1U << child));
         }
         if (_core[i] == before) continue;
@@ -213,8 +212,8 @@ void CoreLeaves::shrink_until_stable(const LatticeTree& tree) {
         open_beside(around.block());
       }
     }
-    changed = communicator.maximum(std::int64_t{changed}) > 0;
-    if (!changed || communicator.size() == 1) continue;
+    changed = tree.communicator().maximum(std::int64_t{changed}) > 0;
+    if (!changed || tree.communicator().size() == 1) continue;
     const std::vector<std::uint8_t> before(_core.begin() + static_cast<std::ptrdiff_t>(_ghosts.own_count()),
                                            _core.end());
     _ghosts.update(_core);

@@ -1,21 +1,20 @@
-/// Which leaves of the lattice are *core*: their tetrahedra come from a table, and TetGen fills the *shell*
+/// Which leaves of the lattice are *core*. Their tetrahedra come from a table. TetGen fills the *shell*
 /// between them and the surface.
 ///
-/// A leaf may be core where all points of the lattice on it exist, in one region, `core_clearance` off the
-/// surface. Of those a leaf leaves the core that has a plain square, without points on its edges, to a leaf
-/// of its own size in the shell, while a point of the shell stands in the middle of one of the four edges
-/// across that square, or of the square opposite. So does one with points on all four edges of such a square:
-/// they lie on one circle. This until nothing changes, which ends in one result whatever the order. Then
-/// every triangle of the core's *border* is in the Delaunay mesh of the shell's points without being asked
-/// for: of a square of edge s the ball through its corners whose centre lies between s/4 and s/2 inside the
-/// core holds no point of the shell (compare Labelle and Shewchuk, *Isosurface stuffing*, ACM Trans. Graph.
-/// 26, 2007, doi:10.1145/1276377.1276448). It is looked up all the same, and a leaf with a triangle that is
-/// missing leaves the core.
+/// A leaf can be core if all its lattice points exist, lie in one region and keep core_clearance from the
+/// surface. Two rules then demote leaves to the shell until nothing changes. The order does not matter. Both
+/// look at squares between a core leaf and a shell leaf of the same size:
+/// 1. The square has points on all four edges. They lie on one circle.
+/// 2. The square is plain, without points on its edges. The shell has a point in the middle of the opposite
+///    square, or of one of the leaf's four edges at right angles to the square.
+/// Then all border triangles are in the Delaunay mesh of the shell's points. For a square of edge s, the ball
+/// through its corners with its centre s/4 to s/2 inside the core contains no shell point (compare Labelle
+/// and Shewchuk, *Isosurface stuffing*, ACM Trans. Graph. 26, 2007, doi:10.1145/1276377.1276448). They are
+/// looked up after filling all the same: if one is missing, its leaf is demoted.
 #pragma once
 
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/block_points.hpp"
-#include "volume/lattice/ghost_blocks.hpp"
+#include "volume/lattice/ghost_layer.hpp"
 #include "volume/lattice/leaf_surroundings.hpp"
 
 #include <cstdint>
@@ -24,31 +23,31 @@
 
 namespace aeroloom::volume {
 
-/// Of this rank's blocks and of those that touch them. The same on any number of ranks.
+/// The core leaves in this rank's blocks and their ghosts. The same on any number of ranks.
 class CoreLeaves {
 public:
-  /// `points` are all those of this rank's blocks, `changes` those of all blocks. Collective.
+  /// `points` are all points of this rank's blocks, `changes` has one per block index. Collective.
   CoreLeaves(const LatticeTree& tree, std::span<const BlockChange> changes, const BlockPoints& points);
 
-  /// The core leaves of a block, a bit each.
+  /// The core leaves of a block, as bits.
   std::uint8_t of(BlockIndex b) const { return _core[_ghosts.place(b)]; }
   bool is_core(const Leaf& leaf) const { return of(leaf.block) >> leaf.child & 1; }
-  /// This rank's blocks whose core is another than in `other`, of the same lattice.
+  /// The blocks of this rank whose core leaves differ from those in `other`, of the same lattice.
   std::vector<BlockIndex> blocks_unlike(const CoreLeaves& other) const;
-  const GhostBlocks& ghosts() const { return _ghosts; }
-  /// The region of the core leaves of one of this rank's blocks.
+  const GhostLayer& ghosts() const { return _ghosts; }
+  /// The region of the core leaves of a block of this rank.
   mesh::RegionId region(BlockIndex b) const { return _regions[_ghosts.place(b)]; }
 
-  /// Whether leaves of the shell may be among those of an own block with core leaves and those that touch it.
+  /// Whether an own block with core leaves may have shell leaves or touch some.
   bool is_beside_shell(BlockIndex own) const { return _beside_shell[_ghosts.place(own)] != 0; }
-  /// The sides of a leaf of the shell, a bit each, where the pyramid of its centre belongs to the core: plain
-  /// squares to core leaves of its size. The ball that proves such a square goes through that centre.
+  /// The sides of a shell leaf whose pyramid to its centre belongs to the core, as bits: those with a plain
+  /// square to a core leaf of its size. The empty ball of such a square passes through that centre.
   static constexpr unsigned all_sides = 63;
   unsigned claims(const Leaf& leaf) const {
     return static_cast<unsigned>(_claims[_ghosts.place(leaf.block)] >> 6 * leaf.child & all_sides);
   }
-  /// Whether a point of the lattice belongs to the shell: one of the leaves that touch it does, with a part
-  /// there that the core does not claim.
+  /// Whether a lattice point belongs to the shell. It does if it touches a shell leaf, in a part of it that
+  /// the core does not claim.
   bool is_of_shell(const LeafSurroundings& around, const HalfPlace& at) const {
     return around.any_leaf_at(at, [&](const Leaf& leaf) { return has_shell_at(leaf, around, at); });
   }
@@ -58,22 +57,22 @@ private:
   void choose(const LatticeTree& tree, std::span<const BlockChange> changes, const BlockPoints& points);
   bool has_all_around(const LeafSurroundings& around, mesh::RegionId region) const;
   bool is_beside_shell(const LeafSurroundings& around) const;
-  void shrink_until_stable(const LatticeTree& tree);
+  void demote_until_stable(const LatticeTree& tree);
   void claim(const LatticeTree& tree);
-  bool leaves_core(const LeafSurroundings& around, const HalfPlace& leaf) const;
+  bool is_demoted(const LeafSurroundings& around, const HalfPlace& leaf) const;
 
-  GhostBlocks _ghosts;
+  GhostLayer _ghosts;
   std::vector<std::uint8_t> _core;          // by place
-  std::vector<std::uint64_t> _claims;       // by place: six sides of each leaf, a bit each
+  std::vector<std::uint64_t> _claims;       // by place: six bits per leaf, one per side
   std::vector<std::uint8_t> _beside_shell;  // of this rank's blocks
   std::vector<mesh::RegionId> _regions;     // of this rank's blocks
-  /// The points of a block that exist, and their region.
+  /// Which points of a block exist, and their region.
   struct Present {
-    std::uint64_t slots = 0;                  ///< points, a bit each
-    mesh::RegionId region = mesh::no_region;  ///< of all of them; none where they lie in several
+    std::uint64_t slots = 0;                  ///< as bits
+    mesh::RegionId region = mesh::no_region;  ///< no_region if they lie in several
     static constexpr auto fields() { return std::tuple(&Present::slots, &Present::region); }
   };
-  std::vector<Present> _present;  // while leaves are chosen
+  std::vector<Present> _present;  // by place, in the constructor alone
 };
 
 }  // namespace aeroloom::volume

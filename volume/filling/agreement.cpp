@@ -3,6 +3,7 @@
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/rendezvous.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -11,7 +12,7 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// A face as it travels to the rank that matches it.
+/// A face as it is sent to the rank that matches it.
 struct WireFace {
   std::array<mesh::SharedVertexKey, 3> vertices;
   ZoneIndex zone;
@@ -28,22 +29,6 @@ bool are_partners(const WireFace& a, const WireFace& b) {
   return a.zone != b.zone && a.region == b.region && a.odd() != b.odd();
 }
 
-/// Which of these faces have no partner on any rank. Collective.
-std::vector<std::int32_t> find_unmatched_here(const parallel::Communicator& communicator,
-                                              std::span<const ZoneFace> faces) {
-  std::vector<WireFace> mine;
-  mine.reserve(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const ZoneFace& face = faces[i];
-    mine.push_back({face.vertices, face.zone, face.region, static_cast<std::int32_t>(2 * i) + face.odd});
-  }
-  const mesh::Rendezvous meeting(communicator, mine, &WireFace::vertices, &WireFace::zone);
-  return meeting.answer<std::int32_t>([](const auto& group, const auto& reply) {
-    if (group.size() == 2 && are_partners(group[0].item, group[1].item)) return;
-    for (const auto& guest : group) reply(guest, guest.item.index / 2);
-  });
-}
-
 }  // namespace
 
 std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
@@ -51,15 +36,21 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
   std::vector<ZoneFace> mine;
   {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    for (const std::int32_t face : find_unmatched_here(communicator, faces)) mine.push_back(faces[face]);
+    std::vector<WireFace> sent;
+    sent.reserve(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const ZoneFace& face = faces[i];
+      sent.push_back({face.vertices, face.zone, face.region, static_cast<std::int32_t>(2 * i) + face.odd});
+    }
+    const mesh::Rendezvous meeting(communicator, sent, &WireFace::vertices, &WireFace::zone);
+    const auto unmatched = meeting.answer<std::int32_t>([](const auto& group, const auto& reply) {
+      if (group.size() == 2 && are_partners(group[0].item, group[1].item)) return;
+      for (const auto& guest : group) reply(guest, guest.item.index / 2);
+    });
+    for (const std::int32_t face : unmatched) mine.push_back(faces[face]);
   }
-  std::vector<ZoneFace> all = communicator.all_gather_items<ZoneFace>(mine);
-  std::sort(all.begin(), all.end(), [](const ZoneFace& a, const ZoneFace& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices
-           : a.zone != b.zone       ? a.zone < b.zone
-                                    : a.odd < b.odd;
-  });
-  return all;
+  return communicator.gather_sorted(
+      mine, [](const ZoneFace& face) { return std::tie(face.vertices, face.zone, face.odd); });
 }
 
 std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched) {

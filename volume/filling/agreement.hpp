@@ -1,8 +1,7 @@
-/// Whether zones fit together, and where they do not; what is done about it is in retry_policy.hpp.
+/// Checks that the tetrahedra of zones fit together. For remedies where they do not see retry_policy.hpp.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/zone_piece.hpp"
 
 #include <span>
@@ -10,18 +9,18 @@
 
 namespace aeroloom::volume {
 
-/// The faces that have no partner: another zone's face with the same vertices, with the other orientation, in
-/// the same region. By vertices and zone, the same on every rank. Collective.
+/// The faces of all ranks without a partner: a face of another zone with the same vertices, the same region
+/// and the opposite orientation. Sorted by vertices and zone, the same on every rank. Collective.
 std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
                                      std::span<const ZoneFace> faces);
 
-/// A place where zones disagree: faces without partner that are connected by vertices.
+/// A place where zones disagree: faces without partner, connected over vertices.
 struct DisputedPlace {
-  std::vector<LeafNumber> leaves;  ///< of the vertices, ascending; none where TetGen added them all
-  std::vector<ZoneIndex> zones;    ///< that claim faces there, ascending
+  std::vector<LeafNumber> leaves;  ///< of the vertices, ascending; empty if TetGen added all of them
+  std::vector<ZoneIndex> zones;    ///< with faces there, ascending
   std::int32_t faces = 0;
 };
-/// By lowest vertex.
+/// The places of faces from find_unmatched(), by lowest vertex.
 std::vector<DisputedPlace> find_places(std::span<const ZoneFace> unmatched);
 
 }  // namespace aeroloom::volume

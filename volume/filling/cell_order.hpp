@@ -1,4 +1,4 @@
-/// An order of tetrahedra in which neighbours are near each other in memory.
+/// An order of tetrahedra that keeps neighbours close in memory.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -11,7 +11,7 @@
 
 namespace aeroloom::volume {
 
-/// Cells by the place of their centroid along a space-filling curve.
+/// The indices of cells, sorted by the place of their centroids along the Morton curve.
 std::vector<std::uint32_t> order_along_curve(std::span<const geometry::Vec3> points,
                                              std::span<const std::array<mesh::LocalIndex, 4>> cells);
 

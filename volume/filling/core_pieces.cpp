@@ -3,6 +3,7 @@
 #include "geometry/predicates.hpp"
 #include "geometry/sort_unique.hpp"
 #include "mesh/data/piece_room.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/filling/core_parcels.hpp"
 #include "volume/filling/core_ranges.hpp"
 
@@ -22,10 +23,10 @@ using parallel::ScopedCpu;
 
 namespace {
 
-/// A cell by running numbers of the lattice.
+/// A cell by numbers of lattice points.
 struct NumberedCell {
   std::array<std::int64_t, 4> points;
-  std::uint8_t shared;  ///< points that other pieces may know, a bit each
+  std::uint8_t shared;  ///< points that other pieces may have, as bits
 };
 
 void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
@@ -35,10 +36,10 @@ void add_cell(const std::array<LocalIndex, 4>& cell, Piece& piece) {
   piece.cells.insert(piece.cells.end(), cell.begin(), cell.end());
 }
 
-/// The points of a piece by number, and what it calls them.
+/// The lattice points of a piece by number, and their local indices.
 class PieceNumbers {
 public:
-  /// Most numbers are from `low` to before `high`: a place in a table each. The others are sorted.
+  /// Numbers from `low` to before `high` are in a table, the few others in a sorted list.
   PieceNumbers(std::span<const NumberedCell> cells, std::int64_t low, std::int64_t high)
       : _low(low),
         _high(high),
@@ -55,8 +56,8 @@ public:
         [](const Other& a, const Other& b) { return a.number == b.number; });
   }
 
-  /// Calls add(number, whether other pieces may know it) for each, ascending; it returns what the piece calls
-  /// the point.
+  /// Calls add(number, whether other pieces may have it) for each point, ascending. It returns the local
+  /// index.
   template <class Add>
   void name(const Add& add) {
     std::size_t next = 0;
@@ -94,19 +95,19 @@ private:
   std::vector<Other> _others;
 };
 
-/// A piece of the core from its cells; vertices by number.
-Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const NumberedCell> cells,
+/// Makes a piece of the core from its cells. Vertices are in the order of their numbers.
+Piece make_piece(const CorePoints& points, RegionId region, std::span<const NumberedCell> cells,
                  BlockIndex first, BlockIndex last) {
-  const std::int64_t low = lattice_number(naming.tree(), first, 0);
+  const std::int64_t low = lattice_number(points.tree(), first, 0);
   PieceNumbers numbers(cells, low, low + std::int64_t{last - first} * slots_per_block);
   Piece piece;
   piece.region = region;
   numbers.name([&](std::int64_t number, bool is_shared) {
     const LocalIndex v = piece.vertex_count();
-    naming.add_vertex(number, region, piece);
+    points.add_vertex(number, region, piece);
     if (is_shared) {
       piece.shared_vertices.push_back(v);
-      piece.shared_keys.push_back(naming.vertex_key(number));
+      piece.shared_keys.push_back(points.vertex_key(number));
     }
     return v;
   });
@@ -120,10 +121,10 @@ Piece make_piece(const CoreNaming& naming, RegionId region, std::span<const Numb
   return piece;
 }
 
-/// Running numbers met lately and what they stand for: cells next to each other on the curve share most.
+/// Remembers the local indices of recent lattice points: cells next to each other on the curve share most.
 class RecentNumbers {
 public:
-  /// The result of `find(number)`, remembered from the last time where that is not long ago.
+  /// The result of `find(number)`, remembered if the last call for it was recent.
   template <class Find>
   LocalIndex operator()(std::int64_t number, const Find& find) {
     Slot& slot = _slots[static_cast<std::size_t>(number) % slot_count];
@@ -140,9 +141,9 @@ private:
   std::vector<Slot> _slots = std::vector<Slot>(slot_count);
 };
 
-/// Which vertices have a face that is there once.
+/// Which vertices have a face that occurs only once.
 std::vector<std::uint8_t> find_open_vertices(std::vector<LocalTriangle> faces, LocalIndex vertex_count) {
-  // By the lowest vertex; the other two in one number.
+  // Faces are grouped by the lowest vertex; the other two are packed into one number.
   std::vector<std::int64_t> starts(static_cast<std::size_t>(vertex_count) + 1, 0);
   for (LocalTriangle& face : faces) {
     std::sort(face.begin(), face.end());
@@ -166,8 +167,8 @@ std::vector<std::uint8_t> find_open_vertices(std::vector<LocalTriangle> faces, L
   return open;
 }
 
-/// Adds cells of the core to a zone's piece. What does not meet a face there is known elsewhere.
-void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, CoreSide& side, Piece& piece) {
+/// Adds cells of the core to a zone's piece. Vertices of faces without a neighbour become shared.
+void extend_piece(const CorePoints& points, std::span<const CoreParcel> cells, CoreSide& side, Piece& piece) {
   const auto find = [](const std::vector<std::int64_t>& numbers, std::int64_t n) {
     const auto at = std::lower_bound(numbers.begin(), numbers.end(), n);
     return at != numbers.end() && *at == n ? static_cast<LocalIndex>(at - numbers.begin()) : -1;
@@ -185,7 +186,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
   }
   geometry::sort_unique(added);
   const LocalIndex first_added = piece.vertex_count();
-  for (const std::int64_t n : added) naming.add_vertex(n, piece.region, piece);
+  for (const std::int64_t n : added) points.add_vertex(n, piece.region, piece);
   const auto local_of = [&](std::int64_t n) {
     const LocalIndex known = find(side.lattice, n);
     return known >= 0 ? side.first_lattice + known : first_added + find(added, n);
@@ -198,8 +199,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
     std::array<LocalIndex, 4> cell;
     for (int k = 0; k < 4; ++k) cell[k] = locals(parcel.points[k], local_of);
     add_cell(cell, piece);
-    for (const auto& corners : mesh::tetrahedron_faces)
-      faces.push_back({cell[corners[0]], cell[corners[1]], cell[corners[2]]});
+    for (int face = 0; face < 4; ++face) faces.push_back(face_of(cell, face));
   }
   const std::vector<std::uint8_t> shared = find_open_vertices(std::move(faces), piece.vertex_count());
   std::vector<LocalIndex> vertices;
@@ -210,7 +210,7 @@ void extend_piece(const CoreNaming& naming, std::span<const CoreParcel> cells, C
     if (was || shared[v]) {
       vertices.push_back(v);
       vertex_keys.push_back(was ? piece.shared_keys[known]
-                                : naming.vertex_key(v >= first_added ? added[v - first_added]
+                                : points.vertex_key(v >= first_added ? added[v - first_added]
                                                                      : side.lattice[v - side.first_lattice]));
     }
     known += was;
@@ -234,7 +234,7 @@ std::pair<Piece*, CoreSide*> piece_in(RegionId region, ZoneResult& result) {
   return {&result.pieces[place], &result.core_sides[place]};
 }
 
-/// Makes and schedules.
+/// Makes the pieces of the core.
 class CoreMaker {
 public:
   CoreMaker(const Lattice& lattice, const Shell& shell, std::map<ZoneIndex, ZoneResult>& results)
@@ -242,13 +242,13 @@ public:
         _lattice(lattice),
         _shell(shell),
         _results(results),
-        _naming(lattice, shell.local.changes),
+        _points(lattice, shell.local.changes),
         _ranges(lattice.tree, shell),
         _cells(lattice.tree, shell.local.core, shell.local.squares) {}
 
   CoreMesh run() {
     std::vector<CoreParcel> parcels = make_parcels(ranks_of_zones());
-    _naming.send_points(_communicator, parcels);
+    _points.send_points(parcels);
     parcels = mesh::deliver(_communicator, std::move(parcels), [](const CoreParcel& p) { return p.rank; });
     const ScopedCpu task(ScopedCpu::As::task);
     std::stable_sort(parcels.begin(), parcels.end(), [](const CoreParcel& a, const CoreParcel& b) {
@@ -258,16 +258,16 @@ public:
     while (at != parcels.end() && at->target < _shell.zones.count()) {
       const auto end = end_of_group(at, parcels.end());
       const auto [piece, side] = piece_in(at->region, _results.at(at->target));
-      extend_piece(_naming, std::span(at, end), *side, *piece);
+      extend_piece(_points, std::span(at, end), *side, *piece);
       *side = {};
       _mesh.tetrahedra += end - at;
       at = end;
     }
-    // Where all the cells behind a piece's part of the border are of lower zones.
+    // Pieces at the border whose neighbours in the core all belong to lower zones.
     for (auto& [zone, result] : _results) {
       for (std::size_t i = 0; i < result.pieces.size(); ++i) {
         if (!result.core_sides[i].borders.empty())
-          extend_piece(_naming, {}, result.core_sides[i], result.pieces[i]);
+          extend_piece(_points, {}, result.core_sides[i], result.pieces[i]);
       }
     }
     parcels.erase(parcels.begin(), at);
@@ -297,11 +297,11 @@ private:
     return ranks;
   }
 
-  /// Cells of zones, and of ranges that other ranks make into pieces.
+  /// The cells that go to zones, and to ranges of other ranks.
   std::vector<CoreParcel> make_parcels(const std::vector<parallel::Rank>& ranks_of_zones) {
     const ScopedCpu task(ScopedCpu::As::task);
     std::vector<CoreParcel> parcels;
-    const GhostBlocks& ghosts = _shell.local.core.ghosts();
+    const GhostLayer& ghosts = _shell.local.core.ghosts();
     for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
       const BlockIndex b = ghosts.first() + static_cast<BlockIndex>(i);
       if (_shell.local.core.of(b) == 0) continue;
@@ -332,7 +332,7 @@ private:
     return lowest;
   }
 
-  /// The pieces from that one on were made of a range.
+  /// Records the task of a range, whose pieces are those from `first` on.
   void note_range(std::int32_t range, std::size_t first, double seconds) {
     double cells = 0;
     std::int64_t bytes = 0;
@@ -343,9 +343,9 @@ private:
     parallel::note_task({parallel::TaskKind::core_piece, range, cells, seconds, bytes});
   }
 
-  /// Of the ranges that are this rank's; what others have of them comes later along the curve.
+  /// Makes the pieces of this rank's ranges. Cells from other ranks follow the own ones along the curve.
   void make_pieces(std::span<const CoreParcel> arrived) {
-    const GhostBlocks& ghosts = _shell.local.core.ghosts();
+    const GhostLayer& ghosts = _shell.local.core.ghosts();
     std::size_t next = 0;
     for (std::size_t i = 0; i < ghosts.own_count();) {
       const std::size_t first = i, made = _mesh.pieces.size();
@@ -368,7 +368,7 @@ private:
         cells[arrived[next].region].push_back({arrived[next].points, arrived[next].shared});
       for (auto& [region, of_region] : cells) {
         if (of_region.empty()) continue;
-        Piece piece = make_piece(_naming, region, of_region, ghosts.first() + static_cast<BlockIndex>(first),
+        Piece piece = make_piece(_points, region, of_region, ghosts.first() + static_cast<BlockIndex>(first),
                                  ghosts.first() + static_cast<BlockIndex>(i));
         piece.id = range;
         _mesh.tetrahedra += piece.cell_count();
@@ -382,7 +382,7 @@ private:
   const Lattice& _lattice;
   const Shell& _shell;
   std::map<ZoneIndex, ZoneResult>& _results;
-  CoreNaming _naming;
+  CorePoints _points;
   CoreRanges _ranges;
   CoreCells _cells;
   CoreMesh _mesh;

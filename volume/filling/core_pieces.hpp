@@ -1,9 +1,8 @@
-/// The core becomes part of the mesh. A tetrahedron with a point on the border goes to the piece of the
-/// lowest zone there, and is like any other from then on; the others become pieces of their own, ranges of
-/// the curve of equal weight.
+/// Adds the core to the mesh. A tetrahedron with a point on the border becomes part of the piece of the
+/// lowest zone at its border points. All others form pieces of their own: ranges of the Morton curve with
+/// equal numbers of tetrahedra.
 #pragma once
 
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/zone_piece.hpp"
 #include "volume/lattice/lattice.hpp"
 #include "volume/zones/shell.hpp"
@@ -14,14 +13,14 @@
 
 namespace aeroloom::volume {
 
-/// A piece of the core, the place of its range along the curve in its id.
+/// The pieces of the core. The id of a piece is the index of its range.
 struct CoreMesh {
   std::vector<mesh::Piece> pieces;  ///< of this rank, by id, then region
-  std::int64_t tetrahedra = 0;      ///< of this rank, those that went to zones included
+  std::int64_t tetrahedra = 0;      ///< of this rank, with those that were added to zones
 };
 
-/// Adds to the zones' results what is theirs; a zone without piece in a region gets one. Collective. Throws
-/// std::logic_error where a tetrahedron is flat or inverted.
+/// Makes the core. Adds the tetrahedra of zones to `results`; a zone without a piece in the region gets one.
+/// Throws std::logic_error if a tetrahedron is flat or inverted. Collective.
 CoreMesh make_core(const Lattice& lattice, const Shell& shell, std::map<ZoneIndex, ZoneResult>& results);
 
 }  // namespace aeroloom::volume

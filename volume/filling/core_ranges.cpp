@@ -1,5 +1,7 @@
 #include "volume/filling/core_ranges.hpp"
 
+#include "parallel/observation/timers.hpp"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -9,7 +11,7 @@ namespace aeroloom::volume {
 
 CoreRanges::CoreRanges(const LatticeTree& tree, const Shell& shell)
     : _tree(tree), _core(shell.local.core), _range(_core.ghosts().count(), -1), _deep(shell.local.deep) {
-  const GhostBlocks& ghosts = _core.ghosts();
+  const GhostLayer& ghosts = _core.ghosts();
   const std::vector<std::uint16_t>& weights = shell.local.inner_cells;
   const std::int64_t mine = std::accumulate(weights.begin(), weights.end(), std::int64_t{0});
   const std::vector<std::int64_t> all = tree.communicator().all_gather_items<std::int64_t>(std::array{mine});
@@ -30,7 +32,7 @@ CoreRanges::CoreRanges(const LatticeTree& tree, const Shell& shell)
     find_inner();
   }
   ghosts.update(_inner);
-  find_ranks(tree.communicator());
+  find_ranks();
 }
 
 std::uint8_t CoreRanges::shared_of(BlockIndex b, const CoreCell& cell) const {
@@ -45,7 +47,7 @@ std::uint8_t CoreRanges::shared_of(BlockIndex b, const CoreCell& cell) const {
 }
 
 void CoreRanges::find_inner() {
-  const GhostBlocks& ghosts = _core.ghosts();
+  const GhostLayer& ghosts = _core.ghosts();
   LeafSurroundings around(_tree);
   for (std::size_t i = 0; i < ghosts.own_count(); ++i) {
     if (_deep[i] == 0) continue;
@@ -63,7 +65,8 @@ void CoreRanges::find_inner() {
   }
 }
 
-void CoreRanges::find_ranks(const parallel::Communicator& communicator) {
+void CoreRanges::find_ranks() {
+  const parallel::Communicator& communicator = _tree.communicator();
   struct RangeRank {
     std::int32_t range;
     parallel::Rank rank;

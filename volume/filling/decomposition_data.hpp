@@ -1,4 +1,4 @@
-/// The inside of a Decomposition, which the two halves of the stage's driver share.
+/// The data of a Decomposition, for decompose() and fill_zones().
 #pragma once
 
 #include "volume/filling/zone_plan.hpp"
@@ -13,7 +13,7 @@ namespace aeroloom::volume {
 struct Decomposition::Data {
   std::unique_ptr<const Lattice> lattice;
   Shell shell;    ///< refers to the lattice
-  ZonePlan plan;  ///< of all zones
+  ZonePlan plan;  ///< of the first filling, for all zones
   DecompositionReport report;
 };
 

@@ -37,22 +37,18 @@ std::string name_faces(std::vector<std::int32_t> faces, const mesh::DistributedM
   return text;
 }
 
-/// Triangles that share no vertices, all of them or those that are chosen.
-struct Soup {
-  std::vector<Vec3> points;
-  std::vector<LocalTriangle> triangles;
+/// Adds a triangle that shares no vertices with the others.
+void add_triangle(const std::array<Vec3, 3>& corners, std::vector<Vec3>& points,
+                  std::vector<LocalTriangle>& triangles) {
+  const auto v = static_cast<mesh::LocalIndex>(points.size());
+  triangles.push_back({v, v + 1, v + 2});
+  points.insert(points.end(), corners.begin(), corners.end());
+}
 
-  void add(const std::array<Vec3, 3>& corners) {
-    const auto v = static_cast<mesh::LocalIndex>(points.size());
-    triangles.push_back({v, v + 1, v + 2});
-    points.insert(points.end(), corners.begin(), corners.end());
-  }
-};
-
-/// By number, each once, on every rank.
-std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
-                                    std::span<const SurfaceTriangle> mine) {
-  std::vector<SurfaceTriangle> all = communicator.all_gather_items<SurfaceTriangle>(mine);
+/// The triangles of all ranks, by number, each once. Collective.
+std::vector<SurfaceTriangle> gather_triangles(const mesh::DistributedMesh& surface,
+                                              std::span<const SurfaceTriangle> mine) {
+  std::vector<SurfaceTriangle> all = surface.communicator.all_gather_items<SurfaceTriangle>(mine);
   geometry::sort_unique(
       all, [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number < b.number; },
       [](const SurfaceTriangle& a, const SurfaceTriangle& b) { return a.number == b.number; });
@@ -61,8 +57,7 @@ std::vector<SurfaceTriangle> gather(const parallel::Communicator& communicator,
 
 }  // namespace
 
-void FailureDiagnostics::note(const ZoneInput& input, const mesh::DistributedMesh& surface,
-                              const std::string& reason, Look look) {
+void FailureDiagnostics::note(const ZoneInput& input, const std::string& reason, Look look) {
   const ZoneProblem& problem = input.problem;
   const TriangleSoup part{problem.points, problem.triangles};
   Item item;
@@ -89,24 +84,30 @@ void FailureDiagnostics::note(const ZoneInput& input, const mesh::DistributedMes
   std::vector<std::int32_t> faces;
   faces.reserve(triangles.size());
   for (const std::int32_t t : triangles) faces.push_back(input.face[t]);
-  item.message += name_faces(std::move(faces), surface);
+  item.message += name_faces(std::move(faces), _surface);
   if (triangles.empty()) {
     triangles.resize(problem.triangles.size());
     std::iota(triangles.begin(), triangles.end(), 0);
   }
   for (const std::int32_t t : triangles) {
-    auto& local = item.triangles.emplace_back();
-    for (int k = 0; k < 3; ++k) {
-      local[k] = static_cast<mesh::LocalIndex>(item.points.size());
-      item.points.push_back(problem.points[problem.triangles[t][k]]);
-    }
+    const auto& [a, b, c] = problem.triangles[t];
+    add_triangle({problem.points[a], problem.points[b], problem.points[c]}, item.points, item.triangles);
   }
   std::erase_if(_items, [&](const Item& known) { return known.zone == item.zone; });
   _items.push_back(std::move(item));
 }
 
-FailureDiagnostics::Item FailureDiagnostics::lowest(const parallel::Communicator& communicator,
-                                                    const Item* mine) {
+std::vector<ZoneFailure> FailureDiagnostics::gather(const std::vector<ZoneFailure>& mine) const {
+  std::vector<ZoneFailure> all;
+  for (const std::vector<ZoneFailure>& failures : _surface.communicator.all_gather_values(mine))
+    all.insert(all.end(), failures.begin(), failures.end());
+  std::sort(all.begin(), all.end(),
+            [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
+  return all;
+}
+
+FailureDiagnostics::Item FailureDiagnostics::lowest(const Item* mine) const {
+  const parallel::Communicator& communicator = _surface.communicator;
   const std::int64_t none = INT32_MAX;
   const std::int64_t zone = communicator.minimum(mine ? std::int64_t{mine->zone} : none);
   if (zone == none) return {};
@@ -122,17 +123,16 @@ void FailureDiagnostics::raise(const Item& item, const std::string& tried) {
   throw VolumeFailure(item.message + tried, item.points, item.triangles);
 }
 
-void FailureDiagnostics::stop_at_defects(const parallel::Communicator& communicator) const {
+void FailureDiagnostics::stop_at_defects() const {
   const Item* worst = nullptr;
   for (const Item& item : _items) {
     if (item.has_defect && (!worst || item.zone < worst->zone)) worst = &item;
   }
-  const Item item = lowest(communicator, worst);
+  const Item item = lowest(worst);
   if (item.zone != no_zone) raise(item, "");
 }
 
-void FailureDiagnostics::give_up(const parallel::Communicator& communicator, ZoneIndex zone,
-                                 const std::vector<Retry>& tried) const {
+void FailureDiagnostics::give_up(ZoneIndex zone, const std::vector<Retry>& tried) const {
   const Item* mine = nullptr;
   for (const Item& item : _items) {
     if (item.zone == zone) mine = &item;
@@ -142,56 +142,45 @@ void FailureDiagnostics::give_up(const parallel::Communicator& communicator, Zon
     if (retry.zone == zone) text += "\n  " + retry.change;
   }
   text += "\nUse other sizes there, or another piece size (VolumeOptions::piece_tets)";
-  raise(lowest(communicator, mine), text);
+  raise(lowest(mine), text);
 }
 
 void refuse_surface(const Contradiction& contradiction, std::span<const SurfaceTriangle> triangles,
-                    const NearSurface& near, const mesh::DistributedMesh& surface) {
-  const parallel::Communicator& communicator = surface.communicator;
+                    const LocalSurface& near, const mesh::DistributedMesh& surface) {
   std::vector<SurfaceTriangle> mine;
   if (!near.empty()) {
     const SurfaceDefect defect = find_intersections({near.points(), near.triangles()}, near.distance());
     for (const std::int32_t t : defect.triangles) mine.push_back(triangles[t]);
   }
-  std::vector<SurfaceTriangle> culprits = gather(communicator, mine);
+  std::vector<SurfaceTriangle> culprits = gather_triangles(surface, mine);
   const bool intersects = !culprits.empty();
   if (!intersects) {
     std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(mine),
                  [&](const SurfaceTriangle& t) { return t.number == contradiction.triangle; });
-    culprits = gather(communicator, mine);
+    culprits = gather_triangles(surface, mine);
   }
-  Soup soup;
+  std::vector<Vec3> points;
+  std::vector<LocalTriangle> local;
   std::vector<std::int32_t> all, faces;
   for (const SurfaceTriangle& t : culprits) {
     all.push_back(static_cast<std::int32_t>(all.size()));
     faces.push_back(t.face);
-    soup.add(t.points);
+    add_triangle(t.points, points, local);
   }
   const auto name_region = [&](mesh::RegionId region) {
     if (region == mesh::no_region) return std::string("outside");
     return surface.regions.empty() ? std::string("inside") : "in region '" + surface.regions[region] + "'";
   };
-  const Vec3 p = contradiction.place;
   throw VolumeFailure(
       fmt::format(
           "{}: {} is {} seen from there, and {} seen from elsewhere.{}\n{}{}",
-          intersects ? "the surface intersects itself" : "the surface has a gap", geometry::place_text(p),
-          name_region(contradiction.seen), name_region(contradiction.elsewhere),
-          describe_triangles({soup.points, soup.triangles}, all),
+          intersects ? "the surface intersects itself" : "the surface has a gap",
+          geometry::place_text(contradiction.place), name_region(contradiction.seen),
+          name_region(contradiction.elsewhere), describe_triangles({points, local}, all),
           "Use smaller elements there, so that surfaces close to each other are resolved, or repair the "
           "geometry",
           name_faces(std::move(faces), surface)),
-      soup.points, soup.triangles);
-}
-
-std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
-                                         const std::vector<ZoneFailure>& mine) {
-  std::vector<ZoneFailure> all;
-  for (const std::vector<ZoneFailure>& failures : communicator.all_gather_values(mine))
-    all.insert(all.end(), failures.begin(), failures.end());
-  std::sort(all.begin(), all.end(),
-            [](const ZoneFailure& a, const ZoneFailure& b) { return a.zone < b.zone; });
-  return all;
+      points, local);
 }
 
 }  // namespace aeroloom::volume

@@ -1,7 +1,6 @@
-/// Diagnostics of zones that could not be filled, and the message the user gets.
+/// Diagnostics of zones that could not be filled, and the messages for the user.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "volume/filling/surface_check.hpp"
 #include "volume/filling/zone_inputs.hpp"
 #include "volume/lattice/block_regions.hpp"
@@ -22,25 +21,24 @@ struct ZoneFailure {
   static constexpr auto fields() { return std::tuple(&ZoneFailure::zone, &ZoneFailure::reason); }
 };
 
-/// The failures of all ranks, by zone. Collective.
-std::vector<ZoneFailure> gather_failures(const parallel::Communicator& communicator,
-                                         const std::vector<ZoneFailure>& mine);
-
-/// Keeps what this rank's failing zones looked like.
+/// Keeps the triangles of this rank's zones that failed.
 class FailureDiagnostics {
 public:
-  /// Whether triangles are looked at for defects: takes a while, and a first failure may have lighter causes.
+  /// Whether to search the triangles for defects. It is slow, and a first failure often has another cause.
   enum class Look { later, for_defects };
-  /// A zone failed: its triangles are kept.
-  void note(const ZoneInput& input, const mesh::DistributedMesh& surface, const std::string& reason,
-            Look look);
+  /// Refers to the surface.
+  explicit FailureDiagnostics(const mesh::DistributedMesh& surface) : _surface(surface) {}
+  /// Notes that a zone failed.
+  void note(const ZoneInput& input, const std::string& reason, Look look);
 
-  /// The remedy belongs to the cause: a surface that meets itself cannot be helped by trying again. Throws
-  /// VolumeFailure on every rank where a zone's triangles have a defect. Collective.
-  void stop_at_defects(const parallel::Communicator& communicator) const;
-  /// Throws VolumeFailure on every rank: no retry was left for this zone. Collective.
-  [[noreturn]] void give_up(const parallel::Communicator& communicator, ZoneIndex zone,
-                            const std::vector<Retry>& tried) const;
+  /// The failures of all ranks, by zone. Collective.
+  std::vector<ZoneFailure> gather(const std::vector<ZoneFailure>& mine) const;
+
+  /// Throws VolumeFailure on every rank if the triangles of a zone on any rank have a defect: retries cannot
+  /// mend a surface that intersects itself. Collective.
+  void stop_at_defects() const;
+  /// Throws VolumeFailure on every rank: no retry is left for this zone. Collective.
+  [[noreturn]] void give_up(ZoneIndex zone, const std::vector<Retry>& tried) const;
 
 private:
   struct Item {
@@ -54,17 +52,19 @@ private:
       return std::tuple(&Item::zone, &Item::has_defect, &Item::message, &Item::points, &Item::triangles);
     }
   };
-  /// The item of the lowest zone among all ranks' chosen ones; zone is no_zone when there is none.
-  static Item lowest(const parallel::Communicator& communicator, const Item* mine);
+  /// The item with the lowest zone; each rank gives one or null. Its zone is no_zone if all are null.
+  /// Collective.
+  Item lowest(const Item* mine) const;
   [[noreturn]] static void raise(const Item& item, const std::string& tried);
 
+  const mesh::DistributedMesh& _surface;
   std::vector<Item> _items;
 };
 
-/// Throws VolumeFailure: names the triangles that intersect each other, where there are such, or else the
-/// gap. Each rank gives the triangles near its blocks, in both forms. Collective.
+/// Throws VolumeFailure on every rank. The message names triangles that intersect each other, or else the
+/// gap. `triangles` and `near` are the triangles near this rank's blocks. Collective.
 [[noreturn]] void refuse_surface(const Contradiction& contradiction,
-                                 std::span<const SurfaceTriangle> triangles, const NearSurface& near,
+                                 std::span<const SurfaceTriangle> triangles, const LocalSurface& near,
                                  const mesh::DistributedMesh& surface);
 
 }  // namespace aeroloom::volume

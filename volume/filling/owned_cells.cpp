@@ -6,7 +6,6 @@
 #include <array>
 #include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace aeroloom::volume {
 
@@ -22,13 +21,7 @@ bool same_orientation(const LocalTriangle& face, const LocalTriangle& triangle) 
   return triangle[(at + 1) % 3] == face[1];
 }
 
-LocalTriangle face_of(const LocalCell& cell, int face) {
-  const int* corner = mesh::tetrahedron_faces[face];
-  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
-}
-
-/// The triangles that bound cells: those of the surface, then those of the core's border, with nothing behind
-/// them.
+/// The triangles that bound cells: those of the surface, then border triangles, with no region beyond them.
 class Bounds {
 public:
   explicit Bounds(const ZoneProblem& problem) : _problem(problem) {}
@@ -38,11 +31,11 @@ public:
   const LocalTriangle& triangle(std::size_t t) const {
     return is_border(t) ? _problem.borders[t - _problem.triangles.size()] : _problem.triangles[t];
   }
-  RegionId front(std::size_t t) const {
-    return is_border(t) ? _problem.border_regions[t - _problem.triangles.size()] : _problem.front[t];
+  RegionId inside(std::size_t t) const {
+    return is_border(t) ? _problem.border_regions[t - _problem.triangles.size()] : _problem.inside[t];
   }
-  RegionId back(std::size_t t) const { return is_border(t) ? mesh::no_region : _problem.back[t]; }
-  /// Which points stand on the core's border.
+  RegionId outside(std::size_t t) const { return is_border(t) ? mesh::no_region : _problem.outside[t]; }
+  /// Which points are on the border.
   std::vector<std::uint8_t> at_border() const {
     std::vector<std::uint8_t> at(_problem.points.size(), 0);
     for (const LocalTriangle& t : _problem.borders) {
@@ -60,7 +53,7 @@ LocalTriangle sorted(LocalTriangle t) {
   return t;
 }
 
-/// The triangles of the core's border by their lowest vertex, a few each.
+/// Finds border triangles by their lowest vertex, which has only a few.
 class BorderTable {
 public:
   explicit BorderTable(const ZoneProblem& problem) : _starts(problem.points.size() + 1, 0) {
@@ -74,7 +67,7 @@ public:
     }
   }
 
-  /// The one with these vertices, -1 where there is none.
+  /// The border triangle with these vertices; -1: none.
   std::int32_t find(const LocalTriangle& t) const {
     const LocalTriangle vertices = sorted(t);
     for (std::int32_t i = _starts[vertices[0]]; i < _starts[vertices[0] + 1]; ++i) {
@@ -92,11 +85,11 @@ private:
   std::vector<Known> _triangles;
 };
 
-/// Makes faces of the mesh that are triangles of the core's border known as such.
+/// Marks the faces of the mesh that are border triangles.
 void look_up_borders(const ZoneProblem& problem, const Bounds& bounds, TetgenMesh& mesh) {
   if (problem.borders.empty()) return;
   const BorderTable known(problem);
-  // Vertices that TetGen added stand nowhere near.
+  // Vertices that TetGen added are never on the border.
   std::vector<std::uint8_t> stands_there = bounds.at_border();
   for (const LocalCell& cell : mesh.cells) {
     for (const LocalIndex v : cell) {
@@ -133,10 +126,9 @@ public:
         _visit(mesh.cells.size(), 0),
         _found(mesh.cells.size(), unknown_region) {}
 
-  /// The region told by a lattice vertex of the zone, off the core, among the cell's vertices; false: there
-  /// is none. Those of other zones do not count: the cell may reach them through triangles that this zone
-  /// does not know.
-  bool told_by_vertex(std::int32_t cell, RegionId& region) const {
+  /// Sets the region if the cell has a lattice vertex of the zone off the border; false: it has none.
+  /// Vertices of other zones do not count: the cell may reach them through triangles that this zone lacks.
+  bool region_from_vertex(std::int32_t cell, RegionId& region) const {
     for (const LocalIndex v : _mesh.cells[cell]) {
       if (v < _first_lattice || v >= _first_added || _problem.owners[v] != Owner::mine) continue;
       if (_at_border[v]) continue;
@@ -146,19 +138,19 @@ public:
     return false;
   }
 
-  /// The region of a cell with vertex v, told by the star of v. What the search met on its way lies on the
-  /// same side and need not be searched for again.
+  /// The region of a cell with vertex v, found in the star of v. All cells that the search passed are in the
+  /// same region, which is kept for them.
   RegionId region_in_star(std::int32_t cell, LocalIndex v) {
     if (_found[cell] != unknown_region) return _found[cell];
     const RegionId region = search_star(cell, v);
-    if (v >= _first_added) return region;  // there may be triangles around it that this zone does not know
+    if (v >= _first_added) return region;  // triangles around it may be missing here
     for (const std::int32_t c : _open) _found[c] = region;
     return region;
   }
 
   RegionId region_beside(std::int32_t cell, int face, std::int32_t triangle) const {
-    const bool front = same_orientation(face_of(_mesh.cells[cell], face), _bounds.triangle(triangle));
-    return front ? _bounds.front(triangle) : _bounds.back(triangle);
+    const bool is_inside = same_orientation(face_of(_mesh.cells[cell], face), _bounds.triangle(triangle));
+    return is_inside ? _bounds.inside(triangle) : _bounds.outside(triangle);
   }
 
 private:
@@ -171,12 +163,12 @@ private:
     RegionId region = mesh::no_region;
     for (std::size_t i = 0; i < _open.size(); ++i) {
       const std::int32_t c = _open[i];
-      if (told_by_vertex(c, region)) return region;
+      if (region_from_vertex(c, region)) return region;
       for (int face = 0; face < 4; ++face) {
         if (_mesh.cells[c][face] == v) continue;
         const std::int32_t next = _mesh.neighbours[c][face];
         if (next <= -2) return region_beside(c, face, -2 - next);
-        if (next < 0 || next == not_asked_for || _visit[next] == _round) continue;
+        if (next < 0 || next == not_requested || _visit[next] == _round) continue;
         _visit[next] = _round;
         _open.push_back(next);
       }
@@ -185,8 +177,8 @@ private:
     throw std::runtime_error("a point of the surface has no triangle around it");
   }
 
-  /// Around a point that TetGen added there may be neither; then other points of the zone in its star tell,
-  /// or what bounds the star.
+  /// For a point that TetGen added, whose star may have neither. Then other points of the zone in the star
+  /// decide, or the triangles that bound it.
   RegionId region_around_added() {
     const std::vector<std::int32_t> star = _open;
     for (const std::int32_t c : star) {
@@ -213,13 +205,13 @@ private:
   const TetgenMesh& _mesh;
   LocalIndex _first_lattice, _first_added;
   std::vector<std::int32_t> _visit;
-  std::vector<RegionId> _found;     // per cell, where a search met it
+  std::vector<RegionId> _found;     // per cell that a search passed
   std::vector<std::int32_t> _open;  // cells of the last search
   std::int32_t _round = 0;
 };
 
-/// Every triangle at a vertex of the zone must have become a face of the mesh, and faces be what they are
-/// said to. Returns the triangles of the core's border that did not.
+/// Checks that all triangles at vertices of the zone are faces of the mesh, with the right vertices. Returns
+/// the border triangles that are missing.
 std::vector<std::int32_t> require_triangles(const ZoneProblem& problem, const Bounds& bounds,
                                             const TetgenMesh& mesh) {
   std::vector<std::uint8_t> seen(bounds.count(), 0);
@@ -245,9 +237,8 @@ std::vector<std::int32_t> require_triangles(const ZoneProblem& problem, const Bo
   return missing;
 }
 
-/// Points of the surface that cells of other zones may have too: those of other zones in cells that are kept,
-/// and those of the zone itself in cells that a lower zone may keep. Where sheets touch, no face need tell of
-/// it.
+/// Surface points that cells of other zones may have too: points of other zones in cells that are kept, and
+/// own points in cells that a lower zone may keep. Where sheets touch, such cells may share no face.
 class TouchedPoints {
 public:
   TouchedPoints(std::size_t surface_points, const std::vector<Owner>& owners)
@@ -272,7 +263,7 @@ private:
   std::vector<std::uint8_t> _touched;
 };
 
-/// Owners of all vertices, those that TetGen added included: the lowest zone in the star.
+/// The owners of all vertices. A vertex that TetGen added belongs to the lowest zone in its star.
 std::vector<Owner> owners_of(const ZoneProblem& problem, const TetgenMesh& mesh, std::size_t points) {
   std::vector<Owner> owners = problem.owners;
   const std::size_t given = owners.size();
@@ -321,7 +312,7 @@ OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<c
     if (mine < 0 || lower) continue;
     const auto c = static_cast<std::int32_t>(i);
     RegionId region = mesh::no_region;
-    if (!search.told_by_vertex(c, region)) region = search.region_in_star(c, mine);
+    if (!search.region_from_vertex(c, region)) region = search.region_in_star(c, mine);
     if (region == mesh::no_region) continue;
     if (!geometry::has_positive_volume(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]))
       throw std::runtime_error("a tetrahedron is flat or inverted");
@@ -338,7 +329,7 @@ OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<c
       if (next == -1)
         throw std::runtime_error("the filling ends at a face that is no triangle of the surface");
       if (next >= 0) {
-        if (next == not_asked_for || kept[next] < 0)
+        if (next == not_requested || kept[next] < 0)
           result.crossings.push_back({static_cast<std::int32_t>(k), face});
         else if (result.regions[kept[next]] != result.regions[k])
           throw std::runtime_error("two regions touch without a triangle of the surface between them");

@@ -1,4 +1,4 @@
-/// Which of a zone's tetrahedra are its own, and which region they lie in.
+/// Selects the tetrahedra that a zone owns, and finds their regions.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -15,50 +15,54 @@ namespace aeroloom::volume {
 
 using LocalTriangle = std::array<mesh::LocalIndex, 3>;
 using LocalCell = std::array<mesh::LocalIndex, 4>;
+/// The vertices of the face opposite to a vertex.
+inline LocalTriangle face_of(const LocalCell& cell, int face) {
+  const int* corner = mesh::tetrahedron_faces[face];
+  return {cell[corner[0]], cell[corner[1]], cell[corner[2]]};
+}
 
-/// Whose a vertex is, seen from a zone.
+/// The owner of a vertex: the zone itself, or a zone with a lower or a higher number.
 enum class Owner : std::int8_t { mine, lower, higher };
 
-/// The points and triangles that a zone is filled with, halo included. Vertices of the surface come first,
-/// then lattice points, both in global order, which is the order of TetGen's symbolic perturbation.
+/// The points and triangles that a zone is filled with, halo included. Surface vertices come first, then
+/// lattice points, both in global order. TetGen breaks ties by this order.
 struct ZoneProblem {
   std::vector<geometry::Vec3> points;
-  std::vector<Owner> owners;             ///< per point: own zone, one of lower or of higher number
-  std::vector<LocalTriangle> triangles;  ///< those of all vertices that are `mine`, at least
-  std::vector<mesh::RegionId> front,
-      back;  ///< regions on either side of each triangle; front: it is seen from outside
-  std::vector<mesh::RegionId> regions;  ///< of the lattice points
-  /// Triangles between the shell, which is filled, and the core: those at points that are `mine`, and near
-  /// them, counter-clockwise seen from the core. They are not asked for but looked up.
+  std::vector<Owner> owners;                    ///< per point
+  std::vector<LocalTriangle> triangles;         ///< at least all with a vertex that is `mine`
+  std::vector<mesh::RegionId> inside, outside;  ///< per triangle: its normal points from inside to outside
+  std::vector<mesh::RegionId> regions;          ///< of the lattice points
+  /// Border triangles between core and shell at points that are `mine`, and near them. They are
+  /// counter-clockwise if seen from the core. TetGen does not get them: they are looked up in its mesh.
   std::vector<LocalTriangle> borders;
   std::vector<mesh::RegionId> border_regions;
 
   static constexpr auto fields() {
     return std::tuple(&ZoneProblem::points, &ZoneProblem::owners, &ZoneProblem::triangles,
-                      &ZoneProblem::front, &ZoneProblem::back, &ZoneProblem::regions, &ZoneProblem::borders,
-                      &ZoneProblem::border_regions);
+                      &ZoneProblem::inside, &ZoneProblem::outside, &ZoneProblem::regions,
+                      &ZoneProblem::borders, &ZoneProblem::border_regions);
   }
   std::size_t surface_points() const { return points.size() - regions.size(); }
 };
 
-/// A face of a cell over which another zone's cell must be, or one of the core.
+/// A face of a cell whose other side belongs to another zone or to the core.
 struct Crossing {
   std::int32_t cell;
-  std::int32_t face;  ///< opposite to this vertex
+  std::int32_t face;  ///< the face opposite to this vertex of the cell
 
   static constexpr auto fields() { return std::tuple(&Crossing::cell, &Crossing::face); }
 };
 
-/// The tetrahedra of a zone: those that have a vertex of it and none of a lower one.
+/// The tetrahedra that a zone owns: those with a vertex of the zone and no vertex of a lower zone.
 struct OwnedCells {
   std::vector<LocalCell> cells;  ///< positive volume in VTK's order
   std::vector<mesh::RegionId> regions;
   std::vector<Crossing> crossings;
-  std::vector<std::int32_t> triangles;  ///< whose front side they cover
-  /// Points of the surface that cells of other zones may have too, be it in a corner alone; ascending.
+  std::vector<std::int32_t> triangles;  ///< with a cell on their inner side
+  /// Surface points that cells of other zones may have too, if only as a corner; ascending.
   std::vector<mesh::LocalIndex> touched;
   std::vector<Crossing> borders;  ///< faces on the core's border
-  /// Triangles of the border that are no faces of the mesh: then there are no cells.
+  /// Border triangles that are not in the mesh. If there are any, `cells` is empty.
   std::vector<std::int32_t> missing_borders;
 
   static constexpr auto fields() {
@@ -68,13 +72,12 @@ struct OwnedCells {
   }
 };
 
-/// A tetrahedron with a lattice vertex off the core lies in the region of that. At another the star of a
-/// vertex of the zone is searched, without crossing the surface, up to a triangle, one of the core's border
-/// included, or such a lattice vertex: no tetrahedron elsewhere in the halo counts, since some reach through
-/// triangles that the zone does not know. A point TetGen added belongs to the lowest zone in its star.
-/// `points` has what TetGen added after the others. The mesh has all cells, or those with a vertex of the
-/// zone where TetGen added no points. Throws std::runtime_error when a triangle at a vertex of the zone is
-/// missing, or a cell is flat, inverted, or open.
+/// Selects the owned cells. A cell with a lattice vertex off the border lies in the region of this vertex.
+/// For others, the star of a vertex of the zone is searched without crossing surface or border. The search
+/// ends at such a lattice vertex or at a triangle. It stays in the star, because the zone may lack triangles
+/// farther away. A point that TetGen added belongs to the lowest zone in its star; `points` has such points
+/// last. The mesh must have all cells with a vertex of the zone; if TetGen added points, all cells. Throws
+/// std::runtime_error if a triangle at a vertex of the zone is missing, or a cell is flat, inverted or open.
 OwnedCells select_owned(const ZoneProblem& problem, TetgenMesh mesh, std::span<const geometry::Vec3> points);
 
 }  // namespace aeroloom::volume

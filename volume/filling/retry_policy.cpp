@@ -4,7 +4,6 @@
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
-#include "volume/filling/filling_limits.hpp"
 #include "volume/zones/halo.hpp"
 
 #include <algorithm>
@@ -20,15 +19,14 @@ using geometry::Vec3;
 
 namespace {
 
-/// Rounds in which leaves are reassigned where zones disagree; after that such zones are merged. Chosen, not
-/// measured.
+/// Rounds that reassign leaves where zones disagree. Later rounds merge the zones. Chosen, not measured.
 constexpr int most_rounds_of_reassignment = 3;
 
 }  // namespace
 
 struct RetryPolicy::LeafOfPlace {
   std::int32_t place;
-  ZoneIndex zone;  ///< that has it
+  ZoneIndex zone;  ///< that owns the leaf
   LeafNumber leaf;
   GridBox box;
 
@@ -52,10 +50,10 @@ RetryPolicy::Changed RetryPolicy::nothing() const {
 std::vector<ZoneIndex> RetryPolicy::change_failed(const std::vector<ZoneFailure>& failures,
                                                   const std::vector<DemotedLeaf>& demoted,
                                                   const FailureDiagnostics& diagnostics) {
-  const std::vector<ZoneFailure> failed = gather_failures(_communicator, failures);
+  const std::vector<ZoneFailure> failed = diagnostics.gather(failures);
   const std::vector<DemotedLeaf> leaves = _communicator.all_gather_items<DemotedLeaf>(demoted);
   if (failed.empty() && leaves.empty()) return {};
-  if (!failed.empty()) diagnostics.stop_at_defects(_communicator);
+  if (!failed.empty()) diagnostics.stop_at_defects();
   Changed changed = nothing();
   BlockChanges changes = _shell.local.changes;
   demote(leaves, changes, changed);
@@ -65,7 +63,7 @@ std::vector<ZoneIndex> RetryPolicy::change_failed(const std::vector<ZoneFailure>
       points_change = escalate(failure, diagnostics, changes, changed) || points_change;
   }
   if (points_change) make_points(std::move(changes), changed);
-  return those_that_see(std::move(changed));
+  return zones_reached(std::move(changed));
 }
 
 void RetryPolicy::demote(const std::vector<DemotedLeaf>& demoted, BlockChanges& changes, Changed& changed) {
@@ -84,7 +82,7 @@ void RetryPolicy::demote(const std::vector<DemotedLeaf>& demoted, BlockChanges& 
   }
 }
 
-/// Whether points change.
+/// Applies the next remedy to a zone. Returns whether points change.
 bool RetryPolicy::escalate(const ZoneFailure& failure, const FailureDiagnostics& diagnostics,
                            BlockChanges& changes, Changed& changed) {
   const ZoneIndex zone = failure.zone;
@@ -105,7 +103,7 @@ bool RetryPolicy::escalate(const ZoneFailure& failure, const FailureDiagnostics&
     }
   } else {
     const ZoneIndex with = widest_neighbour(zone);
-    if (with == no_zone) diagnostics.give_up(_communicator, zone, _report.retries);
+    if (with == no_zone) diagnostics.give_up(zone, _report.retries);
     change = fmt::format("merged with zone {}", with);
     touch_all(zone, changed);
     merge(zone, with);
@@ -117,14 +115,14 @@ bool RetryPolicy::escalate(const ZoneFailure& failure, const FailureDiagnostics&
   return points_change;
 }
 
-/// Makes the points anew, and notes blocks whose core is another than before. Collective.
+/// Makes the points anew, and marks the blocks whose core leaves changed. Collective.
 void RetryPolicy::make_points(BlockChanges changes, Changed& changed) {
-  LocalShell made = make_local_shell(_lattice, gather_near_surface(_lattice), std::move(changes));
+  LocalShell made = make_local_shell(_lattice, gather_local_surface(_lattice), std::move(changes));
   for (const BlockIndex b : made.core.blocks_unlike(_shell.local.core)) changed.blocks[b - _tree.first()] = 1;
   _shell.local = std::move(made);
 }
 
-/// The zone with most blocks beside those of this one; none in a volume of one zone. Collective.
+/// The zone with most blocks next to blocks of this one; no_zone if there is no other. Collective.
 ZoneIndex RetryPolicy::widest_neighbour(ZoneIndex zone) const {
   std::vector<std::int64_t> counts(_shell.zones.count(), 0);
   for (BlockIndex b = _tree.first(); b < _tree.last(); ++b) {
@@ -134,7 +132,7 @@ ZoneIndex RetryPolicy::widest_neighbour(ZoneIndex zone) const {
       if (_shell.zones.has(zone, n)) ++counts[z];
     });
   }
-  counts = sum_by_zone(_communicator, std::move(counts));
+  counts = _shell.zones.sum(std::move(counts));
   const auto most = std::max_element(counts.begin(), counts.end());
   return *most == 0 ? no_zone : static_cast<ZoneIndex>(most - counts.begin());
 }
@@ -154,15 +152,15 @@ void RetryPolicy::touch_all(ZoneIndex zone, Changed& changed) const {
   }
 }
 
-/// The zones that changed and those that know leaves of the touched blocks, ascending. Collective.
-std::vector<ZoneIndex> RetryPolicy::those_that_see(Changed changed) {
+/// The zones that changed, and those with a halo in changed blocks, ascending. Collective.
+std::vector<ZoneIndex> RetryPolicy::zones_reached(Changed changed) {
   std::vector<double> widest = widths();
   widest.assign(widest.size(), *std::max_element(widest.begin(), widest.end()));
   ZonesAround around(_lattice, _shell.zones, widest);
   for (BlockIndex b = _tree.first(); b < _tree.last(); ++b) {
     if (!changed.blocks[b - _tree.first()]) continue;
     around.move_to(b);
-    for (const NearZone& near : around.zones()) changed.zones.push_back(near.zone);
+    for (const HaloZone& halo : around.zones()) changed.zones.push_back(halo.zone);
   }
   geometry::sort_unique(changed.zones);
   changed.zones = _communicator.all_gather_items<ZoneIndex>(changed.zones);
@@ -187,11 +185,11 @@ std::vector<ZoneIndex> RetryPolicy::resolve_disputes(std::span<const ZoneFace> f
   if (_rounds_of_reassignment <= most_rounds_of_reassignment)
     reassign(places, changed);
   else
-    merge_those_around(places, changed);
-  return those_that_see(std::move(changed));
+    merge_around(places, changed);
+  return zones_reached(std::move(changed));
 }
 
-/// Any leaf of a zone will do where TetGen added all the vertices. Collective.
+/// The lowest leaf of a zone, for places where TetGen added all the vertices. Collective.
 LeafNumber RetryPolicy::lowest_leaf(ZoneIndex zone) const {
   std::int64_t lowest = INT64_MAX;
   for (BlockIndex b = _tree.last(); b-- > _tree.first();) {
@@ -203,7 +201,7 @@ LeafNumber RetryPolicy::lowest_leaf(ZoneIndex zone) const {
   return lowest == INT64_MAX ? 0 : lowest;
 }
 
-/// The leaves of places and those less than `rings` leaves away from one, by place. Collective.
+/// The leaves of places and those less than `rings` leaves away, by place. Collective.
 std::vector<RetryPolicy::LeafOfPlace> RetryPolicy::leaves_around(std::span<const DisputedPlace> places,
                                                                  int rings) const {
   std::vector<LeafOfPlace> found;
@@ -239,7 +237,7 @@ std::vector<RetryPolicy::LeafOfPlace> RetryPolicy::leaves_around(std::span<const
   return around;
 }
 
-/// Tells where each is: in the middle of its first leaf. Collective.
+/// Reports each place by the middle of its first leaf. Collective.
 void RetryPolicy::note_places(std::span<const DisputedPlace> places) {
   std::int32_t next = 0;
   for (const LeafOfPlace& leaf : leaves_around(places, 0)) {
@@ -252,18 +250,18 @@ void RetryPolicy::note_places(std::span<const DisputedPlace> places) {
   }
 }
 
-/// The leaves of places, from the second round on with more and more of those around them. Collective.
+/// Reassigns the leaves of places, in later rounds with rings of leaves around them. Collective.
 void RetryPolicy::reassign(std::span<const DisputedPlace> places, Changed& changed) {
-  for (const LeafOfPlace& given : leaves_around(places, _rounds_of_reassignment - 1)) {
-    const BlockNumber block = given.leaf / 8;
+  for (const LeafOfPlace& leaf : leaves_around(places, _rounds_of_reassignment - 1)) {
+    const BlockNumber block = leaf.leaf / 8;
     if (_tree.owner(block) == _communicator.rank()) changed.blocks[_tree.index(block) - _tree.first()] = 1;
     _shell.zones.reassign(
-        {block, static_cast<int>(given.leaf % 8), given.box, places[given.place].zones.front()});
+        {block, static_cast<int>(leaf.leaf % 8), leaf.box, places[leaf.place].zones.front()});
   }
 }
 
-/// Makes one zone of all that claim faces at a place or have leaves around it. Collective.
-void RetryPolicy::merge_those_around(std::span<const DisputedPlace> places, Changed& changed) {
+/// Merges all zones that have faces at a place or leaves around it. Collective.
+void RetryPolicy::merge_around(std::span<const DisputedPlace> places, Changed& changed) {
   std::vector<std::vector<ZoneIndex>> zones;
   for (const DisputedPlace& place : places) zones.push_back(place.zones);
   for (const LeafOfPlace& leaf : leaves_around(places, 2)) zones[leaf.place].push_back(leaf.zone);

@@ -1,5 +1,6 @@
 #include "volume/filling/surface_check.hpp"
 
+#include "geometry/place_text.hpp"
 #include "geometry/predicates.hpp"
 #include "geometry/sort_unique.hpp"
 
@@ -14,8 +15,6 @@ using geometry::Vec3;
 using mesh::LocalIndex;
 
 namespace {
-
-using Indices = std::array<LocalIndex, 3>;
 
 SurfaceDefect made(const char* what, std::vector<std::int32_t> triangles) {
   geometry::sort_unique(triangles);
@@ -94,7 +93,8 @@ bool fold_over(const TriangleSoup& surface, LocalIndex a, LocalIndex b, LocalInd
   return dot(cross(x[b] - x[a], x[p] - x[a]), cross(x[b] - x[a], x[q] - x[a])) > 0;
 }
 
-bool meet_improperly(const TriangleSoup& surface, const Indices& s, const Indices& t) {
+bool meet_improperly(const TriangleSoup& surface, const BoundaryDistance::Triangle& s,
+                     const BoundaryDistance::Triangle& t) {
   LocalIndex common[3], only_s[3], only_t[3];
   int commons = 0, onlys = 0, onlyt = 0;
   for (const LocalIndex v : s) {
@@ -150,8 +150,8 @@ std::string describe_triangles(const TriangleSoup& surface, const std::vector<st
     const Vec3 a = surface.points[t[0]], b = surface.points[t[1]], c = surface.points[t[2]];
     const Vec3 center = (1.0 / 3.0) * (a + b + c);
     const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a);
-    text << " at (" << center.x << ", " << center.y << ", " << center.z << "), edges "
-         << std::min({ab, bc, ca}) << " to " << std::max({ab, bc, ca});
+    text << " at " << geometry::place_text(center) << ", edges " << std::min({ab, bc, ca}) << " to "
+         << std::max({ab, bc, ca});
   }
   if (triangles.size() > most) text << "\n  and " << triangles.size() - most << " more";
   return text.str();

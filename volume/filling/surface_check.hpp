@@ -1,4 +1,4 @@
-/// Defects of a part of a surface that is to bound tetrahedra.
+/// Finds defects of a surface that prevent filling.
 #pragma once
 
 #include "volume/lattice/boundary_distance.hpp"
@@ -17,20 +17,21 @@ struct TriangleSoup {
   std::span<const std::array<mesh::LocalIndex, 3>> triangles;
 };
 
-/// A defect and the triangles it is at.
+/// A kind of defect and the triangles that have it.
 struct SurfaceDefect {
-  std::string what;                     ///< empty: none found
+  std::string what;                     ///< text for the user; empty: no defect
   std::vector<std::int32_t> triangles;  ///< ascending, each once
 };
 
-/// Indices out of range, coordinates that are not finite, triangles without area, different points at the
-/// same place.
+/// Finds indices out of range, coordinates that are not finite, triangles without area, and different points
+/// at the same place.
 SurfaceDefect find_defect(const TriangleSoup& surface);
 
-/// Triangles that meet elsewhere than in common vertices and edges. Exact.
+/// Finds triangles that meet elsewhere than in common vertices and edges. Exact.
 SurfaceDefect find_intersections(const TriangleSoup& surface, const BoundaryDistance& tree);
 
-/// A line per triangle: index, centre, shortest and longest edge; at most ten of them, then how many more.
+/// One line for each of the first ten triangles: index, centre, shortest and longest edge. Then how many
+/// more.
 std::string describe_triangles(const TriangleSoup& surface, const std::vector<std::int32_t>& triangles);
 
 }  // namespace aeroloom::volume

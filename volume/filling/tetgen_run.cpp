@@ -67,8 +67,8 @@ std::vector<double> number_points(tetgenmesh& mesh, std::size_t given) {
   return added;
 }
 
-/// `asked_for` is empty or has all points.
-void collect_cells(tetgenmesh& mesh, std::span<const std::uint8_t> asked_for, TetgenMesh& result) {
+/// `requested` is empty or has all points.
+void collect_cells(tetgenmesh& mesh, std::span<const std::uint8_t> requested, TetgenMesh& result) {
   const auto most = static_cast<std::size_t>(mesh.tetrahedrons->items - mesh.hullsize);
   std::vector<tetgenmesh::tetrahedron*> origin;
   origin.reserve(most);
@@ -77,9 +77,9 @@ void collect_cells(tetgenmesh& mesh, std::span<const std::uint8_t> asked_for, Te
   for (auto* t = mesh.tetrahedrontraverse(); t != nullptr; t = mesh.tetrahedrontraverse()) {
     std::array<mesh::LocalIndex, 4> cell;
     for (int k = 0; k < 4; ++k) cell[k] = mesh.pointmark(reinterpret_cast<tetgenmesh::point>(t[4 + k]));
-    if (!asked_for.empty() &&
-        std::none_of(cell.begin(), cell.end(), [&](mesh::LocalIndex v) { return asked_for[v] != 0; })) {
-      mesh.setelemindex(t, not_asked_for);
+    if (!requested.empty() &&
+        std::none_of(cell.begin(), cell.end(), [&](mesh::LocalIndex v) { return requested[v] != 0; })) {
+      mesh.setelemindex(t, not_requested);
       continue;
     }
     mesh.setelemindex(t, static_cast<int>(result.cells.size()));
@@ -105,8 +105,8 @@ void collect_cells(tetgenmesh& mesh, std::span<const std::uint8_t> asked_for, Te
   }
 }
 
-/// Lays out all segments or triangles for recovery. The last one laid out comes first.
-void lay_out(tetgenmesh& mesh, tetgenmesh::memorypool& all, tetgenmesh::arraypool& stack) {
+/// Puts all segments or triangles on the stack for recovery. The last one put there comes first.
+void push_all(tetgenmesh& mesh, tetgenmesh::memorypool& all, tetgenmesh::arraypool& stack) {
   std::vector<tetgenmesh::face> items(static_cast<std::size_t>(all.items));
   all.traversalinit();
   for (tetgenmesh::face& item : items) item.sh = mesh.shellfacetraverse(&all);
@@ -117,24 +117,24 @@ void lay_out(tetgenmesh& mesh, tetgenmesh::memorypool& all, tetgenmesh::arraypoo
   }
 }
 
-/// Recovers what needs no more than the first flips, which is nearly everything, in the order it was given
-/// in. recoverboundary() goes through all of it in random order, and waits for memory twice as long as it
-/// works; what it finds recovered it skips, what is left climbs its ladder of flips and points.
+/// Recovers in the order of the input what the first level of flips can recover: nearly everything. TetGen's
+/// recoverboundary() goes through all of it in random order and mostly waits for memory. Later it skips what
+/// is recovered, and treats the rest with more flips and points.
 void recover_in_order(tetgenmesh& mesh) {
   constexpr int log_of_block = 8;  // 256 at a time, as TetGen has it for its own arrays
   tetgenmesh::arraypool missing(sizeof(tetgenmesh::face), log_of_block);
   mesh.checksubsegflag = 1;
-  lay_out(mesh, *mesh.subsegs, *mesh.subsegstack);
+  push_all(mesh, *mesh.subsegs, *mesh.subsegstack);
   mesh.recoversegments(&missing, 0, 0);
   if (missing.objects > 0) return;  // triangles need all of theirs
   mesh.checksubfaceflag = 1;
-  lay_out(mesh, *mesh.subfaces, *mesh.subfacstack);
+  push_all(mesh, *mesh.subfaces, *mesh.subfacstack);
   mesh.recoversubfaces(&missing, 0);
 }
 
-/// The order of tetrahedralize(), without two of its passes: carveholes(), since the hull is kept and others
-/// tell inside from outside; recoverdelaunay(), for which hardly anything is left to do where all points are
-/// given at once, and which nearly doubles time and memory.
+/// The order of tetrahedralize(), without two of its passes. carveholes(): the hull is kept, and
+/// select_owned() finds inside and outside. recoverdelaunay(): it has hardly anything to do where all points
+/// are given at once, and nearly doubles time and memory.
 void run_phases(tetgenmesh& mesh) {
   clock_t unused = 0;
   mesh.initializepools();
@@ -152,13 +152,13 @@ void run_phases(tetgenmesh& mesh) {
 
 TetgenMesh run_tetgen(std::span<const double> coordinates,
                       std::span<const std::array<mesh::LocalIndex, 3>> triangles,
-                      std::span<const std::uint8_t> asked_for) {
+                      std::span<const std::uint8_t> requested) {
   Input input(coordinates, triangles);
   tetgenbehavior behaviour;
   char switches[] = "pYO0Q";
   behaviour.parse_commandline(switches);
   behaviour.convex = 1;
-  behaviour.regionattrib = 1;  // or the hull is carved all the same
+  behaviour.regionattrib = 1;  // without it the hull is carved all the same
   auto mesh = std::make_unique<tetgenmesh>();
   mesh->b = &behaviour;
   mesh->in = &input.io();
@@ -171,7 +171,7 @@ TetgenMesh run_tetgen(std::span<const double> coordinates,
   }
   TetgenMesh result;
   result.added = number_points(*mesh, coordinates.size() / 3);
-  collect_cells(*mesh, result.added.empty() ? asked_for : std::span<const std::uint8_t>{}, result);
+  collect_cells(*mesh, result.added.empty() ? requested : std::span<const std::uint8_t>{}, result);
   return result;
 }
 

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <stdexcept>
 #include <tuple>
 
 namespace aeroloom::volume {
@@ -18,16 +16,15 @@ using parallel::Bytes;
 
 namespace {
 
-// Limits of a child. TetGen takes about 1 us and 350 bytes per tetrahedron; what takes forty times as long is
-// stuck.
+// Limits of a child. TetGen takes about 1 us and 350 bytes per tetrahedron. If it takes forty times as long,
+// it hangs.
 constexpr double cpu_seconds_per_tetrahedron = 40e-6;
 constexpr std::int64_t base_bytes = 2LL << 30;
 constexpr std::int64_t bytes_per_tetrahedron = 1500;
 
-/// Moves a zone near the origin and to about unit size, where TetGen's tolerances suit it. Exact: a
-/// coordinate axis is shifted only when the zone is far from its zero (Sterbenz: such a difference has no
-/// rounding), and the scale is a power of two. So every orientation and every circumsphere is what it was, in
-/// every zone alike.
+/// Moves a zone near the origin and scales it to about unit size, as TetGen's tolerances need it. This is
+/// exact: an axis is shifted only if the zone is far from its zero (by the lemma of Sterbenz the difference
+/// has no rounding), and the scale is a power of two. So orientations and circumspheres do not change.
 class UnitFrame {
 public:
   explicit UnitFrame(std::span<const Vec3> points) {
@@ -47,7 +44,7 @@ private:
   int _exponent = 0;
 };
 
-/// Along a space-filling curve, crossings with them.
+/// Sorts the cells along a space-filling curve, and the crossings accordingly.
 void sort_cells(std::span<const Vec3> points, OwnedCells& owned) {
   OwnedCells sorted;
   std::vector<std::int32_t> place(owned.cells.size());

@@ -2,6 +2,7 @@
 
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -56,17 +57,17 @@ struct BorderOfZone {
   }
 };
 
-/// The parts of zones that travel from one rank to another.
-struct Cargo {
+/// The parts of zone inputs that one rank sends to others.
+struct ZoneItems {
   std::vector<PointOfZone> points, at_borders;
   std::vector<TriangleOfZone> triangles;
   std::vector<BorderOfZone> borders;
 };
 
-/// Fetches what is to be sent.
-class Loader {
+/// Collects what this rank sends.
+class ItemCollector {
 public:
-  Loader(const Lattice& lattice, const Shell& shell, const SendPlan& plan)
+  ItemCollector(const Lattice& lattice, const Shell& shell, const SendPlan& plan)
       : _lattice(lattice), _shell(shell), _plan(plan) {
     for (const SendPlan::OfBlock& want : plan.blocks) {
       add_points(want);
@@ -77,7 +78,7 @@ public:
     for (const SendPlan::Triangle& want : plan.triangles) add_triangle(want);
   }
 
-  Cargo cargo;
+  ZoneItems sent;
 
 private:
   void add_points(const SendPlan::OfBlock& want) {
@@ -85,35 +86,35 @@ private:
     const std::int64_t first = all.starts[want.block - all.first];
     for (std::uint64_t left = want.points; left != 0; left &= left - 1) {
       const std::int64_t i = first + __builtin_ctzll(left);
-      cargo.points.push_back({want.zone, _plan.ranks[want.zone],
-                              lattice_number(_lattice.tree, want.block, all.slots[i]), all.points[i],
-                              all.regions[i], _shell.zones.of(want.block, all.slots[i] / slots_per_leaf)});
+      sent.points.push_back({want.zone, _plan.ranks[want.zone],
+                             lattice_number(_lattice.tree, want.block, all.slots[i]), all.points[i],
+                             all.regions[i], _shell.zones.of(want.block, all.slots[i] / slots_per_leaf)});
     }
   }
 
-  /// One at a zone's own point comes with all of its points, however far they are.
+  /// A border triangle with a point of the zone is sent with all three points, however far they are.
   void add_border(const SendPlan::OfBlock& want, const BorderTriangle& t) {
     const parallel::Rank rank = _plan.ranks[want.zone];
     const mesh::RegionId region = _shell.local.core.region(want.block);
-    cargo.borders.push_back(
+    sent.borders.push_back(
         {want.zone, rank, t.points, _lattice.tree.number(Leaf{want.block, t.child}), region});
     std::array<ZoneIndex, 3> owners;
     for (int k = 0; k < 3; ++k) owners[k] = _shell.zones.of(leaf_of_lattice(_lattice.tree, t.points[k]));
     if (std::find(owners.begin(), owners.end(), want.zone) == owners.end()) return;
     for (int k = 0; k < 3; ++k) {
       const Vec3 p = lattice_point(_lattice, _shell.local.changes, t.points[k]);
-      cargo.at_borders.push_back({want.zone, rank, t.points[k], p, region, owners[k]});
+      sent.at_borders.push_back({want.zone, rank, t.points[k], p, region, owners[k]});
     }
   }
 
   void add_triangle(const SendPlan::Triangle& want) {
-    TriangleOfZone sent{want.zone, _plan.ranks[want.zone], _lattice.triangles[want.triangle], {}, {}};
+    TriangleOfZone item{want.zone, _plan.ranks[want.zone], _lattice.triangles[want.triangle], {}, {}};
     for (int k = 0; k < 3; ++k) {
-      const Leaf leaf = _lattice.leaf_at(sent.triangle.points[k]);
-      sent.leaves[k] = _lattice.tree.number(leaf);
-      sent.owners[k] = _shell.zones.of(leaf);
+      const Leaf leaf = _lattice.leaf_at(item.triangle.points[k]);
+      item.leaves[k] = _lattice.tree.number(leaf);
+      item.owners[k] = _shell.zones.of(leaf);
     }
-    cargo.triangles.push_back(sent);
+    sent.triangles.push_back(item);
   }
 
   const Lattice& _lattice;
@@ -121,7 +122,7 @@ private:
   const SendPlan& _plan;
 };
 
-/// A zone's points and triangles become its problem.
+/// Makes the input of a zone from its points and triangles.
 class InputBuilder {
 public:
   InputBuilder(ZoneIndex zone, const Lattice& lattice) : _lattice(lattice) {
@@ -129,7 +130,7 @@ public:
     _input.surface_vertices = lattice.surface_vertices;
   }
 
-  /// All by number.
+  /// Points and triangles must be sorted by number.
   ZoneInput build(std::span<const PointOfZone> points, std::span<const TriangleOfZone> triangles,
                   std::span<const BorderOfZone> borders) {
     std::vector<Corner> corners;
@@ -175,7 +176,7 @@ private:
                                                           : Owner::higher);
   }
 
-  /// Where all of its points are known.
+  /// Adds a border triangle if the zone has all its points.
   void add_border(const BorderOfZone& t) {
     const std::vector<mesh::SharedVertexKey>& vertex_keys = _input.vertex_keys;
     LocalTriangle local;
@@ -205,8 +206,8 @@ private:
       local[k] = static_cast<mesh::LocalIndex>(at - corners.begin());
     }
     _input.problem.triangles.push_back(local);
-    _input.problem.front.push_back(t.front);
-    _input.problem.back.push_back(t.back);
+    _input.problem.inside.push_back(t.inside);
+    _input.problem.outside.push_back(t.outside);
     _input.face.push_back(t.face);
     _input.patch.push_back(t.patch);
   }
@@ -214,16 +215,6 @@ private:
   const Lattice& _lattice;
   ZoneInput _input;
 };
-
-/// Brings what zones know to their ranks, by zone. Collective.
-template <class Item>
-void send(const parallel::Communicator& communicator, std::vector<Item>& items) {
-  items = mesh::deliver(communicator, std::move(items), [](const Item& item) { return item.rank; });
-  // Ranks have ascending blocks: what comes block by block is by number within each zone.
-  const auto before = [](const Item& a, const Item& b) { return a.zone < b.zone; };
-  if (!std::is_sorted(items.begin(), items.end(), before))
-    std::stable_sort(items.begin(), items.end(), before);
-}
 
 /// Items of a zone, from a list by zone.
 template <class Item>
@@ -238,22 +229,29 @@ std::span<Item> of_zone(std::vector<Item>& items, ZoneIndex zone) {
 }  // namespace
 
 std::vector<ZoneInput> gather_zone_inputs(const Lattice& lattice, const Shell& shell, const SendPlan& plan) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
-  Cargo cargo;
+  ZoneItems sent;
   {
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    cargo = std::move(Loader(lattice, shell, plan).cargo);
+    sent = std::move(ItemCollector(lattice, shell, plan).sent);
   }
-  send(communicator, cargo.points);
-  send(communicator, cargo.at_borders);
-  send(communicator, cargo.triangles);
-  send(communicator, cargo.borders);
+  const auto deliver_by_zone = [&](auto& items) {
+    items = mesh::deliver(lattice.tree.communicator(), std::move(items),
+                          [](const auto& item) { return item.rank; });
+    // Ranks have ascending blocks: what comes block by block is by number within each zone.
+    const auto before = [](const auto& a, const auto& b) { return a.zone < b.zone; };
+    if (!std::is_sorted(items.begin(), items.end(), before))
+      std::stable_sort(items.begin(), items.end(), before);
+  };
+  deliver_by_zone(sent.points);
+  deliver_by_zone(sent.at_borders);
+  deliver_by_zone(sent.triangles);
+  deliver_by_zone(sent.borders);
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   std::vector<ZoneInput> inputs;
   for (ZoneIndex zone = 0; zone < static_cast<ZoneIndex>(plan.ranks.size()); ++zone) {
-    const std::span<PointOfZone> near = of_zone(cargo.points, zone);
-    const std::span<PointOfZone> at_borders = of_zone(cargo.at_borders, zone);
-    const std::span<TriangleOfZone> triangles = of_zone(cargo.triangles, zone);
+    const std::span<PointOfZone> near = of_zone(sent.points, zone);
+    const std::span<PointOfZone> at_borders = of_zone(sent.at_borders, zone);
+    const std::span<TriangleOfZone> triangles = of_zone(sent.triangles, zone);
     if (near.empty() && triangles.empty()) continue;
     std::sort(triangles.begin(), triangles.end(), [](const TriangleOfZone& a, const TriangleOfZone& b) {
       return a.triangle.number < b.triangle.number;
@@ -266,7 +264,7 @@ std::vector<ZoneInput> gather_zone_inputs(const Lattice& lattice, const Shell& s
     points.reserve(near.size());
     std::set_union(near.begin(), near.end(), at_borders.begin(), last, std::back_inserter(points),
                    PointOfZone::by_number);
-    inputs.push_back(InputBuilder(zone, lattice).build(points, triangles, of_zone(cargo.borders, zone)));
+    inputs.push_back(InputBuilder(zone, lattice).build(points, triangles, of_zone(sent.borders, zone)));
   }
   return inputs;
 }

@@ -16,8 +16,11 @@ namespace {
 
 class PieceMaker {
 public:
-  PieceMaker(const ZoneInput& input, const ZoneFilling& filling)
-      : _input(input), _filling(filling), _shared(input.problem.points.size(), 0) {
+  PieceMaker(const ZoneInput& input, const ZoneFilling& filling, bool surface_numbers)
+      : _input(input),
+        _filling(filling),
+        _surface_numbers(surface_numbers),
+        _shared(input.problem.points.size(), 0) {
     mark_shared();
   }
 
@@ -41,7 +44,7 @@ public:
       for (const LocalIndex v : owned.cells[c]) piece.cells.push_back(number[v]);
     }
     for (const std::int32_t t : owned.triangles) {
-      if (_input.problem.front[t] != region) continue;
+      if (_input.problem.inside[t] != region) continue;
       for (const LocalIndex v : _input.problem.triangles[t]) piece.boundary.push_back(number[v]);
       piece.triangle_face.push_back(_input.face[t]);
       piece.triangle_patch.push_back(_input.patch[t]);
@@ -52,12 +55,10 @@ public:
   std::vector<ZoneFace> faces() const {
     std::vector<ZoneFace> result;
     for (const Crossing& crossing : _filling.owned.crossings) {
-      const int* corner = mesh::tetrahedron_faces[crossing.face];
       ZoneFace face{};
       face.zone = _input.zone;
       face.region = _filling.owned.regions[crossing.cell];
-      std::array<LocalIndex, 3> v;
-      for (int k = 0; k < 3; ++k) v[k] = _filling.owned.cells[crossing.cell][corner[k]];
+      LocalTriangle v = face_of(_filling.owned.cells[crossing.cell], crossing.face);
       const auto order = [&](int i, int j) {
         if (vertex_key(v[j]) < vertex_key(v[i])) std::swap(v[i], v[j]), face.odd ^= 1;
       };
@@ -72,7 +73,7 @@ public:
   }
 
 private:
-  /// `number` has the piece's vertices by those of the zone.
+  /// `number` has the local index in the piece for each vertex of the zone.
   void note_core_side(RegionId region, const std::vector<LocalIndex>& number, CoreSide& side) const {
     for (std::size_t v = _input.problem.surface_points(); v < given(); ++v) {
       if (number[v] < 0) continue;
@@ -81,9 +82,8 @@ private:
     }
     for (const Crossing& border : _filling.owned.borders) {
       if (_filling.owned.regions[border.cell] != region) continue;
-      const int* corner = mesh::tetrahedron_faces[border.face];
-      const LocalCell& cell = _filling.owned.cells[border.cell];
-      side.borders.push_back({number[cell[corner[0]]], number[cell[corner[1]]], number[cell[corner[2]]]});
+      const auto [a, b, c] = face_of(_filling.owned.cells[border.cell], border.face);
+      side.borders.push_back({number[a], number[b], number[c]});
     }
   }
 
@@ -96,20 +96,17 @@ private:
     return static_cast<std::size_t>(v) < given() ? _input.leaves[v] : -1;
   }
 
-  /// Vertices on faces to other zones, and where triangles of several regions meet.
+  /// Marks vertices on faces to other zones, and where triangles of several regions meet.
   void mark_shared() {
     for (const Crossing& crossing : _filling.owned.crossings) {
-      const int* corner = mesh::tetrahedron_faces[crossing.face];
-      for (int k = 0; k < 3; ++k) {
-        const LocalIndex v = _filling.owned.cells[crossing.cell][corner[k]];
+      for (const LocalIndex v : face_of(_filling.owned.cells[crossing.cell], crossing.face))
         if (static_cast<std::size_t>(v) < given()) _shared[v] = 1;
-      }
     }
     for (const LocalIndex v : _filling.owned.touched) _shared[v] = 1;
     const ZoneProblem& problem = _input.problem;
     std::vector<RegionId> first(problem.surface_points(), mesh::no_region);
     for (std::size_t t = 0; t < problem.triangles.size(); ++t) {
-      for (const RegionId region : {problem.front[t], problem.back[t]}) {
+      for (const RegionId region : {problem.inside[t], problem.outside[t]}) {
         if (region == mesh::no_region) continue;
         for (const LocalIndex v : problem.triangles[t]) {
           if (first[v] == mesh::no_region) first[v] = region;
@@ -119,7 +116,7 @@ private:
     }
   }
 
-  /// Numbers the vertices that are used, in their order.
+  /// Adds the vertices that are used, in their order.
   void add_vertices(RegionId region, std::vector<LocalIndex>& number, Piece& piece) const {
     const std::size_t surface_points = _input.problem.surface_points();
     const auto used = static_cast<std::size_t>(std::count(number.begin(), number.end(), 0));
@@ -135,6 +132,9 @@ private:
       const bool on_surface = v < surface_points;
       piece.vertex_dimension.push_back(on_surface ? _input.dimension[v] : mesh::CadDimension::region);
       piece.vertex_entity.push_back(on_surface ? _input.entity[v] : region);
+      if (_surface_numbers)
+        piece.surface_numbers.push_back(on_surface ? static_cast<mesh::GlobalIndex>(_input.vertex_keys[v])
+                                                   : -1);
       if (v >= given() || !_shared[v]) continue;
       piece.shared_vertices.push_back(number[v]);
       piece.shared_keys.push_back(_input.vertex_keys[v]);
@@ -143,17 +143,18 @@ private:
 
   const ZoneInput& _input;
   const ZoneFilling& _filling;
+  bool _surface_numbers;
   std::vector<std::uint8_t> _shared;  // per given point
 };
 
 }  // namespace
 
-ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling) {
+ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling, bool surface_numbers) {
   ZoneResult result;
   result.zone = input.zone;
   std::vector<RegionId> regions = filling.owned.regions;
   geometry::sort_unique(regions);
-  const PieceMaker maker(input, filling);
+  const PieceMaker maker(input, filling, surface_numbers);
   for (const RegionId region : regions)
     result.pieces.push_back(maker.make(region, result.core_sides.emplace_back()));
   result.faces = maker.faces();
@@ -165,7 +166,6 @@ ZoneResult make_pieces(const ZoneInput& input, const ZoneFilling& filling) {
 mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
                                     std::map<ZoneIndex, ZoneResult>& results, std::vector<Piece> core,
                                     ZoneIndex zones) {
-  const parallel::Communicator& communicator = surface.communicator;
   struct PieceRegion {
     std::int32_t place;  ///< a zone, or a range of the core after them
     RegionId region;
@@ -177,9 +177,8 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
     for (const Piece& piece : result.pieces) rows.push_back({zone, piece.region});
   }
   for (const Piece& piece : core) rows.push_back({zones + piece.id, piece.region});
-  rows = communicator.all_gather_items<PieceRegion>(rows);
-  std::sort(rows.begin(), rows.end());
-  mesh::DistributedMesh mesh(communicator);
+  rows = surface.communicator.gather_sorted(rows);
+  mesh::DistributedMesh mesh(surface.communicator);
   mesh.piece_count = static_cast<mesh::PieceId>(rows.size());
   const auto add = [&](std::int32_t place, Piece& piece) {
     piece.id = static_cast<mesh::PieceId>(

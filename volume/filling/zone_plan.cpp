@@ -1,8 +1,8 @@
 #include "volume/filling/zone_plan.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/task_kind.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/zones/halo.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace aeroloom::volume {
 namespace {
 
-/// Triangles by the block that their centre lies in, of a range of blocks.
+/// The triangles of own blocks, by the block that contains their centre.
 class Centres {
 public:
   explicit Centres(const Lattice& lattice)
@@ -20,7 +20,7 @@ public:
     blocks.reserve(lattice.triangles.size());
     for (const SurfaceTriangle& t : lattice.triangles) {
       const geometry::Vec3 centre = (1.0 / 3.0) * (t.points[0] + t.points[1] + t.points[2]);
-      // Of a large triangle beside small blocks the centre may lie in one that is not local, so not own.
+      // The centre of a large triangle may lie in a placeholder.
       blocks.push_back(lattice.tree.any_at(lattice.frame.cell_at(lattice.frame.to_grid(centre))));
       if (is_own(blocks.back())) ++_starts[blocks.back() - _first + 1];
     }
@@ -44,7 +44,7 @@ private:
   std::vector<std::int32_t> _starts, _triangles;
 };
 
-/// Finds what zones know of a rank's blocks.
+/// Finds the points and triangles of this rank's blocks that are in zones or their halos.
 class Finding {
 public:
   Finding(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
@@ -57,12 +57,12 @@ public:
     for (BlockIndex b = points.first; b < points.last(); ++b) {
       if (points.count(b) == 0 && shell.local.borders.of(b).empty() && centres.of(b).empty()) continue;
       around.move_to(b);
-      for (const NearZone& near : around.zones()) {
-        if (!_is_wanted[near.zone]) continue;
-        look_at(near, b);
+      for (const HaloZone& halo : around.zones()) {
+        if (!_is_wanted[halo.zone]) continue;
+        look_at(halo, b);
         for (const std::int32_t t : centres.of(b)) {
-          if (near.knows(grid_box(lattice.frame, lattice.triangles[t].points)))
-            found.triangles.push_back({near.zone, t});
+          if (halo.reaches(grid_box(lattice.frame, lattice.triangles[t].points)))
+            found.triangles.push_back({halo.zone, t});
         }
       }
     }
@@ -71,14 +71,14 @@ public:
   SendPlan found;
 
 private:
-  void look_at(const NearZone& near, BlockIndex b) {
+  void look_at(const HaloZone& halo, BlockIndex b) {
     const LatticeTree& tree = _lattice.tree;
-    SendPlan::OfBlock want{near.zone, b, 0, 0};
+    SendPlan::OfBlock want{halo.zone, b, 0, 0};
     std::uint8_t own = 0;
     for (int child = 0; child < tree.leaf_count(b); ++child) {
-      const bool is_own = _shell.zones.of(b, child) == near.zone;
+      const bool is_own = _shell.zones.of(b, child) == halo.zone;
       own |= static_cast<std::uint8_t>(is_own << child);
-      if (is_own || near.knows(GridBox::of(tree.leaf(b, child))))
+      if (is_own || halo.reaches(GridBox::of(tree.leaf(b, child))))
         want.leaves |= static_cast<std::uint8_t>(1U << child);
     }
     if (want.leaves == 0) return;
@@ -88,7 +88,7 @@ private:
       const int child = points.slots[first + i] / slots_per_leaf;
       if (!(want.leaves >> child & 1)) continue;
       const geometry::Vec3 place = _lattice.frame.to_grid(points.points[first + i]);
-      if ((own >> child & 1) || near.knows({place, place})) want.points |= std::uint64_t{1} << i;
+      if ((own >> child & 1) || halo.reaches({place, place})) want.points |= std::uint64_t{1} << i;
     }
     if (want.points != 0 || !_shell.local.borders.of(b).empty()) found.blocks.push_back(want);
   }
@@ -98,20 +98,19 @@ private:
   std::vector<std::uint8_t> _is_wanted;  // per zone
 };
 
-/// The sum over all ranks of what they have of each zone, by zone. Collective.
-std::vector<ZoneLoad> add_up(const parallel::Communicator& communicator, const SendPlan& mine,
-                             std::span<const ZoneIndex> zones, std::size_t all_zones) {
-  std::vector<std::int64_t> points(all_zones, 0), triangles(all_zones, 0);
+/// The loads of zones, summed over all ranks. Collective.
+std::vector<ZoneLoad> add_up(const Zones& all, const SendPlan& mine, std::span<const ZoneIndex> zones) {
+  std::vector<std::int64_t> points(all.count(), 0), triangles(all.count(), 0);
   for (const auto& want : mine.blocks) points[want.zone] += __builtin_popcountll(want.points);
   for (const auto& want : mine.triangles) ++triangles[want.zone];
-  points = sum_by_zone(communicator, std::move(points));
-  triangles = sum_by_zone(communicator, std::move(triangles));
+  points = all.sum(std::move(points));
+  triangles = all.sum(std::move(triangles));
   std::vector<ZoneLoad> loads;
   for (const ZoneIndex z : zones) loads.push_back({z, points[z], triangles[z]});
   return loads;
 }
 
-/// Where a zone is filled, and in which batch.
+/// The rank and the batch in which a zone is filled.
 struct Assignment {
   parallel::Rank rank = 0;
   std::size_t batch = 0;
@@ -130,7 +129,7 @@ std::vector<Assignment> schedule_zones(const std::vector<ZoneLoad>& loads, int r
   return assignments;
 }
 
-/// Items go to their batches, by zone, in their order within one.
+/// Divides items among batches, sorted by zone. The order within a zone is kept.
 template <class Item, class Member>
 void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments,
             std::vector<SendPlan>& batches, Member member) {
@@ -143,15 +142,13 @@ void divide(std::vector<Item>& items, const std::vector<Assignment>& assignments
 
 ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
                     std::span<const double> widths) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
   SendPlan mine;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    mine = std::move(Finding(lattice, shell, zones, widths).found);
-  });
+  parallel::collectively(lattice.tree.communicator(), parallel::ScopedCpu::As::task,
+                         [&] { mine = std::move(Finding(lattice, shell, zones, widths).found); });
   ZonePlan plan;
-  plan.loads = add_up(communicator, mine, zones, widths.size());
-  const std::vector<Assignment> assignments = schedule_zones(plan.loads, communicator.size(), widths.size());
+  plan.loads = add_up(shell.zones, mine, zones);
+  const std::vector<Assignment> assignments =
+      schedule_zones(plan.loads, lattice.tree.communicator().size(), widths.size());
   std::size_t batches = 0;
   for (const ZoneLoad& load : plan.loads) batches = std::max(batches, assignments[load.zone].batch + 1);
   plan.batches.resize(batches);

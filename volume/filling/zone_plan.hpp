@@ -1,8 +1,6 @@
-/// Who fills which zone, and with what.
+/// Assigns zones to ranks, and finds their points and triangles.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/filling/zone_inputs.hpp"
 
 #include <span>
@@ -10,26 +8,25 @@
 
 namespace aeroloom::volume {
 
-/// The size of a zone, halo included, by which it is scheduled.
+/// The size of a zone, halo included. Zones are scheduled by it.
 struct ZoneLoad {
   ZoneIndex zone;
   std::int64_t points;  ///< of the lattice
   std::int64_t triangles;
-  /// Expected cost of filling, in that of a lattice point: a triangle brings half a point, and has to be
-  /// recovered. Measured on a DLR-F6 in nine zones: about 11 microseconds of CPU for a
-  /// point, 13 for a triangle.
+  /// The expected cost of filling, in lattice points. A triangle adds half a point, and has to be recovered.
+  /// Measured on a DLR-F6 in nine zones: about 11 microseconds of CPU for a point, 13 for a triangle.
   double work() const { return double(points) + work_per_triangle * double(triangles); }
   static constexpr double work_per_triangle = 1.2;
 };
 
-/// Zones that are to be filled.
+/// The zones to be filled, and what this rank sends to them.
 struct ZonePlan {
-  std::vector<ZoneLoad> loads;    ///< of all of them, by zone, the same on every rank
-  std::vector<SendPlan> batches;  ///< of what this rank has, batch after batch
+  std::vector<ZoneLoad> loads;    ///< by zone, the same on every rank
+  std::vector<SendPlan> batches;  ///< of the data of this rank, one after the other
 };
 
-/// Finds what zones know of this rank's blocks, `widths[zone]` being that of their halo, and deals zones out,
-/// largest first, in batches of a few for each rank. Collective.
+/// Finds the points and triangles of zones in this rank's blocks. Assigns zones to ranks, largest first, in
+/// batches of a few zones per rank. `widths` has the width of each zone's halo, in sizes. Collective.
 ZonePlan plan_zones(const Lattice& lattice, const Shell& shell, std::span<const ZoneIndex> zones,
                     std::span<const double> widths);
 

@@ -2,8 +2,8 @@
 
 #include "mesh/data/mixing.hpp"
 #include "volume/lattice/empty_balls.hpp"
-#include "volume/lattice/near_triangles.hpp"
-#include "volume/lattice/within_blocks.hpp"
+#include "volume/lattice/region_in_block.hpp"
+#include "volume/lattice/triangle_candidates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,52 +15,51 @@ using geometry::Vec3;
 
 namespace {
 
-/// The size of boundary triangles counts in the clearance as far as it is within these bounds, in local
-/// sizes: beyond them the surface is not what sizes ask for. Chosen, not measured.
+/// Bounds of the mean edge of a triangle in the clearance, in local sizes. Beyond them triangles do not have
+/// the requested size. Chosen, not measured.
 constexpr double smallest_edge = 0.3, largest_edge = 1.5;
-/// The factor by which the clearance grows in each step of a retry, up to the steps that there are:
-/// points move off what TetGen could not mesh, and still fill the space. Chosen, not measured.
+/// The factor by which a retry increases the clearance, and the largest number of such steps. Points move
+/// away from what TetGen could not mesh, and still fill the space. Chosen, not measured.
 constexpr double step_factor = 1.6;
 constexpr int most_steps = 2;
 
-/// Slots that hang: a point stands there if one of the cells of the leaf's level is split that touch the
-/// place from below: their offsets.
-struct Touching {
+/// Slots in the middle of edges and faces. They have a point if one of the cubes at these offsets, of the
+/// size of the leaf, is split.
+struct MiddleSlot {
   int slot, count;
   int offsets[3][3];
 };
-constexpr Touching hanging[] = {{1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}},
-                                {2, 3, {{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
-                                {3, 3, {{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}},
-                                {4, 1, {{0, 0, -1}}},
-                                {5, 1, {{0, -1, 0}}},
-                                {6, 1, {{-1, 0, 0}}}};
+constexpr MiddleSlot middle_slots[] = {{1, 3, {{0, -1, 0}, {0, 0, -1}, {0, -1, -1}}},
+                                       {2, 3, {{-1, 0, 0}, {0, 0, -1}, {-1, 0, -1}}},
+                                       {3, 3, {{-1, 0, 0}, {0, -1, 0}, {-1, -1, 0}}},
+                                       {4, 1, {{0, 0, -1}}},
+                                       {5, 1, {{0, -1, 0}}},
+                                       {6, 1, {{-1, 0, 0}}}};
 
-/// The largest size in a block, at most.
+/// An upper bound for the sizes in a block.
 double largest_size(const Lattice& lattice, BlockIndex b) {
   const GridCube cell = lattice.tree.cube(b);
-  const double half = 0.5 * cell.edge();
-  const Vec3 center = lattice.frame.to_space(GridBox::of(cell).low + Vec3{half, half, half});
   const double half_diagonal = 0.5 * std::numbers::sqrt3 * lattice.frame.edge(cell.level);
   const double slope = slope_margin * std::log(lattice.field.options().growth);
-  return std::min(lattice.field.maximum(), lattice.field(center) + slope * half_diagonal);
+  return std::min(lattice.field.maximum(),
+                  lattice.field(lattice.frame.middle_of(cell)) + slope * half_diagonal);
 }
 
-/// Radius of the balls around core leaves that no point of the surface stands in, in leaf edges: half a
-/// diagonal of the leaf, and what shear and perturbation make of it.
+/// Radius of the balls around core leaves that contain no surface vertex, in leaf edges: half a diagonal of
+/// the leaf, enlarged for shear and perturbation.
 constexpr double core_ball = 0.9;
 
-/// How far the surface is from corners and centres of leaves of the core, in space.
+/// The least distance of corners and centres of core leaves from the surface, in space.
 double core_distance(const Lattice& lattice, BlockIndex b) {
   return core_clearance * lattice.frame.edge(lattice.tree.leaf_level(b));
 }
 
 double clearance_of(const Lattice& lattice, const BlockChange& change) {
-  return lattice.options.clearance * std::pow(step_factor, change.farther);
+  return lattice.options.lattice_clearance * std::pow(step_factor, change.farther);
 }
 
-/// Whether there are far smaller triangles within a distance of the points of a block. Where a block is not
-/// local, none is there (fetch_finer_ghosts).
+/// Whether a far finer block that the surface meets is within a radius of a block. Such blocks of other ranks
+/// are local by fetch_finer_ghosts().
 bool sees_far_finer(const Lattice& lattice, BlockIndex b, double radius) {
   const LatticeTree& tree = lattice.tree;
   const int level = far_finer_level(tree.level(b));
@@ -72,7 +71,7 @@ bool sees_far_finer(const Lattice& lattice, BlockIndex b, double radius) {
       });
 }
 
-/// Whether leaves of a block may be core at all: not where far smaller triangles would have to be looked at.
+/// Whether leaves of a block can be core. They cannot if far finer blocks on the surface are near.
 bool may_have_core(const Lattice& lattice, BlockIndex b) {
   return !sees_far_finer(lattice, b, lattice.frame.grid_distance(core_distance(lattice, b)));
 }
@@ -80,42 +79,42 @@ bool may_have_core(const Lattice& lattice, BlockIndex b) {
 /// Makes the points of one block after the other.
 class PointMaker {
 public:
-  PointMaker(const Lattice& lattice, std::span<const BlockChange> changes, const NearSurface& surface,
+  PointMaker(const Lattice& lattice, std::span<const BlockChange> changes, const LocalSurface& surface,
              const SearchRadii& radii, BlockPoints& result)
       : _lattice(lattice),
         _changes(changes),
         _surface(surface),
         _radii(radii),
         _result(result),
-        _within(lattice, surface) {}
+        _in_block(lattice, surface) {}
 
   void make(BlockIndex b) {
     _result.clear_leaves.push_back(0);
     const bool met = _lattice.table.is_met(b);
     if (!met && _lattice.regions[b - _lattice.tree.first()] == mesh::no_region) return;
     _block = b;
-    _offered.clear();
+    _candidates.clear();
     _box = {};
     for (int child = 0; child < _lattice.tree.leaf_count(b); ++child) make_leaf(child);
     const bool near = met || is_near();
     if (near) find_triangles();
     _result.clear_leaves.back() = clear_leaves();
-    for (const Offer& offer : _offered) {
+    for (const Candidate& candidate : _candidates) {
       mesh::RegionId region = _lattice.regions[b - _lattice.tree.first()];
-      if (near && !is_clear(offer)) continue;
-      if (met) region = region_of(offer.point);
+      if (near && !is_clear(candidate)) continue;
+      if (met) region = region_of(candidate.point);
       if (region == mesh::no_region) continue;
-      _result.slots.push_back(offer.slot);
-      _result.points.push_back(offer.point);
+      _result.slots.push_back(candidate.slot);
+      _result.points.push_back(candidate.point);
       _result.regions.push_back(region);
     }
   }
 
 private:
-  /// A point that is made unless something is in the way.
-  struct Offer {
+  /// A point that is made unless it is too near to the surface or outside.
+  struct Candidate {
     Vec3 point;
-    double size;  ///< where triangles may be near
+    double size;  ///< local size, if triangles may be near
     std::uint8_t slot;
   };
 
@@ -127,26 +126,24 @@ private:
     return _surface.distance().any_in(_box.dilated(radius));
   }
 
-  /// Triangles near a block's points, and the sizes that decide.
+  /// Finds the sizes at the offered points, and the triangles near them.
   void find_triangles() {
     double largest = 0;
-    for (Offer& offer : _offered) {
-      offer.size = _lattice.field(offer.point);
-      largest = std::max(largest, offer.size);
+    for (Candidate& candidate : _candidates) {
+      candidate.size = _lattice.field(candidate.point);
+      largest = std::max(largest, candidate.size);
     }
     _triangles.collect(_surface.distance(), _box,
                        largest_edge * clearance_of(_lattice, _changes[_block]) * largest);
   }
 
-  /// The leaves whose corners and centre keep off the surface as far as those of the core do.
+  /// The leaves whose corners and centre are as far from the surface as core leaves must be, as bits.
   std::uint8_t clear_leaves() {
     const LatticeTree& tree = _lattice.tree;
     if (!may_have_core(_lattice, _block)) return 0;
     const double radius = core_distance(_lattice, _block);
-    const GridBox whole = GridBox::of(tree.cube(_block));
     if (_surface.empty()) return tree.all_leaves(_block);
-    geometry::Box box;
-    for (int corner = 0; corner < 8; ++corner) box.add(_lattice.frame.to_space(whole.corner(corner)));
+    const geometry::Box box = _lattice.frame.space_box(GridBox::of(tree.cube(_block)));
     if (!_surface.distance().any_in(box.dilated(radius))) return tree.all_leaves(_block);
     _around.collect(_surface.distance(), box, radius);
     std::uint8_t clear = 0;
@@ -171,13 +168,13 @@ private:
 
   void make_leaf(int child) {
     const GridCube leaf = _lattice.tree.leaf(_block, child);
-    offer(child, 0);
-    for (const Touching& touching : hanging) {
+    add_candidate(child, 0);
+    for (const MiddleSlot& middle : middle_slots) {
       const auto is_split = [&](const int(&offset)[3]) { return is_neighbour_split(leaf, offset); };
-      if (std::any_of(touching.offsets, touching.offsets + touching.count, is_split))
-        offer(child, touching.slot);
+      if (std::any_of(middle.offsets, middle.offsets + middle.count, is_split))
+        add_candidate(child, middle.slot);
     }
-    offer(child, 7);
+    add_candidate(child, 7);
   }
 
   bool is_neighbour_split(const GridCube& leaf, const int (&offset)[3]) const {
@@ -191,23 +188,24 @@ private:
          leaf.level});
   }
 
-  void offer(int child, int slot) {
+  void add_candidate(int child, int slot) {
     const Vec3 p = lattice_point(_lattice, _changes, {_block, child}, slot);
-    _offered.push_back({p, 0, static_cast<std::uint8_t>(child * slots_per_leaf + slot)});
+    _candidates.push_back({p, 0, static_cast<std::uint8_t>(child * slots_per_leaf + slot)});
     _box.add(p);
   }
 
-  bool is_clear(const Offer& offer) const {
-    return !_triangles.any_nearer(offer.point, {clearance_of(_lattice, _changes[_block]),
-                                                smallest_edge * offer.size, largest_edge * offer.size});
+  bool is_clear(const Candidate& candidate) const {
+    return !_triangles.any_nearer(candidate.point,
+                                  {clearance_of(_lattice, _changes[_block]), smallest_edge * candidate.size,
+                                   largest_edge * candidate.size});
   }
 
   /// The region of a point in a block that the surface meets.
   mesh::RegionId region_of(Vec3 p) {
     if (const auto known = _balls.region_at(p)) return *known;
-    if (_radii.is_from_within(_block - _result.first)) {
-      const auto seen = _within.look(_block, p);
-      return seen ? seen->region : mesh::no_region;
+    if (_radii.is_region_from_block(_block - _result.first)) {
+      const auto found = _in_block.find(_block, p);
+      return found ? found->region : mesh::no_region;
     }
     std::optional<BoundaryDistance::Nearest> nearest = _triangles.nearest(p);
     if (!nearest) nearest = _surface.distance().nearest(p, _guess);
@@ -219,23 +217,24 @@ private:
 
   const Lattice& _lattice;
   std::span<const BlockChange> _changes;
-  const NearSurface& _surface;
+  const LocalSurface& _surface;
   const SearchRadii& _radii;
   BlockPoints& _result;
-  WithinBlocks _within;
+  RegionInBlock _in_block;
   BlockIndex _block = 0;
-  std::vector<Offer> _offered;  // in the block
-  geometry::Box _box;           // of them
-  NearTriangles _triangles;     // near them
-  NearTriangles _around;        // near leaves that may be core
+  std::vector<Candidate> _candidates;  // points of the block
+  geometry::Box _box;                  // of these points
+  TriangleCandidates _triangles;       // near these points
+  TriangleCandidates _around;          // near leaves that may be core
   std::int32_t _guess = -1;
   EmptyBalls _balls;
 };
 
-/// Lengths in the frame's grid over those in space: what the frame's shear adds, at most.
+/// The largest factor by which the shear of the frame can change lengths.
 constexpr double more_for_shear = 1.1;
 
-/// How far a triangle is from any point of a block that the surface meets, at most, and its inside.
+/// An upper bound for the distance from a point of a block that the surface meets to the inside of a
+/// triangle.
 double nearest_in(const Lattice& lattice, BlockIndex b) {
   constexpr double inward = 0.1;  // of the longest edge; chosen, not measured
   const double half_diagonal = 0.5 * std::numbers::sqrt3 * lattice.tree.cube(b).edge();
@@ -244,8 +243,8 @@ double nearest_in(const Lattice& lattice, BlockIndex b) {
                                      inward * lattice.table.longest_edge[b]);
 }
 
-/// How far from a block the way may lead from one of its points to a triangle whose box meets it.
-double radius_from_within(const Lattice& lattice, BlockIndex b) {
+/// How far the line from a point of a block to a triangle whose box meets it can leave the block.
+double radius_from_block(const Lattice& lattice, BlockIndex b) {
   const double perturbation = lattice.options.perturbation * lattice.tree.cube(b).edge();
   return more_for_shear * lattice.frame.grid_distance(lattice.table.longest_edge[b]) + perturbation;
 }
@@ -273,15 +272,15 @@ Vec3 lattice_point(const Lattice& lattice, std::span<const BlockChange> changes,
   return lattice.frame.to_space(grid) + perturbation(lattice, changes[leaf.block], cube, slot);
 }
 
-std::array<double, 2> looks_of_block(const Lattice& lattice, BlockIndex b) {
+std::array<double, 2> finer_search_radii(const Lattice& lattice, BlockIndex b) {
   return {lattice.frame.grid_distance(core_distance(lattice, b)),
           lattice.table.is_met(b) ? nearest_in(lattice, b) : 0};
 }
 
-// Far from a body sizes are large and its triangles small: these matter to few of the blocks there. No point
-// of a block that the surface meets is farther from the surface than its centre by more than half a diagonal.
+// Far from a body, blocks are large and triangles small, so few triangles matter to many blocks. In a block
+// that the surface meets, no point is farther from it than the centre by more than half a diagonal.
 SearchRadii search_radii_of_blocks(const Lattice& lattice, BlockIndex first, BlockIndex last) {
-  const double farthest = lattice.options.clearance * std::pow(step_factor, most_steps);
+  const double farthest = lattice.options.lattice_clearance * std::pow(step_factor, most_steps);
   SearchRadii radii;
   radii.per_edge = lattice.frame.grid_distance(farthest);
   for (BlockIndex b = first; b < last; ++b) {
@@ -289,14 +288,14 @@ SearchRadii search_radii_of_blocks(const Lattice& lattice, BlockIndex first, Blo
     const double of_core = lattice.frame.grid_distance(core_distance(lattice, b));
     BlockSearchRadii block{smallest_edge * clear, largest_edge * clear};
     if (lattice.table.is_met(b)) block.nearest = nearest_in(lattice, b);
-    // Far finer blocks cost a search. Where all triangles that could matter are at hand none is spared by it.
+    // The search for far finer blocks saves nothing where all triangles that can matter are on this rank.
     const double farthest_of_all = std::max({block.most, block.nearest, of_core});
     const auto [lowest, highest] =
         lattice.tree.range_of(GridBox::of(lattice.tree.cube(b)).dilated(farthest_of_all));
     const bool is_inside = lowest >= first && highest < last;
     if (!is_inside && lattice.table.is_met(b)) {
-      block.from_within = sees_far_finer(lattice, b, block.nearest);
-      if (block.from_within) block.nearest = radius_from_within(lattice, b);
+      block.region_from_block = sees_far_finer(lattice, b, block.nearest);
+      if (block.region_from_block) block.nearest = radius_from_block(lattice, b);
     }
     if (is_inside || may_have_core(lattice, b)) block.least = std::max(block.least, of_core);
     radii.of_blocks.push_back(block);
@@ -305,7 +304,7 @@ SearchRadii search_radii_of_blocks(const Lattice& lattice, BlockIndex first, Blo
 }
 
 BlockPoints make_points(const Lattice& lattice, std::span<const BlockChange> changes, BlockIndex first,
-                        BlockIndex last, const NearSurface& surface, const SearchRadii& radii) {
+                        BlockIndex last, const LocalSurface& surface, const SearchRadii& radii) {
   BlockPoints result;
   result.first = first;
   result.starts.push_back(0);

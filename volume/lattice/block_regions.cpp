@@ -3,8 +3,9 @@
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/empty_balls.hpp"
-#include "volume/lattice/within_blocks.hpp"
+#include "volume/lattice/region_in_block.hpp"
 
 #include <algorithm>
 #include <compare>
@@ -19,20 +20,19 @@ using mesh::RegionId;
 
 namespace {
 
-/// A face between a block that the surface does not meet and one that it does.
+/// A face between a free block and a block that the surface meets.
 struct Contact {
   BlockNumber free, met;
-  BlockNumber set;     ///< that the free block is in, where known
-  std::int64_t order;  ///< of faces, the same on any number of ranks
-  Vec3 place;          ///< in the grid
+  BlockNumber set;     ///< of the free block, once known
+  std::int64_t order;  ///< of the face, the same on any number of ranks
+  Vec3 place;          ///< centre of the face, in the grid
 
   static constexpr auto fields() {
     return std::tuple(&Contact::free, &Contact::met, &Contact::set, &Contact::order, &Contact::place);
   }
 };
 
-/// A set of blocks of one rank that has a face in common with a block, or a set, of another; or what the one
-/// tells the other.
+/// A set of free blocks of this rank, and a block or set of another rank that touches it.
 struct Joint {
   BlockNumber set, with;
 
@@ -40,8 +40,8 @@ struct Joint {
   auto operator<=>(const Joint&) const = default;
 };
 
-/// Calls visit(b, n, face centre, number of the face) for the faces of this rank's blocks b whose
-/// other side is one block n.
+/// Calls visit(b, n, face centre, number of the face) for the faces of this rank's blocks b that have one
+/// block n on the other side.
 template <class Visit>
 void for_each_face(const LatticeTree& tree, const Visit& visit) {
   for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
@@ -61,8 +61,8 @@ void for_each_face(const LatticeTree& tree, const Visit& visit) {
   }
 }
 
-/// The sets of blocks that are joined over faces, as far as this rank's blocks are concerned; the lowest
-/// number of a set stands for it.
+/// The sets of free blocks of this rank that are connected over faces. A set is named by the lowest number of
+/// its blocks on all ranks.
 class BlockSets {
 public:
   BlockSets(const LatticeTree& tree, const SurfaceTable& table)
@@ -81,40 +81,40 @@ public:
     for (BlockIndex i = 0; i < tree.last() - tree.first(); ++i) _set[i] = first_of(i);
   }
 
-  /// Ranks tell each other of lower sets until there are none. Collective.
-  void join_those_of_all_ranks(const parallel::Communicator& communicator) {
-    if (communicator.size() == 1) return;
+  /// Exchanges set numbers between ranks, and takes lower ones, until nothing changes. Collective.
+  void join_over_ranks() {
+    if (_tree.communicator().size() == 1) return;
     for (Joint& joint : _joints) joint.set = own_set(joint.set);
-    // Each learns the other's set, and both know the joint.
-    std::vector<Joint> known = deliver(communicator, _joints);
+    // Afterwards both sides have each joint, as a pair of sets.
+    std::vector<Joint> known = deliver(_joints);
     for (Joint& joint : known) joint = {own_set(joint.with), joint.set};
-    keep_each_once(known);
-    for (const Joint& joint : deliver(communicator, known)) known.push_back({joint.with, joint.set});
-    keep_each_once(known);
+    geometry::sort_unique(known);
+    for (const Joint& joint : deliver(known)) known.push_back({joint.with, joint.set});
+    geometry::sort_unique(known);
     for (bool changed = true; changed;) {
-      std::vector<Joint> told;
-      told.reserve(known.size());
-      for (const Joint& joint : known) told.push_back({set(joint.set), joint.with});
+      std::vector<Joint> sent;
+      sent.reserve(known.size());
+      for (const Joint& joint : known) sent.push_back({set(joint.set), joint.with});
       changed = false;
-      for (const Joint& joint : deliver(communicator, std::move(told))) {
+      for (const Joint& joint : deliver(std::move(sent))) {
         if (joint.set >= set(joint.with)) continue;
         set(joint.with) = joint.set;
         changed = true;
       }
-      changed = communicator.maximum(std::int64_t{changed}) > 0;
+      changed = _tree.communicator().maximum(std::int64_t{changed}) > 0;
     }
   }
 
-  /// Of a block of this rank, by number.
+  /// The set of an own block, by its number.
   BlockNumber set_of(BlockNumber b) { return set(own_set(b)); }
 
-  /// The contacts of this rank's met blocks in the order of faces, each with its set. Collective.
-  std::vector<Contact> take_contacts(const parallel::Communicator& communicator) {
+  /// The contacts whose block on the surface is of this rank, in the order of faces. Collective.
+  std::vector<Contact> take_contacts() {
     std::vector<Contact> contacts =
-        mesh::deliver(communicator, std::move(_contacts),
+        mesh::deliver(_tree.communicator(), std::move(_contacts),
                       [&](const Contact& contact) { return _tree.owner(contact.free); });
     for (Contact& contact : contacts) contact.set = set_of(contact.free);
-    contacts = mesh::deliver(communicator, std::move(contacts),
+    contacts = mesh::deliver(_tree.communicator(), std::move(contacts),
                              [&](const Contact& contact) { return _tree.owner(contact.met); });
     std::sort(contacts.begin(), contacts.end(),
               [](const Contact& a, const Contact& b) { return a.order < b.order; });
@@ -125,20 +125,19 @@ private:
   BlockNumber first_of(BlockIndex i) { return _tree.number(_tree.first() + _own.root(i)); }
   BlockNumber own_set(BlockNumber b) { return first_of(_tree.index(b) - _tree.first()); }
   BlockNumber& set(BlockNumber own) { return _set[_tree.index(own) - _tree.first()]; }
-  std::vector<Joint> deliver(const parallel::Communicator& communicator, std::vector<Joint> joints) const {
-    return mesh::deliver(communicator, std::move(joints),
+  std::vector<Joint> deliver(std::vector<Joint> joints) const {
+    return mesh::deliver(_tree.communicator(), std::move(joints),
                          [&](const Joint& joint) { return _tree.owner(joint.with); });
   }
-  static void keep_each_once(std::vector<Joint>& joints) { geometry::sort_unique(joints); }
 
   const LatticeTree& _tree;
-  geometry::DisjointSets<BlockIndex> _own;  // of this rank's blocks, from the first on
-  std::vector<BlockNumber> _set;            // of each own set, at its first block
-  std::vector<Joint> _joints;               // of blocks of this rank with others
-  std::vector<Contact> _contacts;           // that this rank has met
+  geometry::DisjointSets<BlockIndex> _own;  // of own blocks
+  std::vector<BlockNumber> _set;            // number of each own set, at its first block
+  std::vector<Joint> _joints;               // with blocks of other ranks
+  std::vector<Contact> _contacts;           // found by this rank
 };
 
-/// The region that was seen around a set of blocks, from how many places, and the first of them.
+/// A region that was found at contacts of a set: at how many places, and the first of them.
 struct Witness {
   BlockNumber set;
   RegionId region;
@@ -157,7 +156,7 @@ struct Witness {
   }
 };
 
-/// One per set and region.
+/// Unites the witnesses of one set and region.
 std::vector<Witness> unite(std::vector<Witness> all) {
   std::sort(all.begin(), all.end());
   std::vector<Witness> united;
@@ -170,60 +169,60 @@ std::vector<Witness> unite(std::vector<Witness> all) {
   return united;
 }
 
-/// Looks for the region of places in blocks that the surface meets.
-class Look {
+/// Finds the region at places in blocks that the surface meets.
+class RegionFinder {
 public:
-  Look(const Lattice& lattice, const NearSurface& surface)
-      : _lattice(lattice), _surface(surface), _within(lattice, surface) {}
+  RegionFinder(const Lattice& lattice, const LocalSurface& surface)
+      : _lattice(lattice), _surface(surface), _in_block(lattice, surface) {}
 
   Vec3 place_of(const Contact& contact) const { return _lattice.frame.to_space(contact.place); }
-  /// Where an empty ball tells it.
+  /// The region if an empty ball contains the place.
   std::optional<RegionId> known_region_at(Vec3 p) const { return _balls.region_at(p); }
-  /// From a place in one of this rank's blocks.
-  std::optional<WithinBlocks::Seen> from(BlockIndex b, Vec3 p) {
-    if (_lattice.radii.is_from_within(b - _lattice.tree.first())) return _within.look(b, p);
+  /// The region at a place in a block of this rank.
+  std::optional<RegionInBlock::Found> find(BlockIndex b, Vec3 p) {
+    if (_lattice.radii.is_region_from_block(b - _lattice.tree.first())) return _in_block.find(b, p);
     _nearest = _surface.distance().nearest(p, _nearest.triangle);
     const auto region = _surface.region_at(p, _nearest);
     if (!region) return std::nullopt;
     _balls.remember(p, _nearest.distance, *region);
-    return WithinBlocks::Seen{*region, _nearest.triangle};
+    return RegionInBlock::Found{*region, _nearest.triangle};
   }
 
 private:
   const Lattice& _lattice;
-  const NearSurface& _surface;
-  WithinBlocks _within;
+  const LocalSurface& _surface;
+  RegionInBlock _in_block;
   BoundaryDistance::Nearest _nearest;
   EmptyBalls _balls;
 };
 
-/// The regions that are seen from contacts. The first place of each
-/// kind is looked at for what it tells; others in an empty ball, whose region is known, only count.
+/// Finds the regions at contacts. Further places of a set in an empty ball of the same region are only
+/// counted.
 std::vector<Witness> witnesses_of(std::span<const Contact> contacts, const LatticeTree& tree,
-                                  std::span<const SurfaceTriangle> triangles, Look& look) {
+                                  std::span<const SurfaceTriangle> triangles, RegionFinder& finder) {
   std::vector<Witness> mine;
   std::map<std::pair<BlockNumber, RegionId>, std::size_t> known;  // of `mine`
   for (const Contact& contact : contacts) {
-    const Vec3 p = look.place_of(contact);
-    if (const auto region = look.known_region_at(p)) {
+    const Vec3 p = finder.place_of(contact);
+    if (const auto region = finder.known_region_at(p)) {
       const auto witness = known.find({contact.set, *region});
       if (witness != known.end()) {
         ++mine[witness->second].places;
         continue;
       }
     }
-    const auto seen = look.from(tree.index(contact.met), p);
-    if (!seen) continue;
-    const auto [witness, is_new] = known.insert({{contact.set, seen->region}, mine.size()});
+    const auto found = finder.find(tree.index(contact.met), p);
+    if (!found) continue;
+    const auto [witness, is_new] = known.insert({{contact.set, found->region}, mine.size()});
     if (is_new)
-      mine.push_back({contact.set, seen->region, contact.order, 1, triangles[seen->triangle].number, p});
+      mine.push_back({contact.set, found->region, contact.order, 1, triangles[found->triangle].number, p});
     else
       ++mine[witness->second].places;
   }
   return mine;
 }
 
-/// The witnesses of the lowest set that is seen in several regions: what fewest places and what most say.
+/// The contradiction of the lowest set that was found in several regions.
 std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witnesses) {
   const auto first = std::adjacent_find(witnesses.begin(), witnesses.end(),
                                         [](const Witness& a, const Witness& b) { return a.set == b.set; });
@@ -236,40 +235,42 @@ std::optional<Contradiction> find_contradiction(const std::vector<Witness>& witn
 }
 
 /// The contradiction of the lowest set on all ranks. Collective.
-std::optional<Contradiction> lowest_of(const parallel::Communicator& communicator,
-                                       const std::optional<Contradiction>& mine) {
+std::optional<Contradiction> lowest_of(const LatticeTree& tree, const std::optional<Contradiction>& mine) {
   std::vector<Contradiction> all;
   if (mine) all.push_back(*mine);
-  all = communicator.all_gather_items<Contradiction>(all);
+  all = tree.communicator().all_gather_items<Contradiction>(all);
   if (all.empty()) return std::nullopt;
   return *std::min_element(all.begin(), all.end(),
                            [](const Contradiction& a, const Contradiction& b) { return a.set < b.set; });
 }
 
-/// The regions of sets, told by the ranks that have their first blocks, in their order. Collective.
+/// The regions of sets, fetched from the ranks that own their lowest blocks.
 class RegionsOfSets {
 public:
   RegionsOfSets(const LatticeTree& tree, std::vector<BlockNumber> sets,
                 const std::vector<Witness>& witnesses) {
     const parallel::Communicator& communicator = tree.communicator();
-    struct Asked {
+    struct SetQuery {
       BlockNumber set;
       parallel::Rank from;
       RegionId region;
-      static constexpr auto fields() { return std::tuple(&Asked::set, &Asked::from, &Asked::region); }
+      static constexpr auto fields() {
+        return std::tuple(&SetQuery::set, &SetQuery::from, &SetQuery::region);
+      }
     };
     geometry::sort_unique(sets);
-    std::vector<Asked> asked;
-    asked.reserve(sets.size());
-    for (const BlockNumber set : sets) asked.push_back({set, communicator.rank(), mesh::no_region});
-    asked = mesh::deliver(communicator, std::move(asked), [&](const Asked& a) { return tree.owner(a.set); });
-    for (Asked& a : asked) {
+    std::vector<SetQuery> queries;
+    queries.reserve(sets.size());
+    for (const BlockNumber set : sets) queries.push_back({set, communicator.rank(), mesh::no_region});
+    queries =
+        mesh::deliver(communicator, std::move(queries), [&](const SetQuery& a) { return tree.owner(a.set); });
+    for (SetQuery& a : queries) {
       const auto seen = std::partition_point(witnesses.begin(), witnesses.end(),
                                              [&](const Witness& witness) { return witness.set < a.set; });
       if (seen != witnesses.end() && seen->set == a.set) a.region = seen->region;
     }
-    for (const Asked& a :
-         mesh::deliver(communicator, std::move(asked), [](const Asked& told) { return told.from; }))
+    for (const SetQuery& a :
+         mesh::deliver(communicator, std::move(queries), [](const SetQuery& q) { return q.from; }))
       _regions[a.set] = a.region;
   }
   RegionId of(BlockNumber set) const { return _regions.at(set); }
@@ -281,20 +282,19 @@ private:
 }  // namespace
 
 BlockRegions find_block_regions(const Lattice& lattice, std::span<const SurfaceTriangle> triangles,
-                                const NearSurface& surface) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
+                                const LocalSurface& surface) {
   const LatticeTree& tree = lattice.tree;
   const SurfaceTable& table = lattice.table;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   BlockSets sets(tree, table);
-  sets.join_those_of_all_ranks(communicator);
-  const std::vector<Contact> contacts = sets.take_contacts(communicator);
-  Look look(lattice, surface);
+  sets.join_over_ranks();
+  const std::vector<Contact> contacts = sets.take_contacts();
+  RegionFinder finder(lattice, surface);
   const std::vector<Witness> witnesses =
-      unite(mesh::deliver(communicator, witnesses_of(contacts, tree, triangles, look),
+      unite(mesh::deliver(tree.communicator(), witnesses_of(contacts, tree, triangles, finder),
                           [&](const Witness& witness) { return tree.owner(witness.set); }));
   BlockRegions found{std::vector<RegionId>(tree.last() - tree.first(), mesh::no_region),
-                     lowest_of(communicator, find_contradiction(witnesses))};
+                     lowest_of(tree, find_contradiction(witnesses))};
   std::vector<BlockNumber> of_blocks;
   for (BlockIndex b = tree.first(); b < tree.last(); ++b)
     of_blocks.push_back(table.is_met(b) ? 0 : sets.set_of(tree.number(b)));

@@ -1,10 +1,8 @@
-/// Which region the blocks lie in that the surface does not meet.
+/// The regions of the blocks that the surface does not meet.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/lattice.hpp"
-#include "volume/lattice/near_surface.hpp"
+#include "volume/lattice/local_surface.hpp"
 
 #include <optional>
 #include <span>
@@ -13,13 +11,13 @@
 
 namespace aeroloom::volume {
 
-/// Blocks that the surface does not separate and that are seen in different regions: the surface is not
-/// closed, or intersects itself. The place is one of those that fewest places agree with.
+/// A connected set of free blocks that was found in different regions: the surface has a gap or intersects
+/// itself. The place is from the region that was found at the fewest places.
 struct Contradiction {
-  BlockNumber set = 0;  ///< of blocks, by the lowest of them
+  BlockNumber set = 0;  ///< of blocks: the lowest number among them
   geometry::Vec3 place;
-  mesh::GlobalIndex triangle = 0;  ///< of the surface mesh, nearest to the place
-  mesh::RegionId seen = mesh::no_region, elsewhere = mesh::no_region;
+  mesh::GlobalIndex triangle = 0;  ///< of the surface mesh: the nearest one to the place
+  mesh::RegionId seen = mesh::no_region, elsewhere = mesh::no_region;  ///< at the place, at most others
 
   static constexpr auto fields() {
     return std::tuple(&Contradiction::set, &Contradiction::place, &Contradiction::triangle,
@@ -28,17 +26,16 @@ struct Contradiction {
 };
 
 struct BlockRegions {
-  /// Of this rank's blocks: mesh::no_region outside of all, and also where the surface meets it: there each
-  /// point is asked for itself.
+  /// Per own block. mesh::no_region: outside all regions, or met by the surface.
   std::vector<mesh::RegionId> of_block;
-  std::optional<Contradiction> contradiction;  ///< when there is one, the regions are not to be used
+  std::optional<Contradiction> contradiction;  ///< if there is one, the regions are invalid
 };
 
-/// Blocks that share a face are of one region; all places where such a set touches a block that the surface
-/// meets are looked at, each by the rank that has that block. What is found does not depend on who has which.
-/// `surface` has the
-/// triangles near this rank's blocks. Collective.
+/// Free blocks, those that no triangle meets, are in one region if they are connected over faces. The region
+/// is found at all faces between free and other blocks, by the owner of the other block. The result does not
+/// depend on the partition. `triangles` and `surface` are the triangles within the search radii of this
+/// rank's blocks. Collective.
 BlockRegions find_block_regions(const Lattice& lattice, std::span<const SurfaceTriangle> triangles,
-                                const NearSurface& surface);
+                                const LocalSurface& surface);
 
 }  // namespace aeroloom::volume

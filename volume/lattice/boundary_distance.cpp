@@ -13,8 +13,7 @@ using Node = geometry::BoxTree::Node;
 
 constexpr int leaf_size = 4;  // triangles; chosen, not measured
 
-/// Where on a triangle the point nearest to p lies (Ericson, Real-Time Collision Detection, 2005,
-/// section 5.1.5).
+/// The point of a triangle nearest to p (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
 Vec3 foot_on(Vec3 p, Vec3 a, Vec3 b, Vec3 c, bool& in_face) {
   in_face = false;
   const Vec3 ab = b - a, ac = c - a, ap = p - a;

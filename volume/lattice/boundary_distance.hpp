@@ -13,8 +13,8 @@
 
 namespace aeroloom::volume {
 
-/// Triangles in a tree of boxes, at least one. Refers to the arrays it was built from.
-/// Queries do not allocate. Immutable.
+/// Finds distances to triangles, at least one, with a tree of boxes. Refers to the arrays it was built from.
+/// Queries do not allocate memory. Immutable.
 class BoundaryDistance {
 public:
   using Triangle = std::array<mesh::LocalIndex, 3>;
@@ -25,12 +25,12 @@ public:
   struct Nearest {
     double distance = 0;
     std::int32_t triangle = -1;
-    bool in_face = false;  ///< the foot point lies inside the triangle, on none of its edges
+    bool in_face = false;  ///< the nearest point is inside the triangle, on none of its edges
   };
-  /// `guess` is a triangle thought to be near, -1 for none; it changes the speed, not the distance.
+  /// `guess` is a triangle that may be near, or -1. It changes the speed, not the distance.
   Nearest nearest(geometry::Vec3 p, std::int32_t guess = -1) const;
 
-  /// The point of one triangle that is nearest to p, and how far it is.
+  /// The point of a triangle that is nearest to p, and its distance to p.
   geometry::Vec3 foot_point(geometry::Vec3 p, std::int32_t triangle) const;
   double distance_to(geometry::Vec3 p, std::int32_t triangle) const {
     return distance(p, foot_point(p, triangle));
@@ -40,7 +40,7 @@ public:
   double mean_edge(std::int32_t triangle) const { return _mean_edges[_slot[triangle]]; }
   const geometry::Box& box() const { return _tree.nodes().front().box; }
 
-  /// A triangle with what questions of distance ask of it.
+  /// A triangle with the data for distance queries.
   struct Corners {
     geometry::Vec3 a, b, c;
   };
@@ -49,7 +49,7 @@ public:
     double mean_edge;
     std::int32_t triangle;
   };
-  /// Calls `visit(measured)` for the triangles of all leaves of the tree that meet a box.
+  /// Calls `visit(measured)` for the triangles of all leaves of the tree that overlap a box.
   template <class Visit>
   void for_each_in(const geometry::Box& box, const Visit& visit) const {
     _tree.search([&](const geometry::Box& node) { return node.overlaps(box); },
@@ -57,10 +57,10 @@ public:
                    visit(Measured{_corners[slot], _mean_edges[slot], _tree.order()[slot]});
                  });
   }
-  /// Whether a leaf of the tree meets a box.
+  /// Whether a leaf of the tree overlaps a box.
   bool any_in(const geometry::Box& box) const;
 
-  /// The square of the distance to a triangle, and whether the foot point lies inside.
+  /// The squared distance to a triangle, and whether the nearest point is inside it, on none of its edges.
   struct SquaredDistance {
     double squared;
     bool in_face;
@@ -77,7 +77,7 @@ private:
   std::span<const geometry::Vec3> _points;
   std::span<const Triangle> _triangles;
   geometry::BoxTree _tree;
-  std::vector<std::int32_t> _slot;  ///< place of each triangle in the tree's order
+  std::vector<std::int32_t> _slot;  ///< index of each triangle in the tree's order
   std::vector<Corners> _corners;    ///< in the tree's order
   std::vector<double> _mean_edges;  ///< in the tree's order
 };

@@ -22,13 +22,13 @@ p8est_connectivity_t* connect(int tree_level) {
   return p8est_connectivity_new_brick(per_axis, per_axis, per_axis, 0, 0, 0);
 }
 
-/// Leaves as p4est reads them: x, y, z, level, of their tree.
+/// Leaves as p4est reads them: x, y, z in their tree, level.
 struct Columns {
   static constexpr int width = 4;
   int tree_level;
   std::vector<p4est_qcoord_t> places;
   std::vector<std::int32_t> weights;
-  std::vector<std::int64_t> trees;  // those that begin here, and after how many leaves of this rank
+  std::vector<std::int64_t> trees;  // pairs: a tree that begins on this rank, number of own leaves before it
 
   std::int64_t count() const { return static_cast<std::int64_t>(places.size() / width); }
   void add(int tree, std::uint64_t in_tree, int level, std::int32_t weight) {
@@ -52,8 +52,7 @@ Columns columns_of(const Octants& leaves, int tree_level, std::span<const std::i
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     const int tree = static_cast<int>(leaves.keys[i] >> shift);
     const int level = leaves.levels[i] - tree_level;
-    const std::int32_t weight = weights.empty() ? 1 : weights[i];
-    columns.add(tree, leaves.keys[i] & ((1ULL << shift) - 1), std::max(level, 0), weight);
+    columns.add(tree, leaves.keys[i] & ((1ULL << shift) - 1), std::max(level, 0), weights[i]);
     for (int t = 1; t < 1 << 3 * std::max(-level, 0); ++t) columns.add(tree + t, 0, 0, 0);
   }
   return columns;
@@ -67,19 +66,18 @@ Brick::Brick(const parallel::Communicator& communicator, int tree_level)
                               nullptr, nullptr));
 }
 
-Brick::Brick(const parallel::Communicator& communicator, const Forest& forest,
-             std::span<const std::int32_t> weights)
-    : _communicator(communicator),
+Brick::Brick(const Forest& forest, std::span<const std::int32_t> weights)
+    : _communicator(forest._communicator),
       _tree_level(forest._tree_level),
       _within(forest._within),
       _connectivity(connect(_tree_level)) {
   Columns columns = columns_of(forest._local, _tree_level, weights);
   std::vector<p4est_gloidx_t> firsts{0};
   const std::vector<std::int64_t> mine{columns.count()};
-  for (const std::int64_t count : communicator.all_gather_items<std::int64_t>(mine))
+  for (const std::int64_t count : _communicator.all_gather_items<std::int64_t>(mine))
     firsts.push_back(firsts.back() + count);
-  for (std::size_t i = 1; i < columns.trees.size(); i += 2) columns.trees[i] += firsts[communicator.rank()];
-  const std::vector<std::int64_t> begins = communicator.all_gather_items<std::int64_t>(columns.trees);
+  for (std::size_t i = 1; i < columns.trees.size(); i += 2) columns.trees[i] += firsts[_communicator.rank()];
+  const std::vector<std::int64_t> begins = _communicator.all_gather_items<std::int64_t>(columns.trees);
   std::array<p4est_gloidx_t, tree_count + 1> of_trees{};
   for (std::size_t i = 0; i < begins.size(); i += 2) of_trees[begins[i]] = begins[i + 1];
   of_trees[begins.size() / 2] = firsts.back();
@@ -116,12 +114,13 @@ TreeSet Brick::split_trees() const {
 
 Forest Brick::take() const {
   Forest result;
+  result._communicator = _communicator;
   result._tree_level = _tree_level;
   result._within = _within;
   Octants& local = result._local;
   local.keys.reserve(_forest->local_num_quadrants);
   local.levels.reserve(_forest->local_num_quadrants);
-  // Where eight trees with a parent are leaves they go with the first.
+  // Eight unsplit trees with one parent go to the rank of the first.
   const TreeSet split = _tree_level == one_tree ? ~TreeSet{0} : split_trees();
   for_each_octant([&](int tree, const p8est_quadrant_t& octant) {
     if ((split >> (tree & ~7) & 0xff) != 0)

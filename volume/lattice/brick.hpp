@@ -1,5 +1,5 @@
-/// The forest of p4est behind a Forest: one tree, or the root cut into 4 x 4 x 4 trees, which have two levels
-/// more, but cost several times as much to balance where leaves lie along their borders. Internal to forest/.
+/// The p4est forest behind a Forest. It has one tree, or 4 x 4 x 4 trees. Many trees allow two more levels,
+/// but balancing costs several times as much. Internal to the namespace forest.
 #pragma once
 
 #include "volume/lattice/forest.hpp"
@@ -12,8 +12,8 @@
 
 namespace aeroloom::forest {
 
-/// The level at which trees begin. Many lie along the Morton curve, eight to a cube of level 1, so that all
-/// leaves in their order are along it.
+/// The level of the cubes that are trees. Many trees follow the Morton curve, eight in a cube of level 1, so
+/// leaves in p4est's order follow it too.
 inline constexpr int one_tree = 0, many_trees = 2;
 inline constexpr int tree_count = 1 << 3 * many_trees;
 
@@ -23,31 +23,31 @@ inline bool has(TreeSet set, int tree) {
   return (set >> tree & 1) != 0;
 }
 
-/// To be used within the life of a LibraryScope.
+/// Use it only while a LibraryScope lives.
 class Brick {
 public:
-  /// Each tree a leaf. Collective.
+  /// Each tree is one leaf. Collective.
   Brick(const parallel::Communicator& communicator, int tree_level);
-  /// The leaves of a forest, larger ones as the trees in them. Each leaf of this rank has its weight in
-  /// p.user_int, where there are weights. Collective.
-  Brick(const parallel::Communicator& communicator, const Forest& forest,
-        std::span<const std::int32_t> weights = {});
+  /// The leaves of a forest; a leaf larger than a tree becomes the trees in it. Each leaf of this rank has
+  /// its weight in p.user_int. Collective.
+  Brick(const Forest& forest, std::span<const std::int32_t> weights);
 
+  const parallel::Communicator& communicator() const { return _communicator; }
   p8est_t& forest() { return *_forest; }
   int tree_level() const { return _tree_level; }
-  /// The level of the smallest leaves there may be.
+  /// The finest level that leaves can have.
   int finest() const { return _tree_level + P8EST_QMAXLEVEL; }
   /// The trees with more than one leaf. Collective.
   TreeSet split_trees() const;
-  /// Trees that are parts of leaves which begin in another tree; so far each leaf has begun in its own, or
-  /// they are those of the forest this was made of.
+  /// Sets the trees that are part of a leaf of another tree. The default is none, or those of the forest that
+  /// this was made from.
   void unite(TreeSet within) { _within = within; }
-  /// The level of the leaf that begins in a tree which is not split.
+  /// The level of the leaf that begins at an unsplit tree.
   int level_at(int tree) const;
-  /// Collective.
+  /// The leaves as a Forest. Collective.
   Forest take() const;
 
-  /// Calls visit(tree, octant) for the leaves of this rank, in their order.
+  /// Calls visit(tree, octant) for the leaves of this rank, in Morton order.
   template <class Visit>
   void for_each_octant(const Visit& visit) const {
     for (int t = _forest->first_local_tree; t <= _forest->last_local_tree; ++t) {

@@ -1,4 +1,4 @@
-/// Balls that no triangle enters: all of one lies in one region.
+/// Balls without triangles: all points of such a ball lie in one region.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -10,14 +10,14 @@
 
 namespace aeroloom::volume {
 
-/// The few that were met last, for points that come one beside the other.
+/// Remembers the last 16 balls. Use it for points that follow each other closely in space.
 class EmptyBalls {
 public:
-  /// `radius` is the distance of the nearest triangle from the centre, at most.
+  /// `radius` is at most the distance from the centre to the nearest triangle.
   void remember(geometry::Vec3 center, double radius, mesh::RegionId region) {
     _balls[_next++ % _balls.size()] = {center, radius, region};
   }
-  /// The region of a point inside one of them.
+  /// The region of a point in one of the balls; nothing outside of them.
   std::optional<mesh::RegionId> region_at(geometry::Vec3 p) const {
     for (const Ball& ball : _balls) {
       if (dot(p - ball.center, p - ball.center) < ball.radius * ball.radius) return ball.region;

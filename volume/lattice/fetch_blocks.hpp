@@ -1,9 +1,8 @@
-/// How a rank gets ghosts: questions to other ranks, and their answers.
+/// Fetches ghosts, blocks of other ranks, by queries to their owners.
 #pragma once
 
-#include "mesh/exchange/delivery.hpp"
-#include "volume/lattice/near_boxes.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
+#include "volume/lattice/grid_box_tree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,39 +13,52 @@
 
 namespace aeroloom::volume {
 
-/// Answers what other ranks ask, and returns what they answer. add_answers(questions of a rank, add) calls
-/// add(b) for blocks of this rank. Collective.
-template <class AddAnswers>
-std::vector<GhostBlock> fetch_blocks(const Lattice& lattice, std::vector<Question> questions,
-                                     const AddAnswers& add_answers) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
+/// Sends the queries and returns the blocks that other ranks send back. The function
+/// add_blocks(queries, add) gets the queries of one rank. It calls add(b) for each block b that goes there.
+/// Collective.
+template <class AddBlocks>
+std::vector<GhostBlock> fetch_blocks(const Lattice& lattice, BlockQueries& queries,
+                                     const AddBlocks& add_blocks) {
   struct Parcel {
     GhostBlock block;
     parallel::Rank to;
     static constexpr auto fields() { return std::tuple(&Parcel::block, &Parcel::to); }
   };
   std::vector<Parcel> parcels;
-  const std::vector<Question> asked = take_questions(communicator, std::move(questions));
-  for_each_asker(asked, [&](std::span<const Question> of_rank) {
-    add_answers(of_rank, [&](BlockIndex b) {
+  queries.exchange([&](std::span<const BlockQuery> of_rank) {
+    add_blocks(of_rank, [&](BlockIndex b) {
       parcels.push_back({{lattice.tree.packed(b), lattice.table.longest_edge[b]}, of_rank.front().from});
     });
   });
   std::vector<GhostBlock> fetched;
   for (const Parcel& parcel :
-       mesh::deliver(communicator, std::move(parcels), [](const Parcel& p) { return p.to; }))
+       mesh::deliver(lattice.tree.communicator(), std::move(parcels), [](const Parcel& p) { return p.to; }))
     fetched.push_back(parcel.block);
   return fetched;
 }
 
-/// Boxes of blocks, by their level.
+/// Calls add(b) for this rank's blocks with is_wanted(cube of b). is_wanted must also hold for all cubes that
+/// contain such a block.
+template <class IsWanted, class Add>
+void add_own_blocks(const LatticeTree& tree, const IsWanted& is_wanted, const Add& add) {
+  const auto add_if_wanted = [&](BlockIndex b) {
+    if (is_wanted(tree.cube(b))) add(b);
+    return false;
+  };
+  tree.any_block_in(GridBox::of(GridCube{}), add_if_wanted,
+                    [&](BlockIndex first, BlockIndex last, const GridCube& cube) {
+                      return last <= tree.first() || first >= tree.last() || !is_wanted(cube);
+                    });
+}
+
+/// The boxes of queries, by the level of the block that they are for.
 class BoxesByLevel {
 public:
-  explicit BoxesByLevel(std::span<const Question> questions) {
-    for (const Question& question : questions) _of_level[question.level].add(question.box);
-    for (NearBoxes& boxes : _of_level) boxes.build();
+  explicit BoxesByLevel(std::span<const BlockQuery> queries) {
+    for (const BlockQuery& query : queries) _of_level[query.level].add(query.box);
+    for (GridBoxTree& boxes : _of_level) boxes.build();
   }
-  /// Whether one of at least this level touches a box.
+  /// Whether a box of this level or a finer one touches `box`.
   bool any_from(int level, const GridBox& box) const {
     for (std::size_t l = std::max(level, 0); l < _of_level.size(); ++l) {
       if (_of_level[l].any_within(box, 0)) return true;
@@ -55,7 +67,7 @@ public:
   }
 
 private:
-  std::array<NearBoxes, sizing::finest_level + 1> _of_level;
+  std::array<GridBoxTree, sizing::finest_level + 1> _of_level;
 };
 
 }  // namespace aeroloom::volume

@@ -2,6 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/memory_limit.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/brick.hpp"
 #include "volume/lattice/p4est_library.hpp"
 
@@ -22,29 +23,30 @@ using geometry::GridPoint;
 using parallel::Communicator;
 using parallel::ScopedCpu;
 
-/// Bytes that a leaf takes at most, while the forest is balanced and copied.
+/// The most memory that a leaf takes while the forest is balanced and copied.
 constexpr std::int64_t bytes_per_octant = 100;
 
-/// What is known of the cubes above trees. Many of them are there because one is split, and so is the root.
-struct Crown {
+/// The cubes above many trees. Many trees are used only if some cube is too fine for one, so the root is
+/// split.
+struct CoarseCubes {
   TreeSet open = 1;         ///< trees that may be split
-  std::uint8_t wanted = 0;  ///< cubes of level 1 that are to be split, a bit each
+  std::uint8_t wanted = 0;  ///< cubes of level 1 that are to be split, as bits
 };
 
-Crown judge_crown(const Judge& judge) {
-  Crown crown{0, 0};
+CoarseCubes flag_coarse_cubes(const RefineCriterion& criterion) {
+  CoarseCubes coarse{0, 0};
   for (int c = 0; c < 8; ++c) {
-    const Verdict verdict = judge(GridCube{}.child(c));
-    if (verdict != Verdict::keep) crown.open |= TreeSet{0xff} << 8 * c;
-    if (verdict == Verdict::split) crown.wanted |= static_cast<std::uint8_t>(1 << c);
+    const RefineFlag flag = criterion(GridCube{}.child(c));
+    if (flag != RefineFlag::keep) coarse.open |= TreeSet{0xff} << 8 * c;
+    if (flag == RefineFlag::split) coarse.wanted |= static_cast<std::uint8_t>(1 << c);
   }
-  return crown;
+  return coarse;
 }
 
-/// The trees that are parts of larger leaves which begin in another: those of cubes of level 1 that nobody
-/// wants split and that touch no split tree.
-TreeSet trees_within(const Crown& crown, TreeSet split) {
-  unsigned parents = crown.wanted;
+/// The trees that are part of a leaf of another tree: those in cubes of level 1 that need no split and touch
+/// no split tree.
+TreeSet trees_within(const CoarseCubes& coarse, TreeSet split) {
+  unsigned parents = coarse.wanted;
   for (int t = 0; t < tree_count; ++t) {
     if (!has(split, t)) continue;
     const GridPoint p = geometry::grid_point(static_cast<std::uint64_t>(t));
@@ -59,28 +61,28 @@ TreeSet trees_within(const Crown& crown, TreeSet split) {
   return within;
 }
 
-/// The state of a forest that grows, behind its user_pointer.
+/// The state of a forest while it is refined, behind its user_pointer.
 struct Growth {
-  const Judge& judge;
+  const RefineCriterion& criterion;
   const Brick& brick;
   TreeSet open;
   std::int64_t limit;
   std::int64_t count = 0;  ///< leaves of this rank
-  int from = 0, to = 0;    ///< levels whose cubes are judged, the last not included
+  int from = 0, to = 0;    ///< the criterion is called for these levels; `to` is excluded
   bool is_full = false, is_too_deep = false;
-  std::exception_ptr failure = nullptr;  ///< C code on the way: it has to wait
+  std::exception_ptr failure = nullptr;  ///< thrown once the C code has returned
 };
 
 Growth& growth_of(p8est_t* forest) {
   return *static_cast<Growth*>(forest->user_pointer);
 }
 
-bool is_split(const Judge& judge, const GridCube& cube) {
+bool is_split(const RefineCriterion& criterion, const GridCube& cube) {
   if (cube.level >= finest_level) return false;
-  const Verdict verdict = judge(cube);
-  if (verdict != Verdict::look_below) return verdict == Verdict::split;
+  const RefineFlag flag = criterion(cube);
+  if (flag != RefineFlag::descend) return flag == RefineFlag::split;
   for (int c = 0; c < 8; ++c)
-    if (is_split(judge, cube.child(c))) return true;
+    if (is_split(criterion, cube.child(c))) return true;
   return false;
 }
 
@@ -91,10 +93,10 @@ int refine_if_split(p8est_t* forest, p4est_topidx_t tree, p8est_quadrant_t* octa
   if (growth.is_full || growth.is_too_deep || growth.failure) return 0;
   try {
     const GridCube cube = growth.brick.cube_of(tree, *octant);
-    if (!is_split(growth.judge, cube)) return 0;
-    // Its children are as small as leaves of this tree can be: they are not asked for again.
+    if (!is_split(growth.criterion, cube)) return 0;
+    // p4est does not call this for children of the finest level.
     for (int c = 0; c < 8 && level + 1 == growth.brick.finest(); ++c)
-      growth.is_too_deep = growth.is_too_deep || is_split(growth.judge, cube.child(c));
+      growth.is_too_deep = growth.is_too_deep || is_split(growth.criterion, cube.child(c));
   } catch (...) {
     growth.failure = std::current_exception();
     return 0;
@@ -104,33 +106,34 @@ int refine_if_split(p8est_t* forest, p4est_topidx_t tree, p8est_quadrant_t* octa
   return growth.is_full ? 0 : 1;
 }
 
-/// Counts what balance adds, which cannot be stopped otherwise.
+/// Counts the leaves that balancing adds. It cannot be stopped otherwise.
 void count_octant(p8est_t* forest, p4est_topidx_t, p8est_quadrant_t*) {
   Growth& growth = growth_of(forest);
   if (++growth.count > growth.limit) end_without_memory();
 }
 
-/// Leaves that will be judged weigh more: below them there may be others.
+/// Leaves that may still be split weigh more.
 int weight_while_growing(p8est_t* forest, p4est_topidx_t, p8est_quadrant_t* octant) {
-  constexpr int of_judged = 16;
+  constexpr int of_candidate = 16;
   const Growth& growth = growth_of(forest);
-  return octant->level + growth.brick.tree_level() >= growth.from ? of_judged : 1;
+  return octant->level + growth.brick.tree_level() >= growth.from ? of_candidate : 1;
 }
 
 int given_weight(p8est_t*, p4est_topidx_t, p8est_quadrant_t* octant) {
   return octant->p.user_int;
 }
 
-std::int64_t most_octants(const Communicator& communicator, const Limits& limits) {
-  if (limits.octants > 0) return limits.octants;
+/// How many leaves the memory of a rank allows, and p4est can count.
+std::int64_t most_octants(const Communicator& communicator) {
   const int ranks_here = parallel::find_node_shape(communicator).ranks_here;
   const std::int64_t bytes = parallel::allowed_for_child(parallel::node_memory_bytes() / ranks_here);
   return std::min<std::int64_t>(bytes / bytes_per_octant, std::numeric_limits<p4est_locidx_t>::max());
 }
 
-/// Splits what is judged so; on several ranks level by level, distributed anew after each. False: the trees
-/// have too few levels.
-bool refine(const Communicator& communicator, Brick& brick, Growth& growth) {
+/// Splits by the criterion; on several ranks level by level, with a new partition after each. Returns false
+/// if the trees have too few levels.
+bool refine(Brick& brick, Growth& growth) {
+  const Communicator& communicator = brick.communicator();
   p8est_t& forest = brick.forest();
   const bool is_alone = communicator.size() == 1;
   for (int level = brick.tree_level(); level < brick.finest(); ++level) {
@@ -158,14 +161,14 @@ bool refine(const Communicator& communicator, Brick& brick, Growth& growth) {
   return communicator.maximum(std::int64_t{growth.is_too_deep}) == 0;
 }
 
-/// Nothing where the trees have too few levels.
-std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, const Crown& crown,
-                              const Judge& judge, std::int64_t limit) {
+/// Nothing if the trees have too few levels.
+std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, const CoarseCubes& coarse,
+                              const RefineCriterion& criterion, std::int64_t limit) {
   LibraryScope library(communicator.rank(), "refining");
   Brick brick(communicator, tree_level);
-  Growth growth{judge, brick, crown.open, limit};
+  Growth growth{criterion, brick, coarse.open, limit};
   brick.forest().user_pointer = &growth;
-  if (!refine(communicator, brick, growth)) return std::nullopt;
+  if (!refine(brick, growth)) return std::nullopt;
   library.now("balancing");
   growth.count = brick.forest().local_num_quadrants;
   {
@@ -174,29 +177,26 @@ std::optional<Forest> grow_in(const Communicator& communicator, int tree_level, 
   }
   library.now("partitioning");
   p8est_partition_ext(&brick.forest(), 1, nullptr);
-  if (tree_level == many_trees) brick.unite(trees_within(crown, brick.split_trees()));
+  if (tree_level == many_trees) brick.unite(trees_within(coarse, brick.split_trees()));
   const ScopedCpu task(ScopedCpu::As::task);
   return brick.take();
 }
 
 }  // namespace
 
-Forest grow(const Communicator& communicator, const Judge& judge, Limits limits) {
-  const std::int64_t limit = most_octants(communicator, limits);
-  Crown crown;
-  if (auto grown = grow_in(communicator, one_tree, crown, judge, limit)) return std::move(*grown);
-  parallel::agree(communicator, [&] {
-    const ScopedCpu repeated(ScopedCpu::As::repeated);
-    crown = judge_crown(judge);
-  });
-  return *grow_in(communicator, many_trees, crown, judge, limit);
+Forest grow(const Communicator& communicator, const RefineCriterion& criterion, std::int64_t octants) {
+  const std::int64_t limit = octants > 0 ? octants : most_octants(communicator);
+  CoarseCubes coarse;
+  if (auto grown = grow_in(communicator, one_tree, coarse, criterion, limit)) return std::move(*grown);
+  parallel::collectively(communicator, ScopedCpu::As::repeated,
+                         [&] { coarse = flag_coarse_cubes(criterion); });
+  return *grow_in(communicator, many_trees, coarse, criterion, limit);
 }
 
-Forest partition_by_weight(const Communicator& communicator, const Forest& forest,
-                           std::span<const std::int32_t> weights) {
-  const LibraryScope library(communicator.rank(), "partitioning");
+Forest partition_by_weight(const Forest& forest, std::span<const std::int32_t> weights) {
+  const LibraryScope library(forest.communicator().rank(), "partitioning");
   const ScopedCpu task(ScopedCpu::As::task);
-  Brick brick(communicator, forest, weights);
+  Brick brick(forest, weights);
   p8est_partition_ext(&brick.forest(), 1, given_weight);
   return brick.take();
 }

@@ -1,10 +1,8 @@
-/// A distributed octree whose leaves differ by one level at most across faces, edges and corners, made by
-/// p4est (Burstedde, Wilcox, Ghattas, SIAM J. Sci. Comput. 33, 2011, doi:10.1137/100791634), which no other
-/// folder sees.
+/// A distributed octree, made by p4est (Burstedde, Wilcox, Ghattas, SIAM J. Sci. Comput. 33, 2011,
+/// doi:10.1137/100791634). It is balanced: leaves that touch differ by one level at most.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 #include "volume/lattice/octants.hpp"
 
 #include <cstdint>
@@ -14,49 +12,45 @@
 
 namespace aeroloom::forest {
 
-/// What becomes of a cube: it is no finer than it is, it is split, or only its descendants tell: those that
-/// are split split it too.
-enum class Verdict { keep, split, look_below };
-/// A function of the cube alone, the same on every rank; what it throws, all ranks throw. Not asked of cubes
-/// of the finest level, nor below one that is kept; of the same cube possibly more than once.
-using Judge = std::function<Verdict(const geometry::GridCube&)>;
+/// Whether a cube is split. `descend`: it is split if one of its descendants is.
+enum class RefineFlag { keep, split, descend };
+/// Decides whether a cube is split. The result depends on the cube alone, and is the same on every rank. It
+/// is never called for cubes of the finest level, nor below a cube that is kept. If it throws, all ranks do.
+using RefineCriterion = std::function<RefineFlag(const geometry::GridCube&)>;
 
-/// Balanced leaves, numbered along the Morton curve of the whole root: rank r has those from first(r) to
-/// first(r + 1). Eight leaves with one parent are on one rank. Which leaves there are is the same on any
-/// number of ranks. Immutable.
+/// A balanced octree. Leaves are numbered along the Morton curve. Rank r owns the leaves from first(r) to
+/// before first(r + 1). Eight leaves with one parent are on one rank. The leaves are the same on any number
+/// of ranks. Immutable.
 class Forest {
 public:
+  const parallel::Communicator& communicator() const { return _communicator; }
   std::int64_t count() const { return _firsts.back(); }
   std::int64_t first(parallel::Rank r) const { return _firsts[r]; }
-  /// Leaf i of this rank has the number first(rank) + i.
+  /// The leaves of this rank. Leaf i has the number first(rank) + i.
   const Octants& local() const { return _local; }
-  /// The rank that has the leaf which holds the finest cube with this key.
+  /// The rank that owns the leaf which contains the finest cube with this key.
   parallel::Rank owner_of(std::uint64_t key) const {
     return static_cast<parallel::Rank>(std::upper_bound(_keys.begin(), _keys.end(), key) - _keys.begin() - 1);
   }
 
 private:
   friend class Brick;
+  parallel::Communicator _communicator;
   Octants _local;
   std::vector<std::int64_t> _firsts;  // per rank, and the end
-  std::vector<std::uint64_t>
-      _keys;                  // per rank: where its leaves begin, those of a rank without any the next's
-  int _tree_level = 0;        // of p4est, that it was made with
-  std::uint64_t _within = 0;  // trees of the brick that lie in leaves that begin in another
+  std::vector<std::uint64_t> _keys;   // per rank: of its first leaf; without leaves: as the next rank's
+  int _tree_level = 0;                // at which the trees of p4est begin
+  std::uint64_t _within = 0;          // a bit for each tree that is part of a leaf of another tree
 };
 
-/// What a rank may hold at a time.
-struct Limits {
-  std::int64_t octants = 0;  ///< 0: as many as p4est can count and its memory lets expect
-};
+/// The smallest balanced octree with all cubes split that the criterion splits. Ranks share the calls of the
+/// criterion, level by level. A rank holds at most `octants` leaves; 0: as many as p4est can count and the
+/// memory allows. Throws CollectiveError (resources) where it needs more. Collective.
+Forest grow(const parallel::Communicator& communicator, const RefineCriterion& criterion,
+            std::int64_t octants = 0);
 
-/// The smallest balanced octree that has all cubes split which are judged so. Ranks share the judging, level
-/// by level. Throws CollectiveError (resources) where it takes more than the limits. Collective.
-Forest grow(const parallel::Communicator& communicator, const Judge& judge, Limits limits = {});
-
-/// A forest with the same leaves, partitioned by weights, one per leaf of this rank, none negative.
+/// The same leaves with a new partition. `weights` has one weight per leaf of this rank, none negative.
 /// Collective.
-Forest partition_by_weight(const parallel::Communicator& communicator, const Forest& forest,
-                           std::span<const std::int32_t> weights);
+Forest partition_by_weight(const Forest& forest, std::span<const std::int32_t> weights);
 
 }  // namespace aeroloom::forest

@@ -1,7 +1,8 @@
 #include "volume/lattice/lattice.hpp"
 
 #include "parallel/communication/collective_error.hpp"
-#include "volume/lattice/neighbourhood.hpp"
+#include "parallel/observation/timers.hpp"
+#include "volume/lattice/fetch_ghosts.hpp"
 #include "volume/volume_mesher.hpp"
 
 #include <utility>
@@ -10,7 +11,7 @@ namespace aeroloom::volume {
 
 namespace {
 
-/// The finest cubes that hold the centres of this rank's triangles.
+/// The Morton keys of the finest cubes that contain the centres of this rank's triangles.
 std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::DistributedMesh& surface) {
   std::vector<std::uint64_t> keys;
   for (const mesh::Piece& piece : surface.pieces) {
@@ -23,7 +24,7 @@ std::vector<std::uint64_t> keys_of(const LatticeFrame& frame, const mesh::Distri
   return keys;
 }
 
-/// Tree and table grow by ghosts.
+/// Adds ghosts to tree and table.
 void add_ghosts(std::vector<GhostBlock> ghosts, LatticeTree& tree, SurfaceTable& table) {
   std::vector<PackedBlock> blocks;
   blocks.reserve(ghosts.size());
@@ -40,37 +41,34 @@ void add_ghosts(std::vector<GhostBlock> ghosts, LatticeTree& tree, SurfaceTable&
 }  // namespace
 
 Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box) {
-  const parallel::Communicator& communicator = input.surface.communicator;
-  const LatticeFrame frame(input.field, box);
-  LatticeTree tree(communicator, frame, input.field, box, keys_of(frame, input.surface));
-  std::vector<SurfaceTriangle> triangles = deliver_surface(frame, tree, input.surface, input.numbering);
+  const LatticeFrame frame(input.surface.field, box);
+  LatticeTree tree(input.surface.communicator, frame, input.surface.field, box,
+                   keys_of(frame, input.surface));
+  std::vector<SurfaceTriangle> triangles = deliver_surface(frame, tree, input.surface);
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   SurfaceTable table = tabulate_surface(frame, tree, triangles);
-  Lattice lattice{input.field,
-                  {input.options.lattice_clearance, input.options.perturbation},
+  Lattice lattice{input.surface.field,
+                  input.options,
                   frame,
                   std::move(tree),
                   std::move(table),
                   std::move(triangles),
-                  input.numbering.vertex_count,
+                  input.surface.numbering.vertex_count,
                   {},
                   {}};
   std::vector<GhostBlock> ghosts = fetch_ghosts(lattice);
   const std::vector<GhostBlock> finer = fetch_finer_ghosts(lattice);
   ghosts.insert(ghosts.end(), finer.begin(), finer.end());
-  if (communicator.size() > 1) add_ghosts(std::move(ghosts), lattice.tree, lattice.table);
+  if (lattice.tree.communicator().size() > 1) add_ghosts(std::move(ghosts), lattice.tree, lattice.table);
   return lattice;
 }
 
-std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice) {
-  const parallel::Communicator& communicator = lattice.tree.communicator();
+std::unique_ptr<const LocalSurface> gather_local_surface(const Lattice& lattice) {
   const std::vector<SurfaceTriangle> near =
-      add_those_near(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
-  std::unique_ptr<const NearSurface> surface;
-  parallel::agree(communicator, [&] {
-    const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-    surface = std::make_unique<NearSurface>(near);
-  });
+      add_ghost_triangles(lattice.frame, lattice.tree, lattice.radii, lattice.triangles);
+  std::unique_ptr<const LocalSurface> surface;
+  parallel::collectively(lattice.tree.communicator(), parallel::ScopedCpu::As::task,
+                         [&] { surface = std::make_unique<LocalSurface>(near); });
   return surface;
 }
 

@@ -1,12 +1,13 @@
-/// The lattice as a rank sees it: all that its points are a function of.
+/// The lattice on a rank: octree, sizes and surface, from which its points are made.
 #pragma once
 
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "sizing/field/size_field.hpp"
 #include "volume/lattice/lattice_frame.hpp"
 #include "volume/lattice/lattice_tree.hpp"
-#include "volume/lattice/near_surface.hpp"
-#include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/lattice/local_surface.hpp"
+#include "volume/lattice/surface_triangles.hpp"
+#include "volume/volume_options.hpp"
 
 #include <memory>
 #include <vector>
@@ -15,45 +16,31 @@ namespace aeroloom::volume {
 
 struct VolumeInput;
 
-struct LatticeOptions {
-  /// Distance from the surface, in local sizes: fewest bad tetrahedra of seven values on two aircraft
-  /// (benchmarks/results/volume_pieces.md).
-  double clearance = 0.5;
-  /// In mean edges of the lattice: enough for general position, and so little that no triangle of the core's
-  /// border was missing in the mesh of the shell of nineteen aircraft and parts
-  /// (benchmarks/results/volume_pieces.md).
-  double perturbation = 0.005;
-};
-
-/// A rank's own blocks, the ghosts that these need, and the surface there. Frame, tree and table are the same
-/// on every rank as far as it has the blocks. Immutable once it is made. Refers to the field.
+/// The blocks of a rank, their ghosts, and the surface near them. The data of a block are the same on every
+/// rank where it is local. Immutable once it is complete. Refers to the field.
 struct Lattice {
   const sizing::SizeField& field;
-  LatticeOptions options;
+  VolumeOptions options;
   LatticeFrame frame;
   LatticeTree tree;
   SurfaceTable table;
-  std::vector<SurfaceTriangle> triangles;  ///< that meet this rank's blocks, by number
+  std::vector<SurfaceTriangle> triangles;  ///< those that meet blocks of this rank, by number
   mesh::GlobalIndex surface_vertices = 0;
-  SearchRadii radii;                    ///< of this rank's blocks; nothing on one rank
-  std::vector<mesh::RegionId> regions;  ///< of this rank's blocks, see find_block_regions
+  SearchRadii radii;                    ///< of this rank's blocks; empty on one rank
+  std::vector<mesh::RegionId> regions;  ///< per own block, see find_block_regions
 
-  Leaf leaf_at(geometry::Vec3 place) const {
-    const sizing::GridPoint cell = frame.cell_at(frame.to_grid(place));
-    const BlockIndex b = tree.block_at(cell);
-    return {b, tree.child_at(b, cell)};
-  }
-  /// Of a point of the lattice, by its running number: behind those of the surface.
+  Leaf leaf_at(geometry::Vec3 place) const { return tree.leaf_at(frame.cell_at(frame.to_grid(place))); }
+  /// The shared-vertex key of the lattice point with a number. Surface vertices have lower keys.
   mesh::SharedVertexKey vertex_key(std::int64_t number) const {
     return mesh::running_key(surface_vertices + number);
   }
 };
 
-/// Tree, ghosts and table, where `box` holds the surface. Search radii and regions are still to be found.
+/// Makes frame, tree, ghosts and table. `box` contains the surface. Search radii and regions are still empty.
 /// Collective.
 Lattice grow_lattice(const VolumeInput& input, const geometry::Box& box);
 
-/// The surface near this rank's blocks, as their points need it: search radii wide. Collective.
-std::unique_ptr<const NearSurface> gather_near_surface(const Lattice& lattice);
+/// The triangles within the search radii of this rank's blocks. Collective.
+std::unique_ptr<const LocalSurface> gather_local_surface(const Lattice& lattice);
 
 }  // namespace aeroloom::volume

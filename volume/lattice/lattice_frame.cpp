@@ -9,17 +9,16 @@ using geometry::Vec3;
 
 namespace {
 
-/// The shear, and how it mixes the axes: any numbers without symmetry would do.
+/// The size of the shear, and its matrix: any numbers without symmetry would do.
 constexpr double shear = 0.03;
 constexpr Vec3 mixing[3] = {{0, 0.6, 0.35}, {0.45, 0, -0.5}, {0.4, -0.3, 0}};
-/// Samples of the field that choose the scale of the lattice. Chosen, not measured.
+/// The number of samples of the field from which the scale is chosen. Chosen, not measured.
 constexpr std::int64_t scale_samples = 4096;
 /// The width of the root over that of the domain. Chosen, not measured.
 constexpr double root_margin = 1.02;
 
-/// The size the coarsest lattice is scaled to: maximum, or up to half an octave off, so that the levels suit
-/// the sizes at which most of the mesh will have its elements (circular mean of log2 h, weighted by predicted
-/// tetrahedra).
+/// The size of the coarsest level: the maximum of the field, or up to half an octave off. Levels then match
+/// the most frequent sizes of the mesh (circular mean of log2 h, weighted by predicted tetrahedra).
 double reference_size(const sizing::SizeField& field) {
   const std::int64_t leaves = field.leaf_count();
   const std::int64_t stride = std::max<std::int64_t>(1, leaves / scale_samples);
@@ -57,9 +56,7 @@ LatticeFrame::LatticeFrame(const sizing::SizeField& field, const Box& box)
 
   double extent = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 x{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                 corner & 4 ? box.high.z : box.low.z};
-    const Vec3 g = apply(inverse, x - _anchor);
+    const Vec3 g = apply(inverse, GridBox{box.low, box.high}.corner(corner) - _anchor);
     extent = std::max({extent, std::abs(g.x), std::abs(g.y), std::abs(g.z)});
   }
   double root_edge = reference_size(field) / mean_edge_of_cell;
@@ -87,11 +84,14 @@ sizing::GridPoint LatticeFrame::cell_at(Vec3 grid) const {
 
 GridBox LatticeFrame::grid_box(const Box& box) const {
   Box image;
-  for (int corner = 0; corner < 8; ++corner) {
-    image.add(to_grid({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                       corner & 4 ? box.high.z : box.low.z}));
-  }
+  for (int corner = 0; corner < 8; ++corner) image.add(to_grid(GridBox{box.low, box.high}.corner(corner)));
   return {image.low, image.high};
+}
+
+Box LatticeFrame::space_box(const GridBox& box) const {
+  Box image;
+  for (int corner = 0; corner < 8; ++corner) image.add(to_space(box.corner(corner)));
+  return image;
 }
 
 }  // namespace aeroloom::volume

@@ -1,5 +1,4 @@
-/// The grid that the interior points stand on: cubic cells in grid units, seen in space through one affine
-/// map.
+/// The grid of the interior points: cubic cells in grid units, and the affine map from the grid to space.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -7,19 +6,18 @@
 #include "sizing/field/size_field.hpp"
 
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <tuple>
 
 namespace aeroloom::volume {
 
-/// Mean edge length of the Delaunay tetrahedra of a body-centred lattice, in edges of its cubic cell: of
-/// fourteen neighbours six are 1 and eight are sqrt(3)/2 away.
+/// Mean edge length of the Delaunay tetrahedra of a body-centred lattice, in edges of its cubic cell. Of the
+/// 14 neighbours of a point, six are at a distance of 1 and eight at sqrt(3)/2.
 inline constexpr double mean_edge_of_cell = (6.0 + 8.0 * 0.5 * std::numbers::sqrt3) / 14.0;
 
 using geometry::GridCube;
 
-/// A box of the grid, in units of the finest cells.
+/// A box in the grid. The unit is the edge of a finest cell.
 struct GridBox {
   geometry::Vec3 low, high;
 
@@ -39,7 +37,7 @@ struct GridBox {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
            low.z <= b.high.z && b.low.z <= high.z;
   }
-  /// The distance between two boxes; 0 where they touch.
+  /// The distance between two boxes; 0 where they touch or overlap.
   double gap_to(const GridBox& b) const {
     const auto along = [](double low_a, double high_a, double low_b, double high_b) {
       return std::max({low_b - high_a, low_a - high_b, 0.0});
@@ -49,30 +47,30 @@ struct GridBox {
   }
 };
 
-/// Grid and space. A shear of a few per cent takes the four points of every square of the lattice off one
-/// circle, but leaves them in one plane: so the Delaunay mesh has no flat tetrahedra and picks the diagonals
-/// of its squares everywhere alike. Immutable, the same on every rank.
+/// The map between grid and space. It has a shear of a few per cent: the four corners of a square of the
+/// lattice stay in one plane, but no longer lie on one circle. So the Delaunay mesh has no flat tetrahedra,
+/// and the diagonals of parallel squares are the same. Immutable, the same on every rank.
 class LatticeFrame {
 public:
-  /// Anchored at the centre of the field's domain; the root cell covers `box`. The scale is such that the
-  /// sizes most of the mesh will have are those of a level.
+  /// The origin is the centre of the field's domain. The root cell covers `box`. The scale is chosen so that
+  /// the most frequent sizes of the mesh match a level of the octree.
   LatticeFrame(const sizing::SizeField& field, const geometry::Box& box);
 
   geometry::Vec3 to_space(geometry::Vec3 grid) const { return _anchor + apply(_forward, grid - _middle); }
   geometry::Vec3 to_grid(geometry::Vec3 space) const { return _middle + apply(_backward, space - _anchor); }
-  /// The finest cell that holds a point; the nearest one for points outside of the root.
+  /// The finest cell that contains a point; for points outside the root, the nearest cell.
   sizing::GridPoint cell_at(geometry::Vec3 grid) const;
-  /// Edge of the cubic cells of a level, in space and before the shear.
+  /// The edge length in space of the cubic cells of a level, before the shear.
   double edge(int level) const { return _unit * (sizing::grid_size >> level); }
-  /// The three edges of a finest cell in space.
+  /// The three edge vectors of a finest cell in space.
   std::array<geometry::Vec3, 3> steps() const {
     return {geometry::Vec3{_forward[0].x, _forward[1].x, _forward[2].x},
             {_forward[0].y, _forward[1].y, _forward[2].y},
             {_forward[0].z, _forward[1].z, _forward[2].z}};
   }
-  /// The length in the grid of a distance in space, at most.
+  /// An upper bound for the length in the grid of a distance in space.
   double grid_distance(double space) const { return space * _stretch; }
-  /// The middle of a cube, and the box in space around it.
+  /// The centre of a cube in space, and the bounding box of the cube in space.
   geometry::Vec3 middle_of(const GridCube& cube) const {
     const double half = 0.5 * cube.edge();
     return to_space(GridBox::of(cube).low + geometry::Vec3{half, half, half});
@@ -81,8 +79,9 @@ public:
     const geometry::Vec3 middle = middle_of(cube), half = 0.5 * cube.edge() * _spread;
     return {middle - half, middle + half};
   }
-  /// The box in the grid that holds a box of space.
+  /// The bounding box in the grid of a box in space, and the other way round.
   GridBox grid_box(const geometry::Box& box) const;
+  geometry::Box space_box(const GridBox& box) const;
 
 private:
   using Matrix = std::array<geometry::Vec3, 3>;  // rows
@@ -91,9 +90,9 @@ private:
   }
 
   geometry::Vec3 _anchor, _middle;
-  double _unit = 1;  ///< edge of a finest cell in space
+  double _unit = 1;  ///< edge length of a finest cell in space
   double _stretch = 1;
-  geometry::Vec3 _spread;  ///< of a finest cell in space, along the axes
+  geometry::Vec3 _spread;  ///< extent of a finest cell in space, along the axes
   Matrix _forward{}, _backward{};
 };
 

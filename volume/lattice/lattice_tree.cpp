@@ -3,6 +3,7 @@
 #include "geometry/sort_unique.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/timers.hpp"
 #include "volume/lattice/forest.hpp"
 
 #include <cmath>
@@ -13,27 +14,27 @@
 
 namespace aeroloom::volume {
 
-using forest::Verdict;
+using forest::RefineFlag;
 using sizing::finest_level;
 
 namespace {
 
-/// Tells which cubes sizes want split. A split cube's centre sees a small size. In fields so steep that it
-/// may miss one in a corner, children are looked at where that is possible.
+/// Splits a cube by the size at its centre. If the field is so steep that the centre can miss a small size in
+/// a corner, the children are checked too.
 class SplitSearch {
 public:
   SplitSearch(const LatticeFrame& frame, const sizing::SizeField& field, const geometry::Box& box)
       : _frame(frame), _field(field), _box(box), _slope(slope_margin * std::log(field.options().growth)) {}
 
-  Verdict operator()(const GridCube& cube) const {
-    if (!_frame.box_around(cube).overlaps(_box)) return Verdict::keep;
+  RefineFlag operator()(const GridCube& cube) const {
+    if (!_frame.box_around(cube).overlaps(_box)) return RefineFlag::keep;
     const double edge = _frame.edge(cube.level), size = _field(_frame.middle_of(cube));
-    if (edge * mean_edge_of_cell > LatticeTree::coarsest_edge * size) return Verdict::split;
+    if (edge * mean_edge_of_cell > LatticeTree::coarsest_edge * size) return RefineFlag::split;
     constexpr double half_diagonal = 0.5 * std::numbers::sqrt3;
     constexpr double harmless = mean_edge_of_cell / LatticeTree::coarsest_edge / half_diagonal;
     const bool may_miss = _slope > harmless && size < _slope * half_diagonal * edge &&
                           edge * mean_edge_of_cell > LatticeTree::coarsest_edge * _field.minimum();
-    return may_miss ? Verdict::look_below : Verdict::keep;
+    return may_miss ? RefineFlag::descend : RefineFlag::keep;
   }
 
 private:
@@ -43,11 +44,11 @@ private:
   double _slope;
 };
 
-/// Expected work on a leaf and on a triangle, and on a leaf that the surface meets.
+/// The expected work for a leaf, for a triangle, and in addition for a leaf that the surface meets.
 constexpr std::int32_t leaf_work = 1, triangle_work = 4, met_work = 4;
 
-/// A block in one word: whether it has eight leaves, above that its place among the cubes of its level, and a
-/// bit that tells the level.
+/// Packs a block into a word. From the lowest bit: whether it has eight leaves, its Morton key on its level,
+/// and one bit that marks the level.
 std::uint64_t word_of(std::uint64_t key, int level, bool is_split) {
   return (1ULL << 3 * level | key >> 3 * (finest_level - level)) << 1 | (is_split ? 1 : 0);
 }
@@ -59,7 +60,7 @@ std::uint64_t key_of(std::uint64_t word) {
   return (word >> 1 ^ 1ULL << 3 * level) << 3 * (finest_level - level);
 }
 
-/// The blocks of this rank's leaves: eight of one parent are one.
+/// The blocks of this rank's leaves: eight leaves of one parent are one block.
 std::vector<PackedBlock> blocks_of(const forest::Octants& leaves) {
   std::vector<PackedBlock> blocks;
   for (std::size_t i = 0; i < leaves.size();) {
@@ -72,7 +73,7 @@ std::vector<PackedBlock> blocks_of(const forest::Octants& leaves) {
   return blocks;
 }
 
-std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, const forest::Forest& forest,
+std::vector<std::int32_t> weigh(const forest::Forest& forest,
                                 const std::vector<std::uint64_t>& triangle_keys) {
   struct Key {
     std::uint64_t key;
@@ -82,8 +83,8 @@ std::vector<std::int32_t> weigh(const parallel::Communicator& communicator, cons
   keys.reserve(triangle_keys.size());
   for (const std::uint64_t key : triangle_keys) keys.push_back({key});
   std::vector<std::int32_t> weights(forest.local().size(), leaf_work);
-  for (const Key& key :
-       mesh::deliver(communicator, std::move(keys), [&](const Key& k) { return forest.owner_of(k.key); })) {
+  for (const Key& key : mesh::deliver(forest.communicator(), std::move(keys),
+                                      [&](const Key& k) { return forest.owner_of(k.key); })) {
     std::int32_t& weight = weights[forest.local().find(key.key)];
     weight += triangle_work + (weight == leaf_work ? met_work : 0);
   }
@@ -99,8 +100,7 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   std::vector<PackedBlock> mine;
   {
     forest::Forest forest = forest::grow(communicator, SplitSearch(frame, field, box));
-    if (communicator.size() > 1)
-      forest = forest::partition_by_weight(communicator, forest, weigh(communicator, forest, triangle_keys));
+    if (communicator.size() > 1) forest = forest::partition_by_weight(forest, weigh(forest, triangle_keys));
     const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
     mine = blocks_of(forest.local());
   }
@@ -130,7 +130,7 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   fill(mine, first, static_cast<BlockIndex>(mine.size()));
 }
 
-/// Gaps between blocks become cubes as large as they can be, so that there are few.
+/// Placeholders in the gaps between blocks are as large as possible, so that there are few.
 void LatticeTree::fill(const std::vector<PackedBlock>& blocks, BlockNumber first, BlockIndex own) {
   _blocks = {};
   _split.clear(), _numbers.clear(), _local.clear();

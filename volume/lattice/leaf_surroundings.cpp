@@ -8,7 +8,7 @@ void LeafSurroundings::move_to(BlockIndex b) {
   _low = whole.low;
   _width = _tree.leaf_count(b) == 8 ? 2 : 1;
   _edge = whole.edge() / static_cast<std::uint32_t>(_width);
-  // All neighbours across a side lie in one other block more often than not: one look-up serves them all.
+  // Neighbours on one side mostly lie in one other block, so one look-up serves them all.
   for (int side = 0; side < 27; ++side) {
     const HalfPlace sides{side % 3 - 1, side / 3 % 3 - 1, side / 9 - 1};
     HalfPlace first, last;
@@ -38,7 +38,7 @@ void LeafSurroundings::look_at(const HalfPlace& first, const HalfPlace& last) {
         }
         const sizing::GridPoint low = grid_place({i, j, k}, _edge);
         if (!is_one) b = _tree.any_at(low);
-        if (!_tree.is_local(b)) {  // all leaves that touch the block are known: this one does not
+        if (!_tree.is_local(b)) {  // a placeholder: its leaves do not touch the block
           cube = {Size::finer, {b, 0}};
           continue;
         }
@@ -58,7 +58,7 @@ Leaf LeafSurroundings::finer(const HalfPlace& at, int octant) const {
   if (octant & 1) low.x += half;
   if (octant & 2) low.y += half;
   if (octant & 4) low.z += half;
-  return leaf_at(low);
+  return _tree.leaf_at(low);
 }
 
 bool LeafSurroundings::has_point(const HalfPlace& at) const {

@@ -1,4 +1,4 @@
-/// The leaves around a block, and the points of the lattice on the faces of its own leaves.
+/// The leaves around a block, and the lattice points on the faces of its own leaves.
 #pragma once
 
 #include "volume/lattice/block_points.hpp"
@@ -9,44 +9,44 @@
 
 namespace aeroloom::volume {
 
-/// A place on the grid of half leaf edges of a block, from its low corner: 0 to 2 along each axis where the
-/// block is one leaf, 0 to 4 where it has eight. Even along all axes: a corner of leaves; odd along one, two,
-/// three: the middle of an edge, a face, a leaf.
+/// A place in a block, in half leaf edges from its low corner: 0 to 2 along each axis where the block is one
+/// leaf, 0 to 4 where it has eight. If all three are even it is a corner of leaves. If one, two or three are
+/// odd it is the middle of an edge, of a face, or of a leaf.
 using HalfPlace = std::array<int, 3>;
 
-/// Where a place stands in a leaf that it touches, along one axis.
+/// Where a place is in a leaf that it touches, along one axis.
 enum class Along : std::int8_t { low, between, high };
 
-/// Eight leaves of one parent, or a leaf alone, seen with the leaves that touch them. These differ by one
-/// level at most, so all points of the lattice on faces of the block's leaves stand at half places.
+/// A block and the leaves that touch it. Their levels differ by one at most, so all lattice points on the
+/// faces of the block's leaves are at half places.
 class LeafSurroundings {
 public:
   explicit LeafSurroundings(const LatticeTree& tree) : _tree(tree) {}
 
   void move_to(BlockIndex b);
   BlockIndex block() const { return _block; }
-  /// Leaves along an axis: 1 or 2.
+  /// The number of leaves along an axis: 1 or 2.
   int width() const { return _width; }
-  /// Where a leaf of the block stands in it, in leaves.
+  /// The place of a leaf in the block, in leaves.
   HalfPlace place_of(int child) const {
     return _width == 1 ? HalfPlace{0, 0, 0} : HalfPlace{child & 1, child >> 1 & 1, child >> 2};
   }
 
   enum class Size : std::int8_t { outside, coarser, same, finer };
-  /// A cube of the size of the block's leaves: the leaf that holds it, unless it is split into finer ones.
+  /// A cube of the size of the block's leaves, and the leaf that contains it unless it is split.
   struct Cube {
     Size size = Size::outside;
     Leaf leaf{};
   };
-  /// Leaves of the block and of those that touch it: -1 to width() along each axis, in leaves.
   const LatticeTree& tree() const { return _tree; }
+  /// A cube of the block or beside it: -1 to width() along each axis, in leaves.
   const Cube& cube(const HalfPlace& at) const {
     return _cubes[(at[0] + 1) + 4 * (at[1] + 1) + 16 * (at[2] + 1)];
   }
-  /// The leaf in an octant of a cube that is split.
+  /// The leaf that is an octant of a split cube.
   Leaf finer(const HalfPlace& at, int octant) const;
 
-  /// Calls visit(cube) for all of them.
+  /// Calls visit(cube) for all cubes of the block and around it.
   template <class Visit>
   void for_each_cube(const Visit& visit) const {
     for (int k = -1; k <= _width; ++k) {
@@ -56,19 +56,20 @@ public:
     }
   }
 
-  /// Whether a point of the lattice stands at a half place of the block: at all corners and centres, in the
-  /// middle of edges and faces that finer leaves touch.
+  /// Whether the lattice has a point at a half place of the block. It has one at all corners and centres, and
+  /// in the middle of edges and faces that finer leaves touch.
   bool has_point(const HalfPlace& at) const;
-  /// How many points stand in the middles of edges of a leaf's square: side 2 a of axis a is its low one.
+  /// How many edges of a face of a leaf have a point in the middle. Face 2 a is the lower one along axis a.
   int points_on_edges(const HalfPlace& leaf, int side) const;
-  /// The running number of such a point; -1 where the leaf that it would belong to lies outside of the root.
+  /// The running number of the point at a half place; -1 where its leaf would be outside the root.
   std::int64_t number(const HalfPlace& at) const;
-  /// Where a half place stands in a leaf that touches it.
+  /// Where a half place is in a leaf that it touches.
   std::array<Along, 3> place_in(const Leaf& leaf, const HalfPlace& at) const;
-  /// Whether holds(half place) for all points of the lattice on a leaf of the block.
+  /// Whether holds(half place) is true for all lattice points on a leaf of the block.
   template <class Holds>
   bool all_points_of(const HalfPlace& leaf, const Holds& holds) const;
-  /// Whether holds(leaf) for one of the leaves that touch a half place, or the root ends there.
+  /// Whether holds(leaf) is true for a leaf that touches a half place, or the place is on the root's
+  /// boundary.
   template <class Holds>
   bool any_leaf_at(const HalfPlace& at, const Holds& holds) const;
 
@@ -78,10 +79,6 @@ private:
     return {_low.x + static_cast<std::uint32_t>(cube[0]) * unit,
             _low.y + static_cast<std::uint32_t>(cube[1]) * unit,
             _low.z + static_cast<std::uint32_t>(cube[2]) * unit};
-  }
-  Leaf leaf_at(sizing::GridPoint p) const {
-    const BlockIndex b = _tree.block_at(p);
-    return {b, _tree.child_at(b, p)};
   }
 
   const LatticeTree& _tree;

@@ -1,4 +1,4 @@
-/// Leaves of an octree as flat arrays.
+/// The leaves of an octree as flat arrays.
 #pragma once
 
 #include "geometry/morton.hpp"
@@ -9,14 +9,14 @@
 
 namespace aeroloom::forest {
 
-/// Leaves along the Morton curve.
+/// Leaves in the order of the Morton curve.
 struct Octants {
-  std::vector<std::uint64_t> keys;   ///< of their low corners, ascending
-  std::vector<std::uint8_t> levels;  ///< 0 the root, geometry::finest_level the finest
+  std::vector<std::uint64_t> keys;   ///< Morton keys of the low corners, ascending
+  std::vector<std::uint8_t> levels;  ///< 0: the root; geometry::finest_level: the finest
 
   std::size_t size() const { return keys.size(); }
   geometry::GridCube cube(std::size_t i) const { return {geometry::grid_point(keys[i]), levels[i]}; }
-  /// The one that holds the finest cube with this key, -1 where none does.
+  /// The index of the leaf that contains the finest cube with this key; -1: none does.
   std::int64_t find(std::uint64_t key) const {
     const auto after = std::upper_bound(keys.begin(), keys.end(), key);
     if (after == keys.begin()) return -1;

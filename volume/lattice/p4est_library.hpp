@@ -1,29 +1,30 @@
-/// p4est and the library under it, sc, while they work for us. Internal to forest/.
+/// The state of p4est and of sc, the library below it, during a call. Internal to the namespace forest.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
 
 namespace aeroloom::forest {
 
-/// For the life of one call: p4est and sc are silent, and where they abort, all ranks end with one message
-/// and the exit code of a program error, or of a lack of memory. A host program that has started either
-/// before finds it as it was, and what it has set up stays in force; one that starts them later is the first
-/// to do so: nothing of ours outlives the scope. Scopes do not nest.
+/// While a scope lives, p4est and sc print nothing. If they abort, all ranks end with one message and the
+/// exit code of a program error or of a lack of memory. If the host program has initialised them before, its
+/// settings stay in force. If not, the scope initialises them, and its destructor undoes that. Scopes do not
+/// nest.
 class LibraryScope {
 public:
-  /// The rank and what is being done, a literal, are for the message.
+  /// `doing` is a literal. Both stand in the message.
   LibraryScope(parallel::Rank rank, const char* doing);
   ~LibraryScope();
   LibraryScope(const LibraryScope&) = delete;
   LibraryScope& operator=(const LibraryScope&) = delete;
 
+  /// The next step, for the message.
   void now(const char* doing);
 
 private:
   bool _registered_base = false, _registered_forest = false;
 };
 
-/// Ends all ranks for want of memory, in a callback of the library, where nothing can be agreed on.
+/// Ends all ranks for lack of memory. For callbacks of p4est, where no collective error can be thrown.
 [[noreturn]] void end_without_memory();
 
 }  // namespace aeroloom::forest

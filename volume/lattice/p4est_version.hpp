@@ -1,11 +1,11 @@
-/// The library of the forest, for those who may not see it.
+/// The version of p4est, for folders that may not include p4est.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::forest {
 
-/// Of p4est, as it was compiled against.
+/// The version that the program was compiled with.
 std::string p4est_version();
 
 }  // namespace aeroloom::forest

@@ -1,4 +1,4 @@
-/// The largest of small numbers in any range of an array.
+/// The maximum of any range of an array of small numbers.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,8 @@
 
 namespace aeroloom::volume {
 
-/// A sparse table (Bender and Farach-Colton, LATIN 2000) over chunks of the array, so that it takes about
-/// half a byte for each number; what a range has of its first and its last chunk is looked through.
-/// Immutable.
+/// A sparse table (Bender and Farach-Colton, LATIN 2000) over chunks of the array. It takes about half a byte
+/// for each number. Partial chunks at the ends of a range are searched. Immutable.
 class RangeMaximum {
 public:
   RangeMaximum() = default;
@@ -28,7 +27,7 @@ public:
     }
   }
 
-  /// From `first` to before `last`; 0 of an empty range.
+  /// The maximum from `first` to before `last`; 0 for an empty range.
   std::uint8_t over(std::size_t first, std::size_t last) const {
     const std::size_t begin = (first + chunk - 1) / chunk, end = last / chunk;  // whole chunks
     if (begin >= end) return largest(first, last);
@@ -47,7 +46,7 @@ private:
   }
 
   std::vector<std::uint8_t> _values;
-  std::vector<std::vector<std::uint8_t>> _rows;  // row r: over 2^r chunks from each one on
+  std::vector<std::vector<std::uint8_t>> _rows;  // row r, entry c: maximum of the 2^r chunks from c on
 };
 
 }  // namespace aeroloom::volume

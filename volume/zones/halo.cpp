@@ -1,5 +1,8 @@
 #include "volume/zones/halo.hpp"
 
+#include "parallel/observation/timers.hpp"
+#include "volume/lattice/fetch_blocks.hpp"
+
 #include <algorithm>
 
 namespace aeroloom::volume {
@@ -14,7 +17,7 @@ double largest_size_around(const Lattice& lattice, BlockIndex b) {
   return size;
 }
 
-bool NearZone::knows(const GridBox& box) const {
+bool HaloZone::reaches(const GridBox& box) const {
   return std::any_of(boxes.begin(), boxes.end(),
                      [&](const GridBox& place) { return place.gap_to(box) <= radius; });
 }
@@ -58,14 +61,40 @@ void ZonesAround::move_to(BlockIndex b) {
   std::stable_sort(_places.begin(), _places.end(),
                    [](const ZoneBox& a, const ZoneBox& b) { return a.zone < b.zone; });
   _boxes.clear();
-  _near.clear();
+  _halos.clear();
   for (const ZoneBox& place : _places) _boxes.push_back(place.box);
   for (std::size_t first = 0, last; first < _places.size(); first = last) {
     const ZoneIndex zone = _places[first].zone;
     for (last = first + 1; last < _places.size() && _places[last].zone == zone;) ++last;
-    _near.push_back({zone, _lattice.frame.grid_distance(_widths[zone] * size),
-                     std::span<const GridBox>(_boxes).subspan(first, last - first)});
+    _halos.push_back({zone, _lattice.frame.grid_distance(_widths[zone] * size),
+                      std::span<const GridBox>(_boxes).subspan(first, last - first)});
   }
+}
+
+std::vector<GridCube> fetch_cut_ghosts(const Lattice& lattice, const ZoneCuts& cuts, double width) {
+  const LatticeTree& tree = lattice.tree;
+  if (tree.communicator().size() == 1) return {};
+  const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
+  BlockQueries queries(tree);
+  for (BlockIndex b = tree.first(); b < tree.last(); ++b) {
+    const GridBox box = GridBox::of(tree.cube(b)).dilated(ZonesAround::search_radius(lattice, b, width));
+    queries.add(box, {.box = box, .level = tree.level(b)});
+  }
+  const std::vector<GhostBlock> ghosts =
+      fetch_blocks(lattice, queries, [&](std::span<const BlockQuery> of_rank, const auto& add) {
+        const BoxesByLevel boxes(of_rank);
+        add_own_blocks(
+            tree,
+            [&](const GridCube& cube) {
+              return cuts.zone_of_all(cube) == no_zone &&
+                     boxes.any_from(cube.level - ZonesAround::finer_levels + 1, GridBox::of(cube));
+            },
+            add);
+      });
+  std::vector<GridCube> cubes;
+  cubes.reserve(ghosts.size());
+  for (const GhostBlock& ghost : ghosts) cubes.push_back(ghost.block.cube());
+  return cubes;
 }
 
 }  // namespace aeroloom::volume

@@ -1,4 +1,4 @@
-/// Which zones know what lies in a block.
+/// Halos: the points and triangles around a zone that it is filled with too.
 #pragma once
 
 #include "volume/lattice/lattice.hpp"
@@ -9,41 +9,41 @@
 
 namespace aeroloom::volume {
 
-/// The largest size in a block and next to it: the mean edge of the lattice, or the longest edge of the
-/// surface.
+/// The largest size in a block and in all that touch it: the mean edge of the lattice, or the longest edge of
+/// the surface.
 double largest_size_around(const Lattice& lattice, BlockIndex b);
 
-/// A zone that has leaves near a block.
-struct NearZone {
+/// A zone whose halo may reach into a block.
+struct HaloZone {
   ZoneIndex zone;
-  double radius;                   ///< how near things in the block have to be, in the grid
-  std::span<const GridBox> boxes;  ///< where the zone lies
+  double radius;                   ///< width of its halo in the block, in the grid
+  std::span<const GridBox> boxes;  ///< boxes that contain the zone's leaves near the block
 
-  bool knows(const GridBox& box) const;
+  /// Whether a box in the block is within the radius of the zone.
+  bool reaches(const GridBox& box) const;
 };
 
-/// A zone knows what is nearer to its leaves than `width` times the largest size found in the block of what
-/// is asked for or next to it; a size is the mean edge of the lattice or the longest edge of the surface. A
-/// halo in each point's own size would fail where sizes jump. Where blocks of several zones are far smaller
-/// than that block, all of them are there.
+/// Finds the zones whose halos reach into a block. Points and triangles of a block are in the halo of a zone
+/// if they are within `width` times largest_size_around() of its leaves. The size at the point alone would be
+/// too small where sizes jump. A cube with far finer blocks counts as part of each zone that planes give it.
 class ZonesAround {
 public:
-  /// Levels by which blocks are looked at as one cube. Chosen, not measured.
+  /// Blocks finer than a block by more levels count as one cube. Chosen, not measured.
   static constexpr int finer_levels = 3;
-  /// How far from a block leaves of zones matter to what lies in it, in the grid. Triangles count to the
-  /// block that their centre lies in, so that they may stick out of it.
+  /// The distance from a block within which leaves of zones matter to it, in the grid. A triangle belongs to
+  /// the block of its centre, and may extend beyond it.
   static double search_radius(const Lattice& lattice, BlockIndex b, double width) {
     return lattice.frame.grid_distance(width * largest_size_around(lattice, b) +
                                        lattice.table.longest_edge[b]);
   }
 
-  /// `widths` are those of zones. Refers to what it is made from.
+  /// `widths` has one per zone, in sizes. Refers to its arguments.
   ZonesAround(const Lattice& lattice, const Zones& zones, std::span<const double> widths);
 
-  /// To a block of this rank.
+  /// Finds the zones for a block of this rank.
   void move_to(BlockIndex b);
-  /// Zones that may know something in the block, by number; those that have leaves of it among them.
-  std::span<const NearZone> zones() const { return _near; }
+  /// The zones that have leaves in the block or may reach into it, by number.
+  std::span<const HaloZone> zones() const { return _halos; }
 
 private:
   struct ZoneBox {
@@ -58,7 +58,11 @@ private:
   double _widest;
   std::vector<ZoneBox> _places;
   std::vector<GridBox> _boxes;
-  std::vector<NearZone> _near;
+  std::vector<HaloZone> _halos;
 };
+
+/// The cubes of blocks on planes between zones that ZonesAround needs for halos of a width. `width` is in
+/// sizes. Collective.
+std::vector<GridCube> fetch_cut_ghosts(const Lattice& lattice, const ZoneCuts& cuts, double width);
 
 }  // namespace aeroloom::volume

@@ -1,4 +1,4 @@
-/// What TetGen fills: the space between the surface and the core, divided into zones.
+/// The shell: the space between surface and core, which TetGen fills zone by zone.
 #pragma once
 
 #include "volume/core/core_border.hpp"
@@ -9,12 +9,12 @@
 
 namespace aeroloom::volume {
 
-/// Made from a Lattice. Only retries change it: they reassign leaves, merge zones, and make the points anew.
+/// Made from a Lattice. Only retries change it: they reassign leaves, merge zones, or replace the points.
 struct Shell {
   LocalShell local;
   Zones zones;
-  std::vector<double> expected;      ///< tetrahedra per zone, without the core's
-  std::int64_t core_piece_tets = 0;  ///< wanted tetrahedra of a piece of the core
+  std::vector<double> expected;      ///< tetrahedra per zone, without those of the core
+  std::int64_t core_piece_tets = 0;  ///< wanted number of tetrahedra of a piece of the core
 };
 
 }  // namespace aeroloom::volume

@@ -7,7 +7,6 @@
 namespace aeroloom::volume {
 
 std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> loads, Load most) {
-  const parallel::Communicator& communicator = tree.communicator();
   const BlockIndex first = tree.first(), last = tree.last();
   std::vector<CoarseCell> cells, open{{0, 0, 0, 0, 0}};
   while (!open.empty()) {
@@ -24,7 +23,7 @@ std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> l
       }
       if (cell.load > 0) mine.push_back(cell);
     }
-    std::vector<CoarseCell> all = communicator.all_gather_items<CoarseCell>(mine);
+    std::vector<CoarseCell> all = tree.communicator().all_gather_items<CoarseCell>(mine);
     open.clear();
     for (std::size_t i = 0; i < all.size();) {
       CoarseCell cell = all[i];
@@ -50,7 +49,7 @@ struct ZoneCuts::Part {
   std::array<double, 3> low, high;
   double load, edge;  ///< of its blocks
 
-  /// How much lies between two planes.
+  /// The load between two planes.
   double between(int axis, double from, double to) const {
     const double within = std::min(to, high[axis]) - std::max(from, low[axis]);
     return within <= 0 ? 0 : load * within / (high[axis] - low[axis]);
@@ -74,20 +73,21 @@ void ZoneCuts::divide(std::vector<Part> parts, ZoneIndex count) {
   double total = 0;
   for (const Part& part : parts) total += part.load;
   const ZoneIndex half = count / 2;
-  const double share = total * half / count;
+  const double target = total * half / count;
   Cut best{0, 0};
   double least = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
-    std::uint32_t low = 0, high = 2 * sizing::grid_size;  // twice the place: below it is at most the share
+    std::uint32_t low = 0,
+                  high = 2 * sizing::grid_size;  // twice the place; the load below is at most the target
     while (high - low > 1) {
       const std::uint32_t middle = low + (high - low) / 2;
       double below = 0;
       for (const Part& part : parts) below += part.between(axis, 0, 0.5 * middle);
-      (below <= share ? low : high) = middle;
+      (below <= target ? low : high) = middle;
     }
     const double place = 0.5 * low;
     double cost = 0;
-    // A cut costs what both sides will have to know: about as far as a halo reaches beyond it.
+    // The cost of a cut is the load in the halos on both sides.
     constexpr double halo = 1.5;  // in edges of the cells, either way
     for (const Part& part : parts)
       cost += part.between(axis, place - halo * part.edge, place + halo * part.edge);

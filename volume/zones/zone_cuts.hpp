@@ -1,11 +1,10 @@
-/// Where space is cut into zones of equal load.
+/// Planes that divide space into zones of equal load.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
 #include "volume/core/core_border.hpp"
 #include "volume/lattice/block_points.hpp"
 #include "volume/lattice/lattice_tree.hpp"
-#include "volume/lattice/surface_near_blocks.hpp"
+#include "volume/lattice/surface_triangles.hpp"
 
 #include <cstdint>
 #include <span>
@@ -17,18 +16,19 @@ namespace aeroloom::volume {
 using ZoneIndex = std::int32_t;
 inline constexpr ZoneIndex no_zone = -1;
 
-/// Tetrahedra of the shell around a lattice point, and next to the surface, per triangle. For each triangle
-/// of the core's border there are fewer: half a point stands there, half of whose tetrahedra are the core's.
+/// Expected tetrahedra of the shell: so many for each lattice point and each surface triangle, and so many
+/// less for each triangle of the core's border. A border triangle has half a point, which shares half of its
+/// tetrahedra with the core.
 inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2,
                         fewer_per_border = 0.5 * tetrahedra_per_point - 2;
 
-/// Tetrahedra of the shell that are expected, in eighths, so that sums are exact.
+/// Expected tetrahedra of the shell, in eighths, so that sums are exact.
 using Load = std::int64_t;
 inline constexpr int loads_per_tetrahedron = 8;
 inline double tetrahedra_of(Load load) {
   return static_cast<double>(load) / loads_per_tetrahedron;
 }
-/// Of a block with so many points of the shell, triangles of the surface and of the core's border.
+/// The load of a block, from its shell points, its surface triangles and its triangles of the core's border.
 inline Load load_of(std::int64_t points, std::int64_t triangles, std::int64_t borders) {
   constexpr auto per_point = static_cast<Load>(loads_per_tetrahedron * tetrahedra_per_point),
                  per_triangle = static_cast<Load>(loads_per_tetrahedron * tetrahedra_per_triangle),
@@ -36,13 +36,13 @@ inline Load load_of(std::int64_t points, std::int64_t triangles, std::int64_t bo
   return std::max<Load>(0, per_point * points + per_triangle * triangles - per_border * borders);
 }
 
-/// A cube with what its blocks have together: an ancestor of blocks, or a block.
+/// A block or an ancestor of blocks, with the sums over its blocks.
 struct CoarseCell {
   std::uint64_t key;
   std::int32_t level;
   std::int32_t is_block;
   Load load;
-  Load edges;  ///< each block's load times its edge, in finest cells
+  Load edges;  ///< sum of load times block edge, in finest cells
 
   static constexpr auto fields() {
     return std::tuple(&CoarseCell::key, &CoarseCell::level, &CoarseCell::is_block, &CoarseCell::load,
@@ -50,28 +50,26 @@ struct CoarseCell {
   }
 };
 
-/// The largest cubes whose loads are at most `most`, and blocks with more, along the curve, without those
-/// that have no load. `loads` are those of this rank's blocks. The same on any number of
-/// ranks. Collective.
+/// The largest cubes with a load of at most `most`, and blocks with more, in Morton order. Cubes without load
+/// are left out. `loads` has one per own block. The same on any number of ranks. Collective.
 std::vector<CoarseCell> coarsen(const LatticeTree& tree, std::span<const Load> loads, Load most);
 
-/// Planes that cut space into zones. The same on every rank: a plane for each zone.
+/// Divides space into zones by planes. The same on every rank.
 class ZoneCuts {
 public:
-  /// Cells that a zone is made of, about. Chosen, not measured.
+  /// The number of coarse cells per zone, about. Chosen, not measured.
   static constexpr Load cells_per_zone = 128;
 
-  /// Zones of equal load by recursive bisection: always across the axis where the two halves have least in
-  /// common, in expected tetrahedra of the blocks beside the cut. Loads are taken to be spread evenly within
-  /// cells.
+  /// Recursive bisection into zones of equal load. Of the planes across the three axes it takes the one with
+  /// the least load in the blocks beside it. The load of a cell counts as spread evenly.
   ZoneCuts(std::span<const CoarseCell> cells, ZoneIndex count);
 
   ZoneIndex count() const { return _count; }
-  /// The zone of a block: that of its middle.
+  /// The zone of a block: the one that contains its centre.
   ZoneIndex zone_of(const GridCube& block) const;
-  /// The zone of all blocks there may be in a cube, no_zone where they may be of several.
+  /// The zone of all blocks that a cube can contain; no_zone if they can be in several.
   ZoneIndex zone_of_all(const GridCube& cube) const;
-  /// Calls visit(zone) for all zones that blocks in a cube may be of.
+  /// Calls visit(zone) for all zones that blocks in a cube can belong to.
   template <class Visit>
   void for_each_zone_in(const GridCube& cube, const Visit& visit) const {
     zones_below(_cuts.data(), 0, _count, cube, visit);
@@ -84,7 +82,7 @@ private:
     std::uint32_t twice_place;
   };
   void divide(std::vector<Part> parts, ZoneIndex count);
-  /// On which sides of a cut middles of blocks in a cube may lie.
+  /// The sides of a cut on which centres of blocks in a cube can lie.
   struct Sides {
     bool below, above;
   };
@@ -103,7 +101,7 @@ private:
   }
 
   ZoneIndex _count;
-  std::vector<Cut> _cuts;  // of n zones: the cut between the n / 2 lower ones and the others, theirs after it
+  std::vector<Cut> _cuts;  // a tree in preorder: cut into n / 2 and n - n / 2 zones, their cuts
 };
 
 }  // namespace aeroloom::volume

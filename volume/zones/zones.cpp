@@ -71,8 +71,7 @@ void Zones::merge(ZoneIndex from, ZoneIndex to) {
   }
 }
 
-std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator,
-                                      std::vector<std::int64_t> mine) {
+std::vector<std::int64_t> Zones::sum(std::vector<std::int64_t> mine) const {
   struct ZoneValue {
     ZoneIndex zone;
     std::int64_t value;
@@ -82,7 +81,8 @@ std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator
   for (std::size_t z = 0; z < mine.size(); ++z) {
     if (mine[z] != 0) rows.push_back({static_cast<ZoneIndex>(z), std::exchange(mine[z], 0)});
   }
-  for (const ZoneValue& row : communicator.all_gather_items<ZoneValue>(rows)) mine[row.zone] += row.value;
+  for (const ZoneValue& row : _tree.communicator().all_gather_items<ZoneValue>(rows))
+    mine[row.zone] += row.value;
   return mine;
 }
 

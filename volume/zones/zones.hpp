@@ -1,4 +1,4 @@
-/// Zones: the sets of blocks that tetrahedra are scheduled by.
+/// Zones: sets of leaves that are filled with tetrahedra by one task each.
 #pragma once
 
 #include "volume/lattice/lattice_tree.hpp"
@@ -18,49 +18,48 @@ struct ReassignedLeaf {
   ZoneIndex zone;
 };
 
-/// Which zone each leaf of the lattice belongs to: that of its block, unless it was reassigned. The
-/// same on every rank that a block is local to.
+/// The zone of each leaf: that of its block, unless the leaf was reassigned. The same on every rank where the
+/// block is local.
 class Zones {
 public:
-  /// Refers to `tree`. `cut_ghosts`: see fetch_cut_ghosts.
+  /// Refers to `tree`. `cut_ghosts` come from fetch_cut_ghosts() (halo.hpp).
   Zones(const LatticeTree& tree, ZoneCuts cuts, std::vector<GridCube> cut_ghosts = {});
 
   ZoneIndex count() const { return _cuts.count(); }
   ZoneIndex of(BlockIndex b, int child) const { return _reassigned.empty() ? _of_block[b] : find(b, child); }
   ZoneIndex of(const Leaf& leaf) const { return of(leaf.block, leaf.child); }
-  /// Whether all leaves of a block are in one zone.
+  /// Whether no leaf of a block was reassigned.
   bool is_whole(BlockIndex b) const;
   /// Whether a zone has leaves of a block.
   bool has(ZoneIndex zone, BlockIndex b) const;
-  /// Reassigns a leaf. Ranks to which its block is not local are told as well.
+  /// Reassigns a leaf. To be called on every rank, also where the block is not local.
   void reassign(const ReassignedLeaf& leaf);
-  /// All that is of zone `from` becomes of zone `to`.
+  /// Moves all leaves of zone `from` to zone `to`.
   void merge(ZoneIndex from, ZoneIndex to);
 
-  /// Whether a cube that a border of zones cuts is a block, as far as it is local or a cut ghost.
+  /// Whether a cube that a plane between zones cuts is a block. The block must be local or a cut ghost.
   bool is_block(const GridCube& cube) const;
-  /// Where blocks were cut, and what became of those zones: merged ones have another name.
+  /// The planes, with zones as they were before any was merged, and the present zone of each of these.
   const ZoneCuts& cuts() const { return _cuts; }
   ZoneIndex name(ZoneIndex cut) const { return _names[cut]; }
   std::span<const ReassignedLeaf> reassigned() const { return _reassigned; }
+
+  /// Sums over all ranks. `mine` has one entry per zone; only nonzero ones are sent. Collective.
+  std::vector<std::int64_t> sum(std::vector<std::int64_t> mine) const;
 
 private:
   ZoneIndex find(BlockIndex b, int child) const;
 
   const LatticeTree& _tree;
   ZoneCuts _cuts;
-  std::vector<GridCube> _cut_ghosts;        // along the curve
-  std::vector<ZoneIndex> _names;            // of zones as they were cut
-  std::vector<ZoneIndex> _of_block;         // without what was reassigned
+  std::vector<GridCube> _cut_ghosts;        // in Morton order
+  std::vector<ZoneIndex> _names;            // present zone of each zone of the cuts
+  std::vector<ZoneIndex> _of_block;         // without reassigned leaves
   std::vector<ReassignedLeaf> _reassigned;  // by leaf
 };
 
-/// Sums over all ranks. `mine` has an entry per zone; those that are not 0 travel. Collective.
-std::vector<std::int64_t> sum_by_zone(const parallel::Communicator& communicator,
-                                      std::vector<std::int64_t> mine);
-
-/// How many zones of about `piece_tets` tetrahedra: a volume of less than one and a half is one zone, and
-/// others are rounded to three leading binary digits, so that zones of equal load divide well among ranks.
+/// The number of zones of about `piece_tets` tetrahedra. Below 1.5 it is one; otherwise it is rounded to
+/// three leading binary digits, so that zones of equal load divide well among ranks.
 ZoneIndex wanted_zones(double expected_tetrahedra, std::int64_t piece_tets);
 
 }  // namespace aeroloom::volume

@@ -45,10 +45,9 @@ struct Answer {
   static constexpr auto fields() { return std::tuple(&Answer::place, &Answer::item, &Answer::neighbour); }
 };
 
-std::vector<TriangleSide> sides_of(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                   const Shown& shown, std::size_t place) {
+std::vector<TriangleSide> sides_of(const mesh::NumberedMesh& surface, const Shown& shown, std::size_t place) {
   const mesh::Piece& piece = surface.pieces[place];
-  const std::vector<GlobalIndex>& numbers = numbering.vertices[place];
+  const std::vector<GlobalIndex>& numbers = surface.numbering.vertices[place];
   std::vector<TriangleSide> sides;
   sides.reserve(3 * static_cast<std::size_t>(piece.cell_count()));
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
@@ -88,8 +87,7 @@ double angle_at(Vec3 normal, Vec3 edge, const EdgeNeighbour& neighbour) {
   return -std::atan2(dot(cross(normal, neighbour.normal), normalized(edge)), dot(normal, neighbour.normal));
 }
 
-EdgeNeighbours find_edge_neighbours(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                    const Shown& shown) {
+EdgeNeighbours find_edge_neighbours(const mesh::NumberedMesh& surface, const Shown& shown) {
   const parallel::Communicator& communicator = surface.communicator;
   EdgeNeighbours neighbours(surface.pieces.size());
   std::vector<TriangleSide> travelling;
@@ -98,7 +96,7 @@ EdgeNeighbours find_edge_neighbours(const mesh::DistributedMesh& surface, const 
     neighbours[p].resize(3 * static_cast<std::size_t>(piece.cell_count()));
     std::vector<std::uint8_t> shared(piece.vertex_count(), 0);
     for (const LocalIndex v : piece.shared_vertices) shared[v] = 1;
-    std::vector<TriangleSide> sides = sides_of(surface, numbering, shown, p);
+    std::vector<TriangleSide> sides = sides_of(surface, shown, p);
     std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
       return a.ends != b.ends ? a.ends < b.ends : place_of(a) < place_of(b);
     });

@@ -33,8 +33,7 @@ using EdgeNeighbours = std::vector<std::vector<EdgeNeighbour>>;
 /// Edges within a piece are matched there; those with one triangle in it travel. Where several triangles
 /// of a piece, or several pieces with one each, meet, each gets the next one in the order of pieces and
 /// triangles. Collective.
-EdgeNeighbours find_edge_neighbours(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                    const Shown& shown);
+EdgeNeighbours find_edge_neighbours(const mesh::NumberedMesh& surface, const Shown& shown);
 
 /// The angle in radians by which the surface turns at the edge with this direction, counter-clockwise around
 /// a triangle with this normal: positive where the wall is convex for who stands in the flow, as at a leading

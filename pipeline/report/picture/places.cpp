@@ -96,14 +96,14 @@ Curvature curvature_of(const Element& e) {
 
 /// Calls visit(element, vertices) for what is shown; vertices by global number.
 template <class Visit>
-void for_each_element(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                      const EdgeNeighbours& neighbours, const Scene& scene, const Visit& visit) {
+void for_each_element(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours, const Scene& scene,
+                      const Visit& visit) {
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (!scene.shown[p][t]) continue;
       const LocalIndex* v = piece.cell(t);
-      const auto& numbers = numbering.vertices[p];
+      const auto& numbers = surface.numbering.vertices[p];
       const Element e = element_of(piece, t, neighbours[p]);
       if (e.area > 0) visit(e, std::array<mesh::GlobalIndex, 3>{numbers[v[0]], numbers[v[1]], numbers[v[2]]});
     }
@@ -131,11 +131,11 @@ bool flow_divides(Vec3 normal, Vec3 along, double angle) {
 }
 
 /// Bits of leading edges. Each sharp_turn edge comes from both of its triangles.
-std::vector<LineItem> leading_items(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                                    const EdgeNeighbours& neighbours, const Scene& scene) {
+std::vector<LineItem> leading_items(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                    const Scene& scene) {
   std::vector<LineItem> items;
   const double diagonal = scene.box.diagonal();
-  for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
+  for_each_element(surface, neighbours, scene, [&](const Element& e, const auto& vertices) {
     for (int i = 0; i < 3; ++i) {
       if (e.turns[i] < sharp_turn) continue;
       if (flow_divides(e.bisectors[i], normalized(e.edge(i)), fraction_of_edge * e.turns[i]))
@@ -186,11 +186,11 @@ bool is_sharper(const Sharpest& a, const Sharpest& b) {
   return a.angle != b.angle ? a.angle > b.angle : precedes(a.item, b.item);
 }
 
-std::optional<Place> find_sharpest(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                                   const EdgeNeighbours& neighbours, const Scene& scene) {
+std::optional<Place> find_sharpest(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                   const Scene& scene) {
   const Communicator& communicator = surface.communicator;
   Sharpest mine;
-  for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
+  for_each_element(surface, neighbours, scene, [&](const Element& e, const auto& vertices) {
     const auto take = [&](double angle, const LineItem& item) {
       if (const Sharpest here{angle, item}; is_sharper(here, mine)) mine = here;
     };
@@ -210,12 +210,12 @@ std::optional<Place> find_sharpest(const DistributedMesh& surface, const mesh::N
 
 }  // namespace
 
-std::optional<Place> find_leading_edge(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                                       const EdgeNeighbours& neighbours, const Scene& scene) {
+std::optional<Place> find_leading_edge(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                       const Scene& scene) {
   const Communicator& communicator = surface.communicator;
-  if (!scene.has_body) return find_sharpest(surface, numbering, neighbours, scene);
+  if (!scene.has_body) return find_sharpest(surface, neighbours, scene);
   std::vector<LineItem> items;
-  parallel::agree(communicator, [&] { items = leading_items(surface, numbering, neighbours, scene); });
+  parallel::agree(communicator, [&] { items = leading_items(surface, neighbours, scene); });
   std::vector<SurfaceLine> lines = gather_lines(communicator, items);
   std::erase_if(
       lines, [](const SurfaceLine& line) { return line.extent() < least_length * line.items.front().size; });
@@ -230,16 +230,16 @@ std::optional<Place> find_leading_edge(const DistributedMesh& surface, const mes
     }
   }
   found = shared(communicator, found);
-  return found ? found : find_sharpest(surface, numbering, neighbours, scene);
+  return found ? found : find_sharpest(surface, neighbours, scene);
 }
 
-std::optional<Place> find_junction(const DistributedMesh& surface, const mesh::Numbering& numbering,
-                                   const EdgeNeighbours& neighbours, const Scene& scene) {
+std::optional<Place> find_junction(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                   const Scene& scene) {
   const Communicator& communicator = surface.communicator;
   if (!scene.has_body) return std::nullopt;
   std::vector<LineItem> items;
   parallel::agree(communicator, [&] {
-    for_each_element(surface, numbering, neighbours, scene, [&](const Element& e, const auto& vertices) {
+    for_each_element(surface, neighbours, scene, [&](const Element& e, const auto& vertices) {
       for (int i = 0; i < 3; ++i) {
         if (e.turns[i] < -inward_turn && vertices[i] < vertices[(i + 1) % 3])
           items.push_back(item_of_edge(e, i, vertices));

@@ -32,13 +32,13 @@ struct Place {
 /// 40 degrees at an edge or with a curvature of 8 to the diagonal; where there is none either, nothing. The
 /// tensor of curvature is that of Cohen-Steiner and Morvan (SoCG 2003, doi:10.1145/777792.777839) over a
 /// triangle. Collective.
-std::optional<Place> find_leading_edge(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                       const EdgeNeighbours& neighbours, const Scene& scene);
+std::optional<Place> find_leading_edge(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                       const Scene& scene);
 
 /// The upstream end of the crease of the longest extent: edges where what is shown turns towards the flow by
 /// more than 20 degrees; those that share a vertex are one crease. Nothing without a body, or where there is
 /// no crease longer than 10 edges. Creases are lines, so all their edges travel to rank 0. Collective.
-std::optional<Place> find_junction(const mesh::DistributedMesh& surface, const mesh::Numbering& numbering,
-                                   const EdgeNeighbours& neighbours, const Scene& scene);
+std::optional<Place> find_junction(const mesh::NumberedMesh& surface, const EdgeNeighbours& neighbours,
+                                   const Scene& scene);
 
 }  // namespace aeroloom::picture

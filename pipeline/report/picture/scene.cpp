@@ -1,5 +1,6 @@
 #include "pipeline/report/picture/scene.hpp"
 
+#include "mesh/data/bounds.hpp"
 #include "mesh/exchange/delivery.hpp"
 
 #include <algorithm>
@@ -156,19 +157,6 @@ void add_up(const std::vector<PieceSums>& rows, Scene& scene) {
   if (area > 0) scene.open_towards *= 1 / area;
 }
 
-Box box_of_all(const DistributedMesh& surface) {
-  const Communicator& communicator = surface.communicator;
-  Box box;
-  for (const mesh::Piece& piece : surface.pieces) {
-    for (LocalIndex v = 0; v < piece.vertex_count(); ++v) box.add(piece.point(v));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = communicator.minimum(box.low[axis]);
-    box.high[axis] = communicator.maximum(box.high[axis]);
-  }
-  return box;
-}
-
 /// Marks the walls that are not outer ones; openings too where there is no body.
 Shown marked_walls(const DistributedMesh& surface, const std::vector<PatchType>& types, const Shown& outer,
                    bool has_body) {
@@ -205,7 +193,7 @@ Vec3 area_normal(const mesh::Piece& piece, LocalIndex triangle) {
 
 Scene find_scene(const DistributedMesh& surface, const std::vector<PatchType>& types) {
   Scene scene;
-  scene.domain = box_of_all(surface);
+  scene.domain = mesh::box_of(surface);
   const Vec3 origin = scene.domain.center();
   Shown outer = all_of(surface, 0);
   scene.has_body = std::find(types.begin(), types.end(), PatchType::farfield) != types.end();

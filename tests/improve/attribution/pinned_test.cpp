@@ -169,10 +169,10 @@ DistributedMesh make_flat_on_layers(const parallel::Communicator& communicator, 
 
 PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_change = true) {
   const auto world = parallel::Communicator::world();
-  const mesh::Numbering numbering = mesh::number_mesh(mesh);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
   mesh::CellsOutside suspects{suspect_angles(target), {}};
-  mesh::summarise_quality(mesh, numbering, &suspects);
-  return find_pinned(mesh, numbering, target, suspects, surface_may_change);
+  mesh::summarise_quality(numbered, &suspects);
+  return find_pinned(numbered, target, suspects, surface_may_change);
 }
 
 PinnedReport find(double angle, int tets, CadDimension on_axis, double target) {

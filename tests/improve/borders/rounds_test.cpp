@@ -83,18 +83,18 @@ std::optional<CavityContent> slid(const Cavity& cavity) {
 }
 
 mesh::GlobalIndex count_cells(const mesh::DistributedMesh& mesh) {
-  return mesh::number_mesh(mesh).cell_count;
+  return mesh::number_mesh(mesh).numbering.cell_count;
 }
 
 void expect_valid(const mesh::DistributedMesh& mesh) {
-  const mesh::Numbering numbering = mesh::number_mesh(mesh);
-  const mesh::ValidityReport report = mesh::check_volume_mesh(mesh, numbering, nullptr);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
+  const mesh::ValidityReport report = mesh::check_volume_mesh(numbered, nullptr);
   EXPECT_TRUE(report.valid()) << (report.violations.empty() ? "" : report.violations.front());
   EXPECT_NEAR(report.volume, 1, 1e-12);
 }
 
 std::string hash(const mesh::DistributedMesh& mesh) {
-  return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
+  return mesh::hash_mesh(mesh::number_mesh(mesh));
 }
 
 CavityRound one_round(mesh::DistributedMesh& mesh, const CavityClaims& claims, CavityExtent extent,
@@ -217,12 +217,12 @@ TEST(Cavities, MayChangeTheSurface) {
   const auto world = Communicator::world(), self = Communicator::self();
   mesh::DistributedMesh together = mesh::examples::cube(world, squares, pieces);
   mesh::DistributedMesh alone = mesh::examples::cube(self, squares, pieces);
-  const mesh::MeshCounts before = mesh::count_mesh(together, mesh::number_mesh(together));
+  const mesh::MeshCounts before = mesh::count_mesh(mesh::number_mesh(together));
   EXPECT_EQ(count_moved(together), 0);
   one_round(together, claim_for_surface(together), {}, slid);
   one_round(alone, claim_for_surface(alone), {}, slid);
   expect_valid(together);
-  const mesh::MeshCounts after = mesh::count_mesh(together, mesh::number_mesh(together));
+  const mesh::MeshCounts after = mesh::count_mesh(mesh::number_mesh(together));
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.cells, before.cells);
   EXPECT_EQ(after.boundary_triangles, before.boundary_triangles);

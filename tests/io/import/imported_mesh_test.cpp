@@ -30,9 +30,7 @@ constexpr GlobalIndex tets = 6 * squares * squares * squares;
 
 /// The unit cube as a file of some pieces has it.
 io::FileMesh cube_of_file(const Communicator& communicator) {
-  DistributedMesh pieces = mesh::examples::cube(communicator, squares, 5);
-  mesh::Numbering numbering = mesh::number_mesh(pieces);
-  return io::file_mesh_of({std::move(pieces), std::move(numbering)});
+  return io::file_mesh_of(mesh::number_mesh(mesh::examples::cube(communicator, squares, 5)));
 }
 
 /// The unit cube as Medit text: two regions, below and above half its height, and no triangles.
@@ -58,7 +56,7 @@ std::string two_regions_as_text() {
 /// Vertices on the boundary lie on the largest CAD face that any piece has around them, others in a region.
 void expect_classified(const DistributedMesh& mesh) {
   const Communicator& world = mesh.communicator;
-  const mesh::Numbering numbering = mesh::number_mesh(mesh);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
   // By global number: the largest face around it, from all pieces.
   std::map<GlobalIndex, std::int32_t> largest;
   parallel::Bytes mine;
@@ -66,7 +64,7 @@ void expect_classified(const DistributedMesh& mesh) {
     const Piece& piece = mesh.pieces[p];
     for (LocalIndex f = 0; f < mesh::boundary_face_count(piece); ++f) {
       for (const LocalIndex v : mesh::corners_of_boundary(piece, f)) {
-        const GlobalIndex entry[2] = {numbering.vertices[p][v], mesh::cad_face_of(piece, f)};
+        const GlobalIndex entry[2] = {numbered.numbering.vertices[p][v], mesh::cad_face_of(piece, f)};
         const auto* bytes = reinterpret_cast<const std::byte*>(entry);
         mine.insert(mine.end(), bytes, bytes + sizeof entry);
       }
@@ -84,7 +82,7 @@ void expect_classified(const DistributedMesh& mesh) {
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const Piece& piece = mesh.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      const auto found = largest.find(numbering.vertices[p][v]);
+      const auto found = largest.find(numbered.numbering.vertices[p][v]);
       const bool is_inside = found == largest.end();
       EXPECT_EQ(piece.vertex_dimension[v], is_inside ? CadDimension::region : CadDimension::face);
       EXPECT_EQ(piece.vertex_entity[v], is_inside ? piece.region : found->second);
@@ -100,13 +98,13 @@ TEST(Imported, IsTheSameMeshInPiecesOfTheSizeAskedFor) {
     EXPECT_GT(piece.cell_count(), 40);
     EXPECT_LT(piece.cell_count(), 60);
   }
-  const mesh::Numbering numbering = mesh::number_mesh(mesh);
-  const mesh::MeshCounts counts = mesh::count_mesh(mesh, numbering);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
+  const mesh::MeshCounts counts = mesh::count_mesh(numbered);
   EXPECT_EQ(counts.cells, tets);
   EXPECT_EQ(counts.vertices, (squares + 1) * (squares + 1) * (squares + 1));
   EXPECT_EQ(counts.boundary_triangles, 12 * squares * squares);
   EXPECT_EQ(mesh.patches, (std::vector<std::string>{"x sides", "y sides", "z sides"}));
-  const mesh::ValidityReport report = mesh::check_volume_mesh(mesh, numbering, nullptr);
+  const mesh::ValidityReport report = mesh::check_volume_mesh(numbered, nullptr);
   EXPECT_TRUE(report.valid());
   EXPECT_NEAR(report.volume, 1, 1e-12);
   expect_classified(mesh);
@@ -123,7 +121,7 @@ TEST(Imported, IsTheSameForAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const auto hash_of = [](const Communicator& communicator) {
     const DistributedMesh mesh = pieces_of(cube_of_file(communicator), "cube.mesh", 40);
-    return mesh::hash_mesh(mesh, mesh::number_mesh(mesh));
+    return mesh::hash_mesh(mesh::number_mesh(mesh));
   };
   EXPECT_EQ(hash_of(Communicator::world()), hash_of(Communicator::self()));
 }
@@ -152,7 +150,7 @@ TEST_F(ImportedFile, RegionsHavePiecesOfTheirOwnAndAFaceBetweenThem) {
   ASSERT_EQ(mesh.sides.size(), 3u);
   EXPECT_EQ(std::count_if(mesh.sides.begin(), mesh.sides.end(), [](const auto& s) { return s.is_inner(); }),
             1);
-  const mesh::ValidityReport report = mesh::check_volume_mesh(mesh, mesh::number_mesh(mesh), nullptr);
+  const mesh::ValidityReport report = mesh::check_volume_mesh(mesh::number_mesh(mesh), nullptr);
   EXPECT_TRUE(report.valid());
   ASSERT_EQ(report.region_volumes.size(), 2u);
   EXPECT_NEAR(report.region_volumes[0] + report.region_volumes[1], 1, 1e-12);

@@ -35,15 +35,15 @@ std::string joined(const std::vector<std::string>& lines) {
 ValidityReport check_cube(const Communicator& communicator, PieceId id, const Change& change) {
   auto mesh = examples::cube(communicator, side, pieces);
   const auto surface = examples::cube_surface(communicator, side, 3);
-  const Numbering sound = number_mesh(mesh);
+  const NumberedMesh sound = number_mesh(mesh);
   change_piece(mesh, id, change);
   bool same_shape = true;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
-    same_shape =
-        same_shape && sound.vertices[i].size() == static_cast<std::size_t>(mesh.pieces[i].vertex_count());
+    same_shape = same_shape && sound.numbering.vertices[i].size() ==
+                                   static_cast<std::size_t>(mesh.pieces[i].vertex_count());
   }
   const bool keep = communicator.minimum(std::int64_t{same_shape}) == 1;
-  return check_volume_mesh(mesh, keep ? sound : number_mesh(mesh), &surface);
+  return check_volume_mesh(keep ? NumberedMesh{mesh, sound.numbering} : number_mesh(mesh), &surface);
 }
 
 /// The report on a cube whose piece `id` was changed. It must be the same on one rank and on all.
@@ -58,7 +58,7 @@ std::string volume_faults(PieceId id, const Change& change) {
 ValidityReport check_sides(const Communicator& communicator, PieceId id, const Change& change) {
   auto mesh = examples::cube_surface(communicator, side, pieces);
   change_piece(mesh, id, change);
-  return check_surface_mesh(mesh, number_mesh(mesh));
+  return check_surface_mesh(number_mesh(mesh));
 }
 
 std::string surface_faults(PieceId id, const Change& change) {
@@ -96,13 +96,13 @@ TEST(VolumeValidity, AcceptsSoundMeshesHoweverTheyAreCut) {
   for (const int cuts : {1, 2, 5, 27}) {
     const auto mesh = examples::cube(world, 3, cuts);
     const auto surface = examples::cube_surface(world, 3, cuts);
-    const auto report = check_volume_mesh(mesh, number_mesh(mesh), &surface);
+    const auto report = check_volume_mesh(number_mesh(mesh), &surface);
     EXPECT_TRUE(report.valid()) << joined(report.violations);
     EXPECT_NEAR(report.volume, 1, 1e-14);
     EXPECT_NEAR(report.surface_volume, 1, 1e-14);
   }
   for (const auto& mesh : {examples::two_tets(world), examples::fan(world, 5)}) {
-    const auto report = check_volume_mesh(mesh, number_mesh(mesh), nullptr);
+    const auto report = check_volume_mesh(number_mesh(mesh), nullptr);
     EXPECT_TRUE(report.valid()) << joined(report.violations);
   }
 }
@@ -111,8 +111,8 @@ TEST(VolumeValidity, HasTheSameBitsOfVolumeOnOneRank) {
   NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   const auto here = examples::cube(world, 4, 7), alone = examples::cube(self, 4, 7);
-  const auto a = check_volume_mesh(here, number_mesh(here), nullptr);
-  const auto b = check_volume_mesh(alone, number_mesh(alone), nullptr);
+  const auto a = check_volume_mesh(number_mesh(here), nullptr);
+  const auto b = check_volume_mesh(number_mesh(alone), nullptr);
   EXPECT_EQ(a.volume, b.volume);
   EXPECT_EQ(a.surface_volume, b.surface_volume);
 }
@@ -125,7 +125,7 @@ TEST(VolumeValidity, AcceptsAMeshFarFromTheOrigin) {
       piece.set_point(v, piece.point(v) + geometry::Vec3{1e7, -3e6, 5e6});
     }
   }
-  const auto report = check_volume_mesh(mesh, number_mesh(mesh), nullptr);
+  const auto report = check_volume_mesh(number_mesh(mesh), nullptr);
   EXPECT_TRUE(report.valid()) << joined(report.violations);
 }
 
@@ -253,7 +253,7 @@ TEST(VolumeValidity, FindsTwoTetrahedraOnOneSide) {
     std::swap(piece.cells[1], piece.cells[2]);
     piece.set_point(piece.cells[3], {0.2, 0.2, 0.7});
   });
-  const auto report = check_volume_mesh(mesh, number_mesh(mesh), nullptr);
+  const auto report = check_volume_mesh(number_mesh(mesh), nullptr);
   EXPECT_FOUND(joined(report.violations),
                "faces with both tetrahedra on one side: 1, the first being tetrahedron 0 of");
 }
@@ -264,7 +264,7 @@ TEST(VolumeValidity, FindsASurfaceThatIsAnother) {
   auto surface = examples::cube_surface(world, side, 2);
   change_piece(surface, 1,
                [](Piece& piece) { piece.coordinates[0] += 1e-16 + 1e-15 * piece.coordinates[0]; });
-  const auto report = check_volume_mesh(mesh, number_mesh(mesh), &surface);
+  const auto report = check_volume_mesh(number_mesh(mesh), &surface);
   EXPECT_FOUND(joined(report.violations), "boundary triangles that the surface mesh does not have:");
   EXPECT_FOUND(joined(report.violations), "triangles of the surface mesh that the boundary does not have:");
 }
@@ -272,44 +272,44 @@ TEST(VolumeValidity, FindsASurfaceThatIsAnother) {
 TEST(VolumeValidity, KnowsItsOwnSurfaceFromAnother) {
   const auto world = Communicator::world();
   const auto mesh = examples::cube(world, side, pieces);
-  const Numbering numbering = number_mesh(mesh);
-  DistributedMesh surface = boundary_mesh(mesh, numbering);
-  EXPECT_TRUE(check_volume_mesh(mesh, numbering, &surface).valid());
+  const NumberedMesh numbered = number_mesh(mesh);
+  DistributedMesh surface = boundary_mesh(numbered);
+  EXPECT_TRUE(check_volume_mesh(numbered, &surface).valid());
   change_piece(surface, 2, [](Piece& piece) { piece.coordinates[4] += 1e-15; });
-  const std::string moved = joined(check_volume_mesh(mesh, numbering, &surface).violations);
+  const std::string moved = joined(check_volume_mesh(numbered, &surface).violations);
   EXPECT_FOUND(moved, "boundary triangles that the surface mesh does not have");
   EXPECT_FOUND(moved, "triangles of the surface mesh that the boundary does not have");
-  surface = boundary_mesh(mesh, numbering);
+  surface = boundary_mesh(numbered);
   change_piece(surface, surface.piece_count - 1, [](Piece& piece) { repeat_triangle(piece, 0); });
-  EXPECT_FOUND(joined(check_volume_mesh(mesh, numbering, &surface).violations),
+  EXPECT_FOUND(joined(check_volume_mesh(numbered, &surface).violations),
                "triangles of the surface mesh that the boundary does not have: 1,");
 }
 
 TEST(VolumeValidity, RefusesANumberingOfAnotherMesh) {
   const auto world = Communicator::world();
   const auto mesh = examples::cube(world, side, pieces);
-  const Numbering other = number_mesh(examples::cube(world, side + 1, pieces));
-  EXPECT_THROW(check_volume_mesh(mesh, other, nullptr), parallel::CollectiveError);
+  const NumberedMesh other = number_mesh(examples::cube(world, side + 1, pieces));
+  EXPECT_THROW(check_volume_mesh({mesh, other.numbering}, nullptr), parallel::CollectiveError);
 }
 
 TEST(VolumeValidity, FindsAMeshWithoutTetrahedra) {
   const auto world = Communicator::world();
   const DistributedMesh mesh(world);
-  const auto report = check_volume_mesh(mesh, number_mesh(mesh), nullptr);
+  const auto report = check_volume_mesh(number_mesh(mesh), nullptr);
   EXPECT_EQ(joined(report.violations), "the mesh has no tetrahedra\n");
 }
 
 TEST(VolumeValidity, RefusesASurfaceMesh) {
   const auto world = Communicator::world();
   const auto mesh = examples::cube_surface(world, 2, 2);
-  EXPECT_THROW(check_volume_mesh(mesh, number_mesh(mesh), nullptr), parallel::CollectiveError);
+  EXPECT_THROW(check_volume_mesh(number_mesh(mesh), nullptr), parallel::CollectiveError);
 }
 
 TEST(SurfaceValidity, AcceptsSoundMeshesHoweverTheyAreCut) {
   const auto world = Communicator::world();
   for (const int cuts : {1, 2, 7}) {
     const auto mesh = examples::cube_surface(world, 3, cuts);
-    const auto report = check_surface_mesh(mesh, number_mesh(mesh));
+    const auto report = check_surface_mesh(number_mesh(mesh));
     EXPECT_TRUE(report.valid()) << joined(report.violations);
     EXPECT_NEAR(report.volume, 1, 1e-14);
   }
@@ -354,7 +354,7 @@ TEST(SurfaceValidity, FindsASurfaceInsideOut) {
   for (Piece& piece : mesh.pieces) {
     for (std::size_t t = 0; t < piece.cells.size(); t += 3) std::swap(piece.cells[t], piece.cells[t + 1]);
   }
-  const auto report = check_surface_mesh(mesh, number_mesh(mesh));
+  const auto report = check_surface_mesh(number_mesh(mesh));
   ASSERT_EQ(report.violations.size(), 1U);
   EXPECT_FOUND(report.violations[0], "no positive volume");
 }
@@ -377,7 +377,7 @@ TEST(SurfaceValidity, AcceptsSheetsThatTouchAlongAnEdge) {
   whole.faces.assign(8, 0);
   whole.patches.assign(8, 0);
   const auto mesh = examples::distribute(world, whole, 3);
-  const auto report = check_surface_mesh(mesh, number_mesh(mesh));
+  const auto report = check_surface_mesh(number_mesh(mesh));
   EXPECT_TRUE(report.valid()) << joined(report.violations);
 }
 

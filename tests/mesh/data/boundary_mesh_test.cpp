@@ -45,23 +45,23 @@ class BoundaryOfCube : public testing::TestWithParam<int> {};
 TEST_P(BoundaryOfCube, HasAllTrianglesOfEveryFaceAndIsClosed) {
   const Communicator world = Communicator::world();
   const DistributedMesh volume = examples::cube(world, cubes, GetParam());
-  const DistributedMesh surface = boundary_mesh(volume, number_mesh(volume));
+  const DistributedMesh surface = boundary_mesh(number_mesh(volume));
   EXPECT_EQ(surface.kind, CellKind::triangle);
   for (const auto& [face, sum] : sums_by_face(surface)) {
     EXPECT_EQ(sum.triangles, 2 * cubes * cubes) << "face " << face;
     EXPECT_NEAR(sum.area, 1, 1e-12) << "face " << face << ", outward";
   }
-  const Numbering numbering = number_mesh(surface);
+  const NumberedMesh numbered = number_mesh(surface);
   constexpr int row = cubes + 1, inside = cubes - 1;
-  EXPECT_EQ(numbering.vertex_count, row * row * row - inside * inside * inside);
-  const ValidityReport report = check_surface_mesh(surface, numbering);
+  EXPECT_EQ(numbered.numbering.vertex_count, row * row * row - inside * inside * inside);
+  const ValidityReport report = check_surface_mesh(numbered);
   EXPECT_TRUE(report.valid()) << report.violations.front();
 }
 
 TEST_P(BoundaryOfCube, HasOnePieceForEachPieceAndFaceInTheirOrder) {
   const Communicator world = Communicator::world();
   const DistributedMesh volume = examples::cube(world, cubes, GetParam());
-  const DistributedMesh surface = boundary_mesh(volume, number_mesh(volume));
+  const DistributedMesh surface = boundary_mesh(number_mesh(volume));
   struct Row {
     PieceId id;
     std::int32_t face;
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Pieces, BoundaryOfCube, testing::Values(1, 2, 5));
 TEST(PartOfSurface, TellsFacesBetweenRegionsFromTheOthers) {
   const Communicator world = Communicator::world();
   const DistributedMesh volume = examples::cube(world, cubes, 2);
-  DistributedMesh surface = boundary_mesh(volume, number_mesh(volume));
+  DistributedMesh surface = boundary_mesh(number_mesh(volume));
   surface.sides.assign(6, FaceSides{0, no_region});
   surface.sides[3] = {0, 1};
   const auto outside = sums_by_face(part_of_surface(surface, SurfacePart::outside));

@@ -23,22 +23,22 @@ using parallel::Communicator;
 constexpr double determinant = 2 * 1.5 + 0.25 * 0.125 * 0.0625;  // of the map of the mixed mesh
 
 std::string hash_of(const DistributedMesh& mesh) {
-  return hash_mesh(mesh, number_mesh(mesh));
+  return hash_mesh(number_mesh(mesh));
 }
 
 TEST(MixedMesh, IsNumberedByPieceThenShape) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(4, 3);
   const DistributedMesh mesh = examples::distribute(world, whole, 3);
-  const Numbering numbering = number_mesh(mesh);
-  EXPECT_EQ(numbering.vertex_count, static_cast<GlobalIndex>(whole.points.size()));
-  EXPECT_EQ(numbering.cell_count, static_cast<GlobalIndex>(whole.cells.size()));
+  const NumberedMesh numbered = number_mesh(mesh);
+  EXPECT_EQ(numbered.numbering.vertex_count, static_cast<GlobalIndex>(whole.points.size()));
+  EXPECT_EQ(numbered.numbering.cell_count, static_cast<GlobalIndex>(whole.cells.size()));
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const auto before = std::count_if(whole.cells.begin(), whole.cells.end(),
                                       [&](const auto& cell) { return cell.piece < mesh.pieces[i].id; });
-    EXPECT_EQ(numbering.first_cell[i], before);
+    EXPECT_EQ(numbered.numbering.first_cell[i], before);
   }
-  const MeshCounts counts = count_mesh(mesh, numbering);
+  const MeshCounts counts = count_mesh(numbered);
   EXPECT_EQ(counts.cells, 32 + 20 + 104);
   EXPECT_EQ(counts.pyramids, 20);
   EXPECT_EQ(counts.prisms, 32);
@@ -154,7 +154,7 @@ TEST(MixedMeshLocal, ArraysThatDoNotFitAreRefused) {
 }
 
 ValidityReport check(const DistributedMesh& mesh) {
-  return check_volume_mesh(mesh, number_mesh(mesh), nullptr);
+  return check_volume_mesh(number_mesh(mesh), nullptr);
 }
 
 TEST(MixedMesh, IsValidOnAnyRanksHoweverCut) {
@@ -261,10 +261,11 @@ TEST(MixedMesh, VolumesOfWarpedQuadrilateralsAddUp) {
   // Lower prisms and pyramids beside each other, all inner vertices moved: quadrilaterals warp.
   const Communicator world = Communicator::world();
   DistributedMesh mesh = examples::mixed_mesh(world, 4, 3);
-  const Numbering numbering = number_mesh(mesh);
+  const NumberedMesh numbered = number_mesh(mesh);
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     for (LocalIndex v = 0; v < mesh.pieces[i].vertex_count(); ++v) {
-      const auto bits = static_cast<std::uint64_t>(numbering.vertices[i][v] + 1) * 0x9e3779b97f4a7c15ULL;
+      const auto bits =
+          static_cast<std::uint64_t>(numbered.numbering.vertices[i][v] + 1) * 0x9e3779b97f4a7c15ULL;
       geometry::Vec3 p = mesh.pieces[i].point(v);
       p.z += 0.1 * (static_cast<double>(bits >> 40) / (1 << 23) - 1);
       mesh.pieces[i].set_point(v, p);
@@ -277,36 +278,35 @@ TEST(MixedMesh, VolumesOfWarpedQuadrilateralsAddUp) {
 
 TEST(MixedMesh, SharedCoordinatesMustAgree) {
   const Communicator world = Communicator::world();
-  DistributedMesh mesh = examples::mixed_mesh(world, 3, 2);
-  const Numbering numbering = number_mesh(mesh);
+  NumberedMesh mesh = number_mesh(examples::mixed_mesh(world, 3, 2));
   for (Piece& piece : mesh.pieces) {
     if (piece.id == 1) piece.coordinates[3 * static_cast<std::size_t>(piece.shared_vertices[0])] += 1e-9;
   }
   EXPECT_THROW(number_mesh(mesh), parallel::CollectiveError);
-  const ValidityReport report = check_volume_mesh(mesh, numbering, nullptr);
+  const ValidityReport report = check_volume_mesh(mesh, nullptr);
   ASSERT_FALSE(report.valid());
   EXPECT_EQ(report.violations[0].find("shared vertices whose coordinates differ"), 0U);
 }
 
 TEST(MixedMesh, IsTheSameMeshInOtherPieces) {
   const Communicator world = Communicator::world(), self = Communicator::self();
-  const DistributedMesh mesh = examples::mixed_mesh(world, 4, 3), alone = examples::mixed_mesh(self, 4, 3);
-  const Numbering numbering = number_mesh(mesh), numbering_alone = number_mesh(alone);
-  const MeshCounts counts = count_mesh(mesh, numbering);
+  const NumberedMesh mesh = number_mesh(examples::mixed_mesh(world, 4, 3));
+  const NumberedMesh alone = number_mesh(examples::mixed_mesh(self, 4, 3));
+  const MeshCounts counts = count_mesh(mesh);
   for (const auto& [pieces, regions] :
        {std::pair(1, PieceRegions::several), {7, PieceRegions::several}, {4, PieceRegions::one}}) {
-    const NumberedMesh cut = repartition(mesh, numbering, pieces, regions);
-    const NumberedMesh cut_alone = repartition(alone, numbering_alone, pieces, regions);
-    EXPECT_EQ(hash_mesh(cut.mesh, cut.numbering), hash_mesh(cut_alone.mesh, cut_alone.numbering));
-    EXPECT_EQ(hash_of(cut.mesh), hash_mesh(cut.mesh, cut.numbering));
-    const MeshCounts now = count_mesh(cut.mesh, cut.numbering);
+    const NumberedMesh cut = repartition(mesh, pieces, regions);
+    const NumberedMesh cut_alone = repartition(alone, pieces, regions);
+    EXPECT_EQ(hash_mesh(cut), hash_mesh(cut_alone));
+    EXPECT_EQ(hash_of(cut), hash_mesh(cut));
+    const MeshCounts now = count_mesh(cut);
     EXPECT_EQ(now.vertices, counts.vertices);
     EXPECT_EQ(now.pyramids, counts.pyramids);
     EXPECT_EQ(now.boundary_quads, counts.boundary_quads);
     EXPECT_EQ(now.inner_triangles, counts.inner_triangles);
-    const ValidityReport report = check_volume_mesh(cut.mesh, cut.numbering, nullptr);
+    const ValidityReport report = check_volume_mesh(cut, nullptr);
     EXPECT_TRUE(report.valid()) << report.violations.front();
-    for (const Piece& piece : cut.mesh.pieces) {
+    for (const Piece& piece : cut.pieces) {
       EXPECT_TRUE(regions == PieceRegions::several || piece.runs.empty());
       EXPECT_EQ(piece.vertex_dimension.size(), static_cast<std::size_t>(piece.vertex_count()));
     }

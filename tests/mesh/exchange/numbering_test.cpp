@@ -30,12 +30,13 @@ struct Row {
 
 std::vector<Row> rows_of(const DistributedMesh& mesh) {
   const Communicator& communicator = mesh.communicator;
-  const Numbering numbering = number_mesh(mesh);
+  const NumberedMesh numbered = number_mesh(mesh);
   std::vector<Row> rows;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     for (LocalIndex v = 0; v < mesh.pieces[i].vertex_count(); ++v) {
       const auto p = mesh.pieces[i].point(v);
-      rows.push_back({mesh.pieces[i].id, v, numbering.vertices[i][v], numbering.owned[i][v], p.x, p.y, p.z});
+      rows.push_back({mesh.pieces[i].id, v, numbered.numbering.vertices[i][v], numbered.numbering.owned[i][v],
+                      p.x, p.y, p.z});
     }
   }
   rows = communicator.all_gather_items(std::span<const Row>(rows));
@@ -73,14 +74,15 @@ INSTANTIATE_TEST_SUITE_P(Pieces, NumberingOfCube, testing::Values(1, 2, 4, 7, 27
 TEST(Numbering, CountsCubeAndFan) {
   const auto world = Communicator::world();
   const auto cube = examples::cube(world, 4, 5);
-  const MeshCounts counts = count_mesh(cube, number_mesh(cube));
+  const MeshCounts counts = count_mesh(number_mesh(cube));
   EXPECT_EQ(counts.vertices, 125);
   EXPECT_EQ(counts.cells, 6 * 64);
   EXPECT_EQ(counts.boundary_triangles, 6 * 2 * 16);
   const auto fan = examples::fan(world, 6);
-  const Numbering numbers = number_mesh(fan);
-  EXPECT_EQ(numbers.vertex_count, 8);
-  for (std::size_t i = 0; i < fan.pieces.size(); ++i) EXPECT_EQ(numbers.first_cell[i], fan.pieces[i].id);
+  const NumberedMesh numbers = number_mesh(fan);
+  EXPECT_EQ(numbers.numbering.vertex_count, 8);
+  for (std::size_t i = 0; i < fan.pieces.size(); ++i)
+    EXPECT_EQ(numbers.numbering.first_cell[i], fan.pieces[i].id);
 }
 
 TEST(Numbering, RefusesCoordinatesThatDifferInTheLastBit) {

@@ -16,7 +16,7 @@ TEST(FaceLinks, AreMutualAndLeaveNothingOpen) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(3, 4);
   const DistributedMesh mesh = examples::distribute(world, whole, 4);
-  const FaceLinks links = link_faces(mesh, number_mesh(mesh));
+  const FaceLinks links = link_faces(number_mesh(mesh));
   EXPECT_EQ(links.defects.crowded_faces + links.defects.stray_faces + links.defects.repeated_faces, 0);
   EXPECT_EQ(links.defects.open_faces, 0);
   GlobalIndex inner = 0, boundary = 0, both = 0, wanted = 0, outside = 0, between = 0;
@@ -45,7 +45,7 @@ TEST(FaceLinks, CountWhatDoesNotFit) {
     for (Piece& piece : mesh.pieces) {
       if (piece.id == 0) spoil(piece);
     }
-    return link_faces(mesh, number_mesh(mesh)).defects;
+    return link_faces(number_mesh(mesh)).defects;
   };
   EXPECT_EQ(defects_of([](Piece& piece) {
               piece.quads.resize(piece.quads.size() - 4);

@@ -88,8 +88,8 @@ TEST(CellMeasuresLocal, WarpedQuadrilateralsAddUp) {
 }
 
 MixedQuality quality_of(const DistributedMesh& mesh) {
-  const Numbering numbering = number_mesh(mesh);
-  return measure_quality(mesh, numbering, link_faces(mesh, numbering));
+  const NumberedMesh numbered = number_mesh(mesh);
+  return measure_quality(numbered, link_faces(numbered));
 }
 
 /// Sums over all cells, whatever their shape.

@@ -113,7 +113,7 @@ void expect_same(const Distribution& a, const Distribution& b) {
 }
 
 QualitySummary summary_of(const DistributedMesh& mesh) {
-  return summarise_quality(mesh, number_mesh(mesh));
+  return summarise_quality(number_mesh(mesh));
 }
 
 TEST(QualitySummary, IsTheSameBitsForAnyNumberOfRanks) {
@@ -191,7 +191,7 @@ TEST(QualitySummary, TellsTheCellsBeyondAngles) {
   const auto world = Communicator::world();
   const auto mesh = examples::fan(world, 5);
   CellsOutside beyond{{50, 89}, {}};
-  summarise_quality(mesh, number_mesh(mesh), &beyond);
+  summarise_quality(number_mesh(mesh), &beyond);
   ASSERT_EQ(beyond.cells.size(), mesh.pieces.size());
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     std::vector<LocalIndex> expected;
@@ -207,10 +207,9 @@ TEST(QualitySummary, TellsTheCellsBeyondAngles) {
 
 TEST(QualitySummary, CountsACellThatIsNoNumberAsFlat) {
   const auto self = Communicator::self();
-  auto mesh = examples::two_tets(self);
-  const Numbering numbering = number_mesh(mesh);
+  NumberedMesh mesh = number_mesh(examples::two_tets(self));
   mesh.pieces[0].coordinates[3 * mesh.pieces[0].cells[3]] = std::numeric_limits<double>::quiet_NaN();
-  const auto summary = summarise_quality(mesh, numbering);
+  const auto summary = summarise_quality(mesh);
   EXPECT_EQ(summary.mean_ratio.minimum, 0);
   EXPECT_EQ(summary.worst[0].cell, 0);
 }

@@ -26,27 +26,27 @@ DistributedMesh ball_in_box(const Communicator& communicator, int slices) {
 TEST(SplitPieces, KeepTheMeshInSmallerPieces) {
   const auto world = Communicator::world();
   const DistributedMesh surface = ball_in_box(world, 2);
-  const MeshCounts before = count_mesh(surface, number_mesh(surface));
+  const MeshCounts before = count_mesh(number_mesh(surface));
   const NumberedMesh split = split_pieces(surface, 50, {});
-  const MeshCounts after = count_mesh(split.mesh, split.numbering);
+  const MeshCounts after = count_mesh(split);
   EXPECT_EQ(after.vertices, before.vertices);
   EXPECT_EQ(after.cells, before.cells);
   // Halves of 432 and of 768 triangles.
-  EXPECT_EQ(split.mesh.piece_count, 2 * 5 + 2 * 8);
-  for (const Piece& piece : split.mesh.pieces) {
+  EXPECT_EQ(split.piece_count, 2 * 5 + 2 * 8);
+  for (const Piece& piece : split.pieces) {
     EXPECT_LE(piece.cell_count(), 50);
     EXPECT_GE(piece.cell_count(), 40);
     require_consistent_arrays(piece);
   }
-  EXPECT_TRUE(check_surface_mesh(split.mesh, split.numbering).valid());
+  EXPECT_TRUE(check_surface_mesh(split).valid());
 }
 
 TEST(SplitPieces, LeaveWholeFacesAlone) {
   const auto world = Communicator::world();
   const NumberedMesh split = split_pieces(ball_in_box(world, 1), 50, {0});
   std::vector<std::int32_t> of_box;
-  for (const Piece& piece : split.mesh.pieces) of_box.push_back(piece.common_face() == 0 ? 1 : 0);
-  of_box = gather_by_piece(split.mesh, of_box);
+  for (const Piece& piece : split.pieces) of_box.push_back(piece.common_face() == 0 ? 1 : 0);
+  of_box = gather_by_piece(split, of_box);
   EXPECT_EQ(std::count(of_box.begin(), of_box.end(), 1), 1);
   EXPECT_EQ(of_box.size(), 1u + 16u);
 }
@@ -55,7 +55,7 @@ TEST(SplitPieces, AreTheSameOnAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const auto hash_of = [](const Communicator& communicator) {
     const NumberedMesh split = split_pieces(ball_in_box(communicator, 3), 40, {});
-    return hash_mesh(split.mesh, split.numbering);
+    return hash_mesh(split);
   };
   EXPECT_EQ(hash_of(Communicator::world()), hash_of(Communicator::self()));
 }
@@ -64,7 +64,7 @@ TEST(SplitPieces, AreSpreadOverRanks) {
   const auto world = Communicator::world();
   const NumberedMesh split = split_pieces(ball_in_box(world, 1), 20, {});
   std::int64_t mine = 0;
-  for (const Piece& piece : split.mesh.pieces) mine += piece.cell_count();
+  for (const Piece& piece : split.pieces) mine += piece.cell_count();
   EXPECT_LE(world.size() * mine, 1.1 * static_cast<double>(world.sum(mine)));
 }
 

@@ -2,7 +2,7 @@
 
 #include "parallel/observation/warnings.hpp"
 #include "pipeline/stage_products.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
 #include "tests/cad/blunt_shapes.hpp"
 #include "tests/cad/strip_shapes.hpp"
@@ -57,8 +57,8 @@ TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
   const auto world = parallel::Communicator::world();
   const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
   ASSERT_EQ(sized.findings.joined.changes.size(), 1u);
-  const sizing::ModelSampler sampler(world, sized.model, 0, sizing::Fields::one);
-  const double predicted = sampler.predict(sized.field).tetrahedra;
+  const sizing::SampledModel sampled(world, sized.model);
+  const double predicted = sizing::predict_counts(sampled, sized.field).tetrahedra;
   EXPECT_GT(predicted, 14'000);
   EXPECT_LT(predicted, 28'000);
 }
@@ -264,8 +264,8 @@ TEST(TrailingEdges, GoByTheGivenSizesOfFeatures) {
 TEST(TrailingEdges, MayMoveAsElementsThereAreLarge) {
   constexpr double width = 0.0007, aspect = 5, minimum = 0.002;
   const Model model = thin_wing(width);
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, 0, sizing::Fields::one);
-  const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, 0.05);
+  const sizing::SampledModel sampled(parallel::Communicator::world(), model);
+  const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampled, 0.05);
   const auto fate_of = [&](double root, double tip) {
     const auto sizes = [&](const std::vector<geometry::Vec3>& places) {
       std::vector<double> result;
@@ -287,8 +287,8 @@ TEST(TrailingEdges, ThatEndInAPointAndAskForNothingAreClosed) {
   options.kind = cad::DomainKind::body;
   const Model model =
       cad::shapes::prepare(cad::shapes::blunt_wing({{0, 0, 0.0005}, {3, 0, 0}}), options).model;
-  const sizing::ModelSampler sampler(parallel::Communicator::world(), model, 0, sizing::Fields::one);
-  const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampler, minimum);
+  const sizing::SampledModel sampled(parallel::Communicator::world(), model);
+  const std::vector<sizing::TrailingEdge> edges = sizing::find_trailing_edges(sampled, minimum);
   ASSERT_EQ(edges.size(), 1u);
   const auto sizes = [&](const std::vector<geometry::Vec3>& places) {
     return std::vector<double>(places.size(), minimum);

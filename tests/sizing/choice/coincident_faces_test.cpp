@@ -1,5 +1,6 @@
 // Faces that lie on one another are found before any sizes, and named with the area.
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/coincident_faces.hpp"
+
 #include "tests/wall_bodies.hpp"
 
 #include <cmath>
@@ -14,7 +15,7 @@ using shapes::slotted_block;
 namespace {
 
 std::vector<CoincidentFaces> coincident_in(const cad::Model& model) {
-  return ModelSampler(parallel::Communicator::world(), model, 1, Fields::one).find_coincident_faces();
+  return find_coincident_faces(SampledModel(parallel::Communicator::world(), model));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "sizing/choice/choose_sizes.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/narrow_regions.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/cad/strip_shapes.hpp"
 
@@ -14,25 +15,29 @@ namespace {
 
 constexpr double no_budget = 1e9;
 
-/// A sampler of a shape.
+/// A factory of fields of a shape.
 class Sampled {
 public:
   explicit Sampled(const cad::Model& model) : Sampled(model, 0) {}
   /// With gaps looked for.
   Sampled(const cad::Model& model, double layers)
-      : _sampler(parallel::Communicator::world(), model, layers, Fields::several) {}
+      : _factory(SampledModel(parallel::Communicator::world(), model), layers, Fields::several) {}
 
   FeatureShare share(double budget, std::int64_t most_leaves = 1'000'000'000) {
-    return share_of_features(_sampler, sizes(), budget, 1, most_leaves);
+    return share_of_features(_factory, sizes(), budget, 1, most_leaves);
   }
-  double predict(const FeatureShare& features) { return _sampler.predict(field(features)).tetrahedra; }
+  double predict(const FeatureShare& features) {
+    return predict_counts(_factory.sampled(), field(features)).tetrahedra;
+  }
   SizeField field(const FeatureShare& features) {
     SizingOptions options = sizes();
     set_features(options, features);
-    return _sampler.build_field(options);
+    return _factory.build_field(options);
   }
-  std::vector<Strip> strips(double width) { return _sampler.strips_narrower_than(width, sizes().minimum); }
-  ChosenSizes choose(double target, double budget) { return choose_sizes(_sampler, target, budget); }
+  std::vector<Strip> strips(double width) {
+    return strips_narrower_than(_factory.sampled(), width, sizes().minimum);
+  }
+  ChosenSizes choose(double target, double budget) { return choose_sizes(_factory, target, budget); }
 
   static SizingOptions sizes() {
     SizingOptions options{0.05, 0.2, 15, 1.3, 0};
@@ -41,7 +46,7 @@ public:
   }
 
 private:
-  ModelSampler _sampler;
+  FieldFactory _factory;
 };
 
 TEST(FeatureShare, ABluntEndIsResolvedWhereTheBudgetAllows) {

@@ -1,6 +1,6 @@
 #include "parallel/communication/collective_error.hpp"
 #include "sizing/choice/choose_sizes.hpp"
-#include "sizing/choice/model_sampler.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "sizing/field/facet_integral.hpp"
 #include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
@@ -25,7 +25,7 @@ constexpr double pi = std::numbers::pi;
 PredictedCounts predict(const Model& model, const SizingOptions& options,
                         const parallel::Communicator& communicator = parallel::Communicator::world()) {
   const SizeField field = sizing::build_size_field(communicator, model, options);
-  return sizing::ModelSampler(communicator, model, 0, sizing::Fields::one).predict(field);
+  return sizing::predict_counts(sizing::SampledModel(communicator, model), field);
 }
 
 /// The prediction for one size everywhere, with the constants of the integrals.
@@ -110,22 +110,24 @@ TEST(ChooseSizes, HitsTheTarget) {
 
 TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
   const Model model = sphere_in_box(20, 0.5);
-  sizing::ModelSampler sampler(parallel::Communicator::world(), model, 1, sizing::Fields::several);
-  const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 5e4);
-  const SizeField field = sampler.build_field(chosen.options);
+  sizing::FieldFactory factory(sizing::SampledModel(parallel::Communicator::world(), model), 1,
+                               sizing::Fields::several);
+  const sizing::ChosenSizes chosen = sizing::choose_sizes(factory, 5e4);
+  const SizeField field = factory.build_field(chosen.options);
   EXPECT_EQ(chosen.field.leaf_count(), field.leaf_count());
   EXPECT_EQ(chosen.field({0.5, 0, 0}), field({0.5, 0, 0}));
-  EXPECT_EQ(chosen.counts.tetrahedra, sampler.predict(field).tetrahedra);
+  EXPECT_EQ(chosen.counts.tetrahedra, predict_counts(factory.sampled(), field).tetrahedra);
   // From sizes near by it finds what is as good.
   const sizing::ChosenSizes nearby =
-      sizing::choose_sizes(sampler, 5e4, sizing::default_feature_budget, chosen.options);
+      sizing::choose_sizes(factory, 5e4, sizing::default_feature_budget, chosen.options);
   EXPECT_EQ(nearby.options, chosen.options);
 }
 
 TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
   const Model model = sphere_in_box(2, 0.02);
-  sizing::ModelSampler sampler(parallel::Communicator::world(), model, 1, sizing::Fields::several);
-  const sizing::ChosenSizes chosen = sizing::choose_sizes(sampler, 100);
+  sizing::FieldFactory factory(sizing::SampledModel(parallel::Communicator::world(), model), 1,
+                               sizing::Fields::several);
+  const sizing::ChosenSizes chosen = sizing::choose_sizes(factory, 100);
   EXPECT_GT(chosen.counts.tetrahedra, 200);
   EXPECT_NEAR(chosen.options.surface_maximum, 0.008, 0.002) << "the coarsest it tries, a fifth of the body";
 }

@@ -73,8 +73,8 @@ TEST(LocalChord, OfTheBuiltInAircraft) {
   for (cad::LiftingSurface* surface : {&aircraft.wing, &aircraft.horizontal_tail, &aircraft.vertical_tail})
     surface->trailing_edge = share;
   const cad::Model model = cad::prepare_domain(options).model;
-  const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
-  const std::vector<TrailingEdge> edges = find_trailing_edges(sampler, 0.1);
+  const SampledModel sampled(parallel::Communicator::world(), model);
+  const std::vector<TrailingEdge> edges = find_trailing_edges(sampled, 0.1);
   ASSERT_EQ(edges.size(), 5u);
   for (const TrailingEdge& edge : edges) {
     const std::string& name = model.face(edge.strip.face).name;

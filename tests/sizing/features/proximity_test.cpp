@@ -253,7 +253,7 @@ TEST(OpenGaps, AreNotToldFromACuspByFacetsThatReachToIt) {
   for (const auto& [angle, angle_below] : {std::pair(0.45, 0.15), std::pair(0.3, 0.1)}) {
     const cad::Facets facets = model.facets(upper, 1, angle);
     const sizing::Walls walls(walls_of(model, lower, model.facets(lower, 1, angle_below)));
-    sizing::GapSearch search(model, upper, facets, walls, {1, 0.01, 1});
+    sizing::FaceGapSearch search(model, upper, facets, walls, {1, 0.01, 1});
     sizing::Gaps gaps;
     search.go_on(10'000'000, gaps);
     EXPECT_GT(gaps.seen.size(), 100);
@@ -315,13 +315,13 @@ struct PlateSearch {
     }
     return sizing::Walls(std::move(all));
   }();
-  sizing::GapSearch search{model, face, facets, walls, limits};
+  sizing::FaceGapSearch search{model, face, facets, walls, limits};
   sizing::Gaps gaps;
 };
 
 }  // namespace
 
-TEST(GapSearch, EndsEarlyWithTheWorkAndSaysWhatWasNotLookedAt) {
+TEST(FaceGapSearch, EndsEarlyWithTheWorkAndSaysWhatWasNotLookedAt) {
   PlateSearch whole, part;
   const std::int64_t all = whole.search.go_on(100'000'000, whole.gaps);
   ASSERT_TRUE(whole.gaps.unseen.empty());
@@ -349,7 +349,7 @@ TEST(GapSearch, EndsEarlyWithTheWorkAndSaysWhatWasNotLookedAt) {
 }
 
 /// A slot that closes towards one end: few rays find about how narrow it is there, wherever a search begins.
-TEST(GapSearch, LooksCloserWhereGapsAreNarrowest) {
+TEST(FaceGapSearch, LooksCloserWhereGapsAreNarrowest) {
   for (const bool turned : {false, true}) {
     const double left = turned ? 0.002 : 0.05, right = turned ? 0.05 : 0.002;
     const Model model = shapes::prism({{0, 0}, {1, 0}, {1, right}, {0, left}});

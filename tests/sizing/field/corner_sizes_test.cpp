@@ -52,9 +52,14 @@ void expect_sizes(const CornerSizes& sizes, const SplitCubes::Leaves& leaves) {
   }
 }
 
+Octree octree_of(const Communicator& ranks, const SplitCubes::Leaves& leaves) {
+  return {ranks, NodeArray(leaves.keys), NodeArray(leaves.levels), {}};
+}
+
 CornerSizes made_by(const Communicator& ranks, const SplitCubes::Leaves& leaves) {
-  const IndexRange own = CornerSizes::part_of(ranks, leaves, ranks.rank());
-  return {ranks, leaves, CornerSizes::pack(leaves, own, sizes_of(leaves, own))};
+  const Octree octree = octree_of(ranks, leaves);
+  const IndexRange own = CornerSizes::part_of(octree, ranks.rank());
+  return {octree, CornerSizes::pack(leaves, own, sizes_of(leaves, own))};
 }
 
 }  // namespace
@@ -92,9 +97,10 @@ TEST(CornerSizes, OfAFamilyAreHeldOnce) {
 TEST(CornerSizes, PartsTileTheLeaves) {
   const Communicator world = Communicator::world();
   const SplitCubes::Leaves leaves = random_leaves(3, 60);
+  const Octree octree = octree_of(world, leaves);
   std::size_t next = 0;
   for (Rank rank = 0; rank < world.size(); ++rank) {
-    const IndexRange part = CornerSizes::part_of(world, leaves, rank);
+    const IndexRange part = CornerSizes::part_of(octree, rank);
     EXPECT_EQ(part.first, next);
     next = part.last;
   }
@@ -105,7 +111,8 @@ TEST(CornerSizes, ComeBackFromWhatIsHeld) {
   const Communicator world = Communicator::world();
   const SplitCubes::Leaves leaves = random_leaves(5, 60);
   const NodeArray<float> packed = made_by(world, leaves).packed();
-  expect_sizes(CornerSizes::unpacked(world, leaves, packed), leaves);
+  const Octree octree = octree_of(world, leaves);
+  expect_sizes(CornerSizes::unpacked(octree, packed), leaves);
   const NodeArray<float> short_of_one({packed.data(), packed.data() + packed.size() - 1});
-  EXPECT_THROW(CornerSizes::unpacked(world, leaves, short_of_one), std::logic_error);
+  EXPECT_THROW(CornerSizes::unpacked(octree, short_of_one), std::logic_error);
 }

@@ -53,8 +53,9 @@ Pages pages_of(const Communicator& ranks, const std::vector<Cell>& cells, std::i
 SeedTree tree_of(const Communicator& ranks, const std::vector<SizeSeed>& own) {
   std::vector<SizeSeed> odd, even;
   for (std::size_t i = 0; i < own.size(); ++i) (i % 2 == 1 ? odd : even).push_back(own[i]);
-  const SharedSeeds first(ranks, odd), second(ranks, even);
-  return SeedTree(ranks, {&first, &second}, 0.3);
+  const Pages root(ranks, {}, 1);
+  const SharedSeeds first(root, odd), second(root, even);
+  return SeedTree({&first, &second}, 0.3);
 }
 
 /// All ranks, on one node and as if on several.
@@ -126,7 +127,7 @@ TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
   const Communicator& world = nodes.front();
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const std::vector<Cell> cells = random_cells(seed, 40 * static_cast<int>(seed));
-    SplitCubes alone, paged(world, pages_of(world, cells, 4));
+    SplitCubes alone, paged(pages_of(world, cells, 4));
     const IndexRange own = paged.own_pages();
     for (const Cell& cell : cells) {
       alone.split(cell.key, cell.level - 1);
@@ -141,7 +142,7 @@ TEST(SplitCubes, AreBalancedOverPagesAsInOne) {
 
     const LeafTable of_all(expected);
     for (const Communicator& ranks : nodes) {
-      const LeafTable of_pages(ranks, paged.pages(), mine, expected);
+      const LeafTable of_pages(pages_of(ranks, cells, 4), mine, expected);
       std::mt19937_64 random(seed);
       for (int i = 0; i < 5000; ++i) {
         const std::uint64_t start = expected.keys[random() % expected.keys.size()];
@@ -160,7 +161,7 @@ TEST(SeedTree, OfManyRanksFindsTheCheapest) {
       for (const Cell& cell : random_cells(5, count))
         seeds.push_back(
             {grid_point(cell.key), grid_size >> cell.level, 1.0 + static_cast<double>(random() % 9999)});
-      const IndexRange own = own_range(world, seeds.size());
+      const IndexRange own = even_part(seeds.size(), world.rank(), world.size());
       for (std::size_t i = own.first; i < own.last; ++i) mine.push_back(seeds[i]);
       const SeedTree whole = tree_of(Communicator::self(), seeds), shared = tree_of(world, mine);
       for (int i = 0; i < 500; ++i) {

@@ -11,8 +11,8 @@ using namespace aeroloom::sizing;
 namespace {
 
 SeedTree tree_of(const aeroloom::parallel::Communicator& alone, const std::vector<SizeSeed>& seeds) {
-  const SharedSeeds shared(alone, seeds);
-  return SeedTree(alone, {&shared}, 0.3);
+  const SharedSeeds shared(Pages(alone, {}, 1), seeds);
+  return SeedTree({&shared}, 0.3);
 }
 
 class Random {

@@ -11,6 +11,8 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -62,6 +64,11 @@ std::vector<SizeSource> sphere_sources(double size) {
 }
 
 const SizingOptions options{0.02, 1.5, 12, 1.3, 0};
+
+/// Each rank gives all of the sources.
+SizeField built_by_all(std::vector<SizeSource> sources) {
+  return sizing::FieldBuilder(parallel::Communicator::world(), cube(10), options).build(std::move(sources));
+}
 
 }  // namespace
 
@@ -167,9 +174,9 @@ TEST(SizeFieldLocal, IsTheSameOnEveryRank) {
 }
 
 TEST(SizeField, RefinedOnlyLowers) {
-  const SizeField field = SizeField::build(cube(10), sphere_sources(0.05), options);
+  const SizeField field = built_by_all(sphere_sources(0.05));
   const std::vector<SizeSource> more{{{1, 0, 0}, 0.004}, {{3, 3, 3}, 0.05}, {{-5, 0, 0}, 9}};
-  const SizeField refined = field.refined(parallel::Communicator::world(), more);
+  const SizeField refined = field.refined(more);
   EXPECT_LE(refined({1, 0, 0}), 0.004 * (1 + 1e-6));
   EXPECT_LE(refined({3, 3, 3}), 0.05 * (1 + 1e-6));
   EXPECT_NEAR(refined({-5, 0, 0}), field({-5, 0, 0}), 0.05 * field({-5, 0, 0}));
@@ -216,8 +223,7 @@ TEST(SizeFieldLocal, ScaledMultipliesEveryLengthAndNothingElse) {
 
 TEST(SizeField, RefinedKeepsTheGrowthLimit) {
   const SizeField field =
-      SizeField::build(cube(10), sphere_sources(0.05), options)
-          .refined(parallel::Communicator::world(), std::vector<SizeSource>{{{1, 0, 0}, 0.001}});
+      built_by_all(sphere_sources(0.05)).refined(std::vector<SizeSource>{{{1, 0, 0}, 0.001}});
   Points points(9);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 p = Vec3{1, 0, 0} + points.on_sphere(std::exp(points.uniform(-8, 0)));
@@ -322,8 +328,8 @@ TEST(FieldBuilder, BuildsOneFieldOnAnyNumberOfRanks) {
   for (std::size_t i = 0; i < more.size(); ++i) {
     if (i % world.size() == static_cast<std::size_t>(world.rank())) own.push_back(more[i]);
   }
-  const SizeField refined = together.refined(world, own);
-  const SizeField refined_alone = alone.refined(parallel::Communicator::self(), more);
+  const SizeField refined = together.refined(own);
+  const SizeField refined_alone = alone.refined(more);
   ASSERT_EQ(together.leaf_count(), alone.leaf_count());
   ASSERT_EQ(refined.leaf_count(), refined_alone.leaf_count());
   Points points(21);

@@ -37,17 +37,17 @@ TEST(LevelDemands, FieldHasTheSpacingAlongEdges) {
   options.default_far_field.extent = 100;
   options.default_far_field.unit = cad::ExtentUnit::semispan;
   const cad::Model model = cad::prepare_domain(options).model;
-  ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
+  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 0, Fields::one);
   const Vec3 flow{1, 0, 0};
-  const LiftingBodies bodies = find_lifting_bodies(sampler, flow);
+  const LiftingBodies bodies = find_lifting_bodies(factory.sampled(), flow);
   EXPECT_NEAR(model.bounds().size().x, 2 * 100 * bodies.semispan, 0.01 * bodies.semispan);
   const LevelSizes level = sizes_of(Level::a);
   GivenSizes given = level_bounds(model, bodies, level);
   EXPECT_DOUBLE_EQ(*given.surface_maximum, level.body * bodies.reference_chord);
   // Sizes that grow quickly, so that the field is small.
   given.growth = 2.5, given.curvature_angle = 60, given.surface_maximum = 1;
-  sampler.demand(level_lines(model, bodies, level, flow));
-  const SizeField field = sampler.build_field(with_given({}, given));
+  factory.demand(level_lines(model, bodies, level, flow));
+  const SizeField field = factory.build_field(with_given({}, given));
   for (const LiftingElement& element : bodies.elements) {
     for (const LiftingStation& station : element.stations) {
       const double size = level.edge * station.chord;

@@ -1,7 +1,7 @@
 #include "sizing/lifting/lifting.hpp"
 
 #include "cad/domain/domain.hpp"
-#include "sizing/sources/sized_surface.hpp"
+#include "sizing/sources/surface_demand.hpp"
 #include "tests/cad/real_files.hpp"
 
 #include <algorithm>
@@ -27,8 +27,8 @@ const cad::Model& built_in_aircraft() {
 }
 
 LiftingBodies find(const cad::Model& model) {
-  const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
-  return find_lifting_bodies(sampler, {1, 0, 0});
+  const SampledModel sampled(parallel::Communicator::world(), model);
+  return find_lifting_bodies(sampled, {1, 0, 0});
 }
 
 LiftingBodies find(const cad::DomainOptions& options) {
@@ -99,9 +99,9 @@ TEST(Wakes, BeginAtBothBordersOfAStrip) {
 
 TEST(Lifting, OfNamedFacesAlone) {
   const cad::Model& model = built_in_aircraft();
-  const ModelSampler sampler(parallel::Communicator::world(), model, 0, Fields::one);
+  const SampledModel sampled(parallel::Communicator::world(), model);
   const auto named = [&](const std::vector<std::string>& names) {
-    return find_lifting_bodies(sampler, {1, 0, 0}, names);
+    return find_lifting_bodies(sampled, {1, 0, 0}, names);
   };
   EXPECT_EQ(named({"wing_*"}).elements.size(), 2u);
   EXPECT_EQ(named({"wing_left*", "vertical_tail*"}).elements.size(), 2u);

@@ -3,7 +3,7 @@
 #include "cad/domain/domain.hpp"
 #include "geometry/predicates.hpp"
 #include "surface/charts/conformal_map.hpp"
-#include "surface/charts/support_topology.hpp"
+#include "surface/charts/surface_topology.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/surface/face_fixture.hpp"
 
@@ -20,12 +20,11 @@ using cad::Model;
 using cad::PrimitiveKind;
 using geometry::Vec2;
 using geometry::Vec3;
-using testing::curves_of;
 using testing::facets_of;
 using testing::uniform_field;
 
 struct ChartedFace {
-  Support whole;
+  ChartSurface whole;
   FaceVertices vertices;
   std::vector<Chart> charts;
 };
@@ -33,7 +32,7 @@ struct ChartedFace {
 ChartedFace chart_face(const Model& model, cad::FaceId face, const CurveMesh& curves,
                        const sizing::SizeField& field) {
   ChartedFace result;
-  result.whole = build_support(model, face, curves, facets_of(model, face), field, result.vertices);
+  result.whole = build_chart_surface(model, face, curves, facets_of(model, face), field, result.vertices);
   result.charts = make_charts(model, field, result.whole, {}, result.vertices);
   return result;
 }
@@ -44,21 +43,21 @@ void expect_sound(const ChartedFace& face) {
   double area = 0;
   std::map<std::array<std::int32_t, 2>, int> edges;
   for (const Chart& chart : face.charts) {
-    const Support& support = chart.support;
-    area += support_area(support);
-    const MapQuality quality = judge_map(support, chart.plane);
+    const ChartSurface& surface = chart.surface;
+    area += surface_area(surface);
+    const MapQuality quality = judge_map(surface, chart.plane);
     EXPECT_LE(quality.folded, 1e-4);
     EXPECT_LE(quality.overlap, 1e-3);
     EXPECT_LE(quality.stretch, 1.5);
     EXPECT_LE(quality.scale_ratio, 8);
-    for (const auto& [a, b] : support.loop_edges) {
-      ASSERT_GE(support.mesh_vertex[a], 0);
-      ASSERT_GE(support.mesh_vertex[b], 0);
-      EXPECT_EQ(support.points[a], face.vertices.points[support.mesh_vertex[a]]);
-      ++edges[{support.mesh_vertex[a], support.mesh_vertex[b]}];
+    for (const auto& [a, b] : surface.loop_edges) {
+      ASSERT_GE(surface.mesh_vertex[a], 0);
+      ASSERT_GE(surface.mesh_vertex[b], 0);
+      EXPECT_EQ(surface.points[a], face.vertices.points[surface.mesh_vertex[a]]);
+      ++edges[{surface.mesh_vertex[a], surface.mesh_vertex[b]}];
     }
   }
-  EXPECT_NEAR(area, support_area(face.whole), 0.02 * area);
+  EXPECT_NEAR(area, surface_area(face.whole), 0.02 * area);
   for (const auto& [a, b] : face.whole.loop_edges) {
     EXPECT_EQ((edges[{face.whole.mesh_vertex[a], face.whole.mesh_vertex[b]}]--), 1);
   }
@@ -72,7 +71,7 @@ void expect_sound(const ChartedFace& face) {
 TEST(Charts, PlaneFaceIsOneIsometricChart) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = uniform_field(model, 0.1);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
     const ChartedFace face = chart_face(model, f, curves, field);
     ASSERT_EQ(face.charts.size(), 1u);
@@ -84,7 +83,7 @@ TEST(Charts, PlaneFaceIsOneIsometricChart) {
 TEST(Charts, SphereIsTwoHemispheres) {
   const Model model = make_primitive_domain(PrimitiveKind::sphere);
   const auto field = uniform_field(model, 0.05);
-  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
   EXPECT_EQ(face.charts.size(), 2u);
   EXPECT_EQ(face.vertices.border_count(), 0);
   for (const Vec3 p : face.vertices.points) EXPECT_NEAR(norm(p), 0.25, 1e-9);
@@ -95,7 +94,7 @@ TEST(Charts, TubeIsCutLengthwise) {
   for (const double height : {0.1, 1.0, 10.0}) {
     const Model model = make_primitive_domain(PrimitiveKind::cylinder, {.height = height});
     const auto field = uniform_field(model, 0.1);
-    const CurveMesh curves = curves_of(model, field);
+    const CurveMesh curves = discretise_curves(model, field);
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       const ChartedFace face = chart_face(model, f, curves, field);
       EXPECT_LE(face.charts.size(), 4u);
@@ -109,7 +108,7 @@ TEST(Charts, TorusUnfolds) {
   for (const double size : {0.03, 0.2, 5.0}) {
     const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
     const auto field = uniform_field(model, size);
-    const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+    const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
     EXPECT_LE(face.charts.size(), 8u);
     expect_sound(face);
   }
@@ -118,19 +117,19 @@ TEST(Charts, TorusUnfolds) {
 TEST(Charts, AreTheSameEveryTime) {
   const Model model = make_primitive_domain(PrimitiveKind::torus, {.radius = 0.2});
   const auto field = uniform_field(model, 0.1);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   const ChartedFace first = chart_face(model, 0, curves, field), second = chart_face(model, 0, curves, field);
   ASSERT_EQ(first.charts.size(), second.charts.size());
   for (std::size_t i = 0; i < first.charts.size(); ++i) {
     EXPECT_EQ(first.charts[i].plane, second.charts[i].plane);
-    EXPECT_EQ(first.charts[i].support.triangles, second.charts[i].support.triangles);
+    EXPECT_EQ(first.charts[i].surface.triangles, second.charts[i].surface.triangles);
   }
 }
 
 /// A strip that winds around an axis: radii 1 and 2, rising so that it does not meet itself.
-Support winding_strip(double turns, PlaneMap& flat) {
+ChartSurface winding_strip(double turns, PlaneMap& flat) {
   constexpr int steps = 96;
-  Support strip;
+  ChartSurface strip;
   flat.clear();
   for (int i = 0; i <= steps; ++i) {
     const double angle = 2 * std::numbers::pi * turns * i / steps;
@@ -150,25 +149,25 @@ Support winding_strip(double turns, PlaneMap& flat) {
 
 TEST(MapQuality, SeesWhatLiesOverItself) {
   PlaneMap flat;
-  const Support open = winding_strip(0.9, flat);
+  const ChartSurface open = winding_strip(0.9, flat);
   EXPECT_EQ(judge_map(open, flat).overlap, 0);
   EXPECT_EQ(judge_map(open, flat).folded, 0);
   EXPECT_LT(judge_map(open, flat).stretch, 1.05);
-  const Support winding = winding_strip(1.5, flat);
+  const ChartSurface winding = winding_strip(1.5, flat);
   EXPECT_NEAR(judge_map(winding, flat).overlap, 2 / 3.0, 0.05);
   EXPECT_EQ(judge_map(winding, flat).folded, 0);
 }
 
 TEST(MapQuality, SeesFolds) {
   PlaneMap flat;
-  const Support strip = winding_strip(0.5, flat);
+  const ChartSurface strip = winding_strip(0.5, flat);
   for (Vec2& p : flat) p.x = -p.x;
   EXPECT_NEAR(judge_map(strip, flat).folded, 1, 1e-2);
 }
 
 TEST(ConformalMap, UnrollsADevelopableStripIsometrically) {
   // Half a cylinder of radius 1 and height 3.
-  Support strip;
+  ChartSurface strip;
   constexpr int around = 40, along = 30;
   for (int i = 0; i <= around; ++i) {
     for (int j = 0; j <= along; ++j) {
@@ -197,19 +196,19 @@ TEST(ConformalMap, UnrollsADevelopableStripIsometrically) {
 TEST(ChartLocator, FindsEveryPointAgain) {
   const Model model = make_primitive_domain(PrimitiveKind::sphere);
   const auto field = uniform_field(model, 0.1);
-  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
   for (const Chart& chart : face.charts) {
     const ChartLocator locator(chart);
     std::int32_t hint = -1;
     for (std::size_t i = 0; i < chart.plane.size(); ++i) {
       const ChartPoint at = locator.locate(chart.plane[i], hint);
-      EXPECT_LT(distance(at.point, chart.support.points[i]), 1e-9);
+      EXPECT_LT(distance(at.point, chart.surface.points[i]), 1e-9);
       EXPECT_NEAR(locator.scale(at), chart.scale[i], 1e-6 * chart.scale[i]);
     }
-    for (std::size_t t = 0; t < chart.support.triangles.size(); ++t) {
-      const auto& [a, b, c] = chart.support.triangles[t];
+    for (std::size_t t = 0; t < chart.surface.triangles.size(); ++t) {
+      const auto& [a, b, c] = chart.surface.triangles[t];
       const Vec2 p = 0.5 * chart.plane[a] + 0.3 * chart.plane[b] + 0.2 * chart.plane[c];
-      std::int32_t far = static_cast<std::int32_t>(chart.support.triangles.size() - 1 - t);
+      std::int32_t far = static_cast<std::int32_t>(chart.surface.triangles.size() - 1 - t);
       const ChartPoint at = locator.locate(p, far);
       EXPECT_EQ(at.triangle, static_cast<std::int32_t>(t));
       EXPECT_NEAR(at.weights[0], 0.5, 1e-9);
@@ -221,7 +220,7 @@ TEST(ChartLocator, FindsEveryPointAgain) {
 TEST(ChartLocator, ExtrapolatesBeyondTheEdge) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = uniform_field(model, 0.25);
-  const ChartedFace face = chart_face(model, 0, curves_of(model, field), field);
+  const ChartedFace face = chart_face(model, 0, discretise_curves(model, field), field);
   const Chart& chart = face.charts.front();
   const ChartLocator locator(chart);
   Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
@@ -246,7 +245,7 @@ TEST_P(RealModel, EveryFaceGetsCharts) {
   options.file = file.string();
   const Model model = cad::prepare_domain(options).model;
   const auto field = uniform_field(model, 0.01 * model.body_bounds().diagonal());
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   const double start = parallel::cpu_seconds();
   std::size_t charts = 0;
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {

@@ -17,7 +17,6 @@ namespace {
 using cad::make_primitive_domain;
 using cad::Model;
 using cad::PrimitiveKind;
-using testing::curves_of;
 using testing::graded_field;
 using testing::uniform_field;
 
@@ -59,7 +58,7 @@ TEST(MetricLengthLocal, DividesASymmetricDensitySymmetrically) {
 
 TEST(Curves, DivideStraightEdgesEvenly) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
-  const CurveMesh curves = curves_of(model, uniform_field(model, 0.1));
+  const CurveMesh curves = discretise_curves(model, uniform_field(model, 0.1));
   ASSERT_EQ(model.edge_count(), 12);
   for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
     const auto chain = curves.chain(model, e);
@@ -76,7 +75,7 @@ TEST(Curves, DivideStraightEdgesEvenly) {
 
 TEST(Curves, CirclesHaveEqualSegmentsAndSeamsNone) {
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  const CurveMesh curves = curves_of(model, uniform_field(model, 0.05));
+  const CurveMesh curves = discretise_curves(model, uniform_field(model, 0.05));
   int circles = 0;
   for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
     const auto chain = curves.chain(model, e);
@@ -97,7 +96,7 @@ TEST(Curves, CirclesHaveEqualSegmentsAndSeamsNone) {
 TEST(Curves, SegmentsAreEqualInTheMetricOfAGradedField) {
   const Model model = make_primitive_domain(PrimitiveKind::box);
   const auto field = graded_field(model, model.bounds().low, 0.004, 0.2);
-  const CurveMesh curves = curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
     const auto parameters = curves.chain_parameters(model, e);
     std::vector<double> lengths;
@@ -121,7 +120,7 @@ TEST(Curves, CoarseSizesStillLeaveConformingLoops) {
   for (const PrimitiveKind kind :
        {PrimitiveKind::box, PrimitiveKind::cylinder, PrimitiveKind::box_with_sphere}) {
     const Model model = make_primitive_domain(kind);
-    const CurveMesh curves = curves_of(model, uniform_field(model, 100));
+    const CurveMesh curves = discretise_curves(model, uniform_field(model, 100));
     std::map<std::pair<CurveVertex, CurveVertex>, int> single;
     for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
       const auto chain = curves.chain(model, e);
@@ -149,9 +148,11 @@ TEST(Curves, CoarseSizesStillLeaveConformingLoops) {
 TEST(Curves, AreTheSameOnAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const Model model = make_primitive_domain(PrimitiveKind::cylinder);
-  const auto field = graded_field(model, model.bounds().low, 0.01, 0.2);
-  const CurveMesh together = discretise_curves(parallel::Communicator::world(), model, field);
-  const CurveMesh alone = discretise_curves(parallel::Communicator::self(), model, field);
+  const auto curves_on = [&](const parallel::Communicator& ranks) {
+    return discretise_curves(model, graded_field(model, model.bounds().low, 0.01, 0.2, ranks));
+  };
+  const CurveMesh together = curves_on(parallel::Communicator::world());
+  const CurveMesh alone = curves_on(parallel::Communicator::self());
   EXPECT_EQ(together.points, alone.points);
   EXPECT_EQ(together.parameters, alone.parameters);
   EXPECT_EQ(together.first_interior, alone.first_interior);

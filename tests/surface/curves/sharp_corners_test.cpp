@@ -33,9 +33,9 @@ sizing::SizeField field_of(const Model& model) {
 TEST(SharpCorners, AreFoundWithEqualLegs) {
   const Model model = sharp_prism();
   const sizing::SizeField field = field_of(model);
-  const auto corners = find_sharp_corners(parallel::Communicator::world(), model, field);
+  const auto corners = find_sharp_corners(model, field);
   ASSERT_EQ(corners.size(), 2u);
-  const CurveMesh curves = testing::curves_of(model, field);
+  const CurveMesh curves = discretise_curves(model, field);
   for (const SharpCorner& corner : corners) {
     EXPECT_NEAR(corner.degrees, sharp_degrees, 1e-6);
     EXPECT_GT(corner.leg, 0.05);
@@ -52,10 +52,10 @@ TEST(SharpCorners, AreFoundWithEqualLegs) {
 TEST(SharpCorners, HoldOneTriangle) {
   const Model model = sharp_prism();
   const auto communicator = parallel::Communicator::world();
-  const SurfaceMesh surface = mesh_surface(communicator, model, field_of(model), {});
+  const SurfaceMesh surface = mesh_surface(model, field_of(model), {});
   ASSERT_EQ(surface.report.sharp_corners.size(), 2u);
   std::int64_t below_corner = 0, below_twenty = 0;
-  for (const mesh::Piece& piece : surface.mesh.pieces) {
+  for (const mesh::Piece& piece : surface.pieces) {
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const mesh::LocalIndex* v = piece.cell(t);
       const double degrees = mesh::smallest_angle(piece.point(v[0]), piece.point(v[1]), piece.point(v[2]));
@@ -75,14 +75,13 @@ TEST(SharpCorners, HoldOneTriangle) {
 TEST(SharpCorners, OfAWedgesSectionStayOpen) {
   const Model model = sharp_prism(6);
   const sizing::SizeField field = field_of(model);
-  const auto communicator = parallel::Communicator::world();
-  const auto corners = find_sharp_corners(communicator, model, field);
+  const auto corners = find_sharp_corners(model, field);
   ASSERT_EQ(corners.size(), 2u);
   for (const SharpCorner& corner : corners) {
     EXPECT_FALSE(corner.closes);
     EXPECT_GT(corner.leg, 0);
   }
-  EXPECT_TRUE(mesh_surface(communicator, model, field, {}).report.closed_tips.empty());
+  EXPECT_TRUE(mesh_surface(model, field, {}).report.closed_cusps.empty());
 }
 
 }  // namespace

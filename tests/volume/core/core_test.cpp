@@ -10,7 +10,6 @@
 namespace aeroloom::volume {
 namespace {
 
-using geometry::Vec3;
 using parallel::Communicator;
 
 // --- the squares
@@ -42,7 +41,7 @@ TEST(SquaresLocal, are_covered_whatever_points_stand_on_their_edges) {
 
 /// The shell of the same lattice once blocks have changed.
 LocalShell remade(const Problem& problem, const Lattice& lattice, std::vector<BlockChange> changes) {
-  return make_local_shell(lattice, gather_near_surface(lattice), std::move(changes));
+  return make_local_shell(lattice, gather_local_surface(lattice), std::move(changes));
 }
 
 /// Leaves and blocks leave the core by chance: it has holes and stairs, and is one leaf thick in places.

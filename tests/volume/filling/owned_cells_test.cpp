@@ -186,8 +186,8 @@ TEST(SelectOwned, tells_regions_beside_an_open_rim) {
     if (std::all_of(v.begin(), v.end(), [&](LocalIndex w) { return problem.points[w].x < 0.4; })) continue;
     const auto at = static_cast<std::ptrdiff_t>(t);
     problem.triangles.erase(problem.triangles.begin() + at);
-    problem.front.erase(problem.front.begin() + at);
-    problem.back.erase(problem.back.begin() + at);
+    problem.inside.erase(problem.inside.begin() + at);
+    problem.outside.erase(problem.outside.begin() + at);
   }
   problem = seen_from(std::move(problem), 0, [](Vec3 p) { return p.x < 0.2 ? 0 : 1; });
   const TetgenMesh mesh = run_tetgen(flat(problem.points), problem.triangles);
@@ -297,8 +297,8 @@ struct Octahedron {
         mesh.cells.push_back({t[0], t[1], t[2], 6});
         std::swap(mesh.cells.back()[0], mesh.cells.back()[1]);
         problem.triangles.push_back(t);
-        problem.front.push_back(0);
-        problem.back.push_back(no_region);
+        problem.inside.push_back(0);
+        problem.outside.push_back(no_region);
       }
     }
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {

@@ -26,8 +26,8 @@ ZoneProblem cube_problem(int points = 300, double scale = 1, Vec3 move = {}) {
   ZoneProblem problem;
   problem.points = surface.points;
   problem.triangles = surface.triangles;
-  problem.front.assign(surface.triangles.size(), 0);
-  problem.back.assign(surface.triangles.size(), mesh::no_region);
+  problem.inside.assign(surface.triangles.size(), 0);
+  problem.outside.assign(surface.triangles.size(), mesh::no_region);
   std::mt19937_64 random(12);
   std::uniform_real_distribution<double> place(-0.85, 0.85);
   for (int i = 0; i < points; ++i) problem.points.push_back({place(random), place(random), place(random)});
@@ -140,8 +140,8 @@ TEST(FillZone, says_why_a_surface_cannot_be_filled) {
   for (const auto& [a, b, c] : other.triangles)
     problem.triangles.push_back({a + first, b + first, c + first});
   problem.owners.assign(problem.points.size(), Owner::mine);
-  problem.front.assign(problem.triangles.size(), 0);
-  problem.back.assign(problem.triangles.size(), mesh::no_region);
+  problem.inside.assign(problem.triangles.size(), 0);
+  problem.outside.assign(problem.triangles.size(), mesh::no_region);
   const ZoneFilling filling = fill_zone_in_child(problem, Fault::none);
   EXPECT_FALSE(filling.filled);
   EXPECT_NE(filling.failure.find("intersect"), std::string::npos) << filling.failure;

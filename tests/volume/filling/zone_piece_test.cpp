@@ -197,7 +197,8 @@ TEST_F(ZonePieces, have_faces_that_tell_vertices_leaves_and_turn) {
         v[k] = known.at(face.vertices[k]);
         EXPECT_NE(v[k], cell[crossing.face]);
         EXPECT_NE(std::find(cell.begin(), cell.end(), v[k]), cell.end());
-        const auto number = static_cast<std::int64_t>(face.vertices[k]) - problem->numbering.vertex_count;
+        const auto number =
+            static_cast<std::int64_t>(face.vertices[k]) - problem->surface.numbering.vertex_count;
         const Leaf leaf = number >= 0 ? leaf_of_lattice(lattice.tree, number)
                                       : lattice.leaf_at(zone.input.problem.points[v[k]]);
         EXPECT_EQ(face.leaves[k], 8 * std::int64_t{leaf.block} + leaf.child);

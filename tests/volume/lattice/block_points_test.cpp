@@ -42,7 +42,7 @@ struct Made {
       : surface(std::move(of)),
         problem(communicator, surface, field, options),
         lattice(problem, box_of(surface)),
-        around(problem, lattice) {}
+        around(lattice) {}
 
   BlockPoints make() const { return make(lattice.tree.first(), lattice.tree.last()); }
   BlockPoints make(BlockIndex first, BlockIndex last) const {
@@ -125,7 +125,7 @@ TEST(LatticePointsLocal, leave_out_nothing_that_is_off_the_surface) {
     const Vec3 p = place_in_space(made.lattice, place);
     if (region_of(p) == mesh::no_region) continue;
     const auto nearest = made.around.surface.distance().nearest(p);
-    if (nearest.distance < 1.02 * 0.75 * 1.5 * made.problem.field(p)) continue;
+    if (nearest.distance < 1.02 * 0.75 * 1.5 * made.problem.surface.field(p)) continue;
     ++free;
     EXPECT_TRUE(used.count(place)) << p.x << ' ' << p.y << ' ' << p.z;
   }
@@ -151,7 +151,7 @@ double least_clearance(const Made& made, const BlockPoints& points) {
   const BoundaryDistance& distance = made.around.surface.distance();
   double least = 1e300;
   for (const Vec3& p : points.points) {
-    const double size = made.problem.field(p);
+    const double size = made.problem.surface.field(p);
     for (std::size_t t = 0; t < made.around.triangles.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
       least = std::min(least, distance.distance_to(p, triangle) /
@@ -194,20 +194,21 @@ TEST(LatticePointsLocal, keep_off_triangles_of_any_size) {
   for (const double size : {0.1, 0.14}) {
     const Made made(Communicator::self(), uneven(), fields::uniform(size));
     const double least = least_clearance(made, made.make());
-    EXPECT_GE(least, LatticeOptions{}.clearance);
-    EXPECT_LT(least, 1.3 * LatticeOptions{}.clearance);
+    EXPECT_GE(least, VolumeOptions{}.lattice_clearance);
+    EXPECT_LT(least, 1.3 * VolumeOptions{}.lattice_clearance);
   }
 }
 
 /// Regions told from within blocks, by what meets these, are those that the nearest triangle tells.
-TEST(LatticePointsLocal, have_their_regions_from_within_blocks_too) {
+TEST(LatticePointsLocal, have_their_regions_from_their_block_too) {
   surfaces::Surface body = surfaces::cube({0, 0, 0}, 20, 8);
   surfaces::append(body, surfaces::sphere({0, 0, 0}, 1, 24), surfaces::Turn::inward);
   const auto far = fields::around_unit_sphere(0.06, 3, 1.3, {{-20, -20, -20}, {20, 20, 20}});
   for (const Made& made : {Made(Communicator::self(), body, far), Made(Communicator::self())}) {
     const BlockIndex count = made.lattice.tree.block_count();
     SearchRadii radii = search_radii_of_blocks(made.lattice, 0, count);
-    for (BlockIndex b = 0; b < count; ++b) radii.of_blocks[b].from_within = made.lattice.table.is_met(b);
+    for (BlockIndex b = 0; b < count; ++b)
+      radii.of_blocks[b].region_from_block = made.lattice.table.is_met(b);
     const BlockPoints near = make_points(made.lattice, made.lattice.changes, 0, count, made.around.surface);
     const BlockPoints within =
         make_points(made.lattice, made.lattice.changes, 0, count, made.around.surface, radii);
@@ -251,7 +252,7 @@ TEST_P(WithinRadiiLocal, are_all_triangles_that_points_need) {
       for (const std::int32_t t : known) triangles.push_back(made.around.triangles[t]);
       fewest = std::min(fewest, triangles.size());
       const BlockPoints part =
-          make_points(made.lattice, made.lattice.changes, first, last, NearSurface(triangles), radii);
+          make_points(made.lattice, made.lattice.changes, first, last, LocalSurface(triangles), radii);
       const auto from = static_cast<std::ptrdiff_t>(whole.starts[first]);
       ASSERT_EQ(static_cast<std::int64_t>(part.points.size()), whole.starts[last] - whole.starts[first]);
       EXPECT_TRUE(std::equal(part.points.begin(), part.points.end(), whole.points.begin() + from));
@@ -269,7 +270,7 @@ TEST(LatticePointsLocal, keep_farther_off_where_a_retry_wants_it) {
   for (BlockChange& change : made.lattice.changes) change.farther = 1;
   const BlockPoints after = made.make();
   EXPECT_LT(after.points.size(), before.points.size());
-  EXPECT_GE(least_clearance(made, after), 1.6 * LatticeOptions{}.clearance);
+  EXPECT_GE(least_clearance(made, after), 1.6 * VolumeOptions{}.lattice_clearance);
   // In its own blocks only.
   const BlockIndex changed = made.lattice.tree.block_count() / 2;
   for (BlockIndex b = 0; b < changed; ++b) made.lattice.changes[b].farther = 0;

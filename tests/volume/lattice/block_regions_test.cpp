@@ -20,7 +20,7 @@ std::vector<int> expect_regions(const surfaces::Surface& surface, const sizing::
                                 const std::function<RegionId(Vec3)>& expected) {
   const Problem problem(Communicator::world(), surface, field);
   GrownLattice lattice(problem, box_of(surface));
-  const Surroundings around(problem, lattice);
+  const Surroundings around(lattice);
   std::vector<int> counts(surfaces::region_count(surface) + 1, 0);
   int wrong = 0;
   EXPECT_EQ(static_cast<BlockIndex>(lattice.regions.size()), lattice.tree.last() - lattice.tree.first());
@@ -111,7 +111,7 @@ TEST(BlockRegions, contradict_each_other_where_the_surface_has_a_gap_on_every_ra
     }
     const Problem problem(world, surface, fields::uniform(0.08));
     GrownLattice lattice(problem, {{-1.3, -1.3, -1.3}, {1.3, 1.3, 1.3}});
-    const Surroundings around(problem, lattice);
+    const Surroundings around(lattice);
     const auto& contradiction = around.found.contradiction;
     ASSERT_TRUE(contradiction) << "the missing wall " << wall << " went unnoticed";
     EXPECT_NE(contradiction->seen, contradiction->elsewhere);

@@ -24,9 +24,9 @@ public:
     _split.insert(name_of(cube));
     for (int level = 0; level < cube.level; ++level) _above.insert(name_of(ancestor(cube, level)));
   }
-  Verdict operator()(const GridCube& cube) const {
-    if (_split.contains(name_of(cube))) return Verdict::split;
-    return _above.contains(name_of(cube)) ? Verdict::look_below : Verdict::keep;
+  RefineFlag operator()(const GridCube& cube) const {
+    if (_split.contains(name_of(cube))) return RefineFlag::split;
+    return _above.contains(name_of(cube)) ? RefineFlag::descend : RefineFlag::keep;
   }
   /// The leaves as another octree has them.
   Octants leaves() const {
@@ -150,7 +150,7 @@ TEST(Forest, IsPartitionedByWeight) {
     for (std::size_t i = 0; i < grown.local().size(); ++i)
       weights.push_back(grown.first(world.rank()) + static_cast<std::int64_t>(i) >= grown.count() / 2 ? 100
                                                                                                       : 0);
-    const Forest forest = partition_by_weight(world, grown, weights);
+    const Forest forest = partition_by_weight(grown, weights);
     const Octants expected = splits.leaves();
     expect_sound(world, forest, expected);
     expect_whole_families(forest, expected);
@@ -161,12 +161,12 @@ TEST(Forest, IsPartitionedByWeight) {
   }
 }
 
-TEST(Forest, SharesTheJudging) {
+TEST(Forest, SharesTheRefinement) {
   const Communicator world = Communicator::world();
-  std::int64_t judged = 0;
+  std::int64_t checked = 0;
   // A sphere: cubes that it meets.
-  const auto judge = [&](const GridCube& cube) {
-    ++judged;
+  const auto criterion = [&](const GridCube& cube) {
+    ++checked;
     double least = 0, most = 0;
     for (const std::uint32_t low : {cube.low.x, cube.low.y, cube.low.z}) {
       const double a = low / double{geometry::grid_size} - 0.5,
@@ -174,25 +174,25 @@ TEST(Forest, SharesTheJudging) {
       least += a > 0 ? a * a : b < 0 ? b * b : 0;
       most += std::max(a * a, b * b);
     }
-    return cube.level < 6 && least < 0.1 && most > 0.1 ? Verdict::split : Verdict::keep;
+    return cube.level < 6 && least < 0.1 && most > 0.1 ? RefineFlag::split : RefineFlag::keep;
   };
-  const Forest forest = grow(world, judge);
+  const Forest forest = grow(world, criterion);
   EXPECT_GT(forest.count(), 20000);
-  const double share = static_cast<double>(judged) / static_cast<double>(world.sum(judged));
+  const double share = static_cast<double>(checked) / static_cast<double>(world.sum(checked));
   EXPECT_LT(share, 1.5 / world.size());
   EXPECT_LT(static_cast<double>(forest.local().size()),
             1.01 * static_cast<double>(forest.count()) / world.size() + 16);
 }
 
-TEST(Forest, SaysWhatItsJudgeThrows) {
+TEST(Forest, SaysWhatItsCriterionThrows) {
   const Communicator world = Communicator::world();
   for (const int bad_level : {0, 1, 2, 4}) {
-    const auto judge = [&](const GridCube& cube) {
+    const auto criterion = [&](const GridCube& cube) {
       if (cube.level == bad_level) throw std::logic_error("no size there");
-      return Verdict::split;
+      return RefineFlag::split;
     };
     try {
-      grow(world, judge);
+      grow(world, criterion);
       ADD_FAILURE() << "nothing was thrown";
     } catch (const parallel::CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::bug);
@@ -203,9 +203,9 @@ TEST(Forest, SaysWhatItsJudgeThrows) {
 
 TEST(Forest, StopsBeforeItIsTooLarge) {
   const Communicator world = Communicator::world();
-  const auto endless = [](const GridCube&) { return Verdict::split; };
+  const auto endless = [](const GridCube&) { return RefineFlag::split; };
   try {
-    grow(world, endless, {5000});
+    grow(world, endless, 5000);
     ADD_FAILURE() << "nothing was thrown";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::resources);

@@ -38,24 +38,24 @@ std::int64_t grow_own(MPI_Comm group) {
 }
 
 std::int64_t grow_ours(const parallel::Communicator& communicator) {
-  const auto judge = [](const geometry::GridCube& cube) {
-    return cube.level < 6 && cube.low == geometry::GridPoint{} ? forest::Verdict::split
-                                                               : forest::Verdict::keep;
+  const auto criterion = [](const geometry::GridCube& cube) {
+    return cube.level < 6 && cube.low == geometry::GridPoint{} ? forest::RefineFlag::split
+                                                               : forest::RefineFlag::keep;
   };
-  const forest::Forest grown = forest::grow(communicator, judge);
-  partition_by_weight(communicator, grown, std::vector<std::int32_t>(grown.local().size(), 1));
+  const forest::Forest grown = forest::grow(communicator, criterion);
+  partition_by_weight(grown, std::vector<std::int32_t>(grown.local().size(), 1));
   return grown.count();
 }
 
 void grow_badly(const parallel::Communicator& communicator, const std::string& way) {
-  const auto judge = [&](const geometry::GridCube& cube) {
+  const auto criterion = [&](const geometry::GridCube& cube) {
     if (communicator.rank() == communicator.size() - 1 && cube.level >= 2) {
       if (way == "aborts") sc_abort_verbose(__FILE__, __LINE__, "a failing assertion");
       sc_malloc(p4est_package_id, std::size_t{1} << 60);
     }
-    return cube.level < 3 ? forest::Verdict::split : forest::Verdict::keep;
+    return cube.level < 3 ? forest::RefineFlag::split : forest::RefineFlag::keep;
   };
-  forest::grow(communicator, judge);
+  forest::grow(communicator, criterion);
 }
 
 bool check(bool holds, const char* what) {

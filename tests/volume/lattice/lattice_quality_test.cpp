@@ -24,7 +24,7 @@ struct Endless {
     const SurfaceTable table = tabulate_surface(frame, tree, {});
     const std::vector<RegionId> regions(blocks, 0);
     const Lattice lattice{field, {0.75, 0.005}, frame, std::move(tree), table, {}, 0, {}, regions};
-    points = make_points(lattice, std::vector<BlockChange>(blocks), 0, blocks, NearSurface({})).points;
+    points = make_points(lattice, std::vector<BlockChange>(blocks), 0, blocks, LocalSurface({})).points;
   }
 
   LatticeFrame frame;

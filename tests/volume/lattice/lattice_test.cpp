@@ -173,7 +173,7 @@ TEST(LatticeTree, is_the_same_on_any_number_of_ranks) {
 }
 
 /// A rank with every third block as a ghost, as of a tree that is all there.
-TEST(LatticeTree, learns_of_blocks_of_other_ranks) {
+TEST(LatticeTree, adds_blocks_of_other_ranks) {
   const Communicator world = Communicator::world();
   const Grown alone(graded());
   Grown shared(graded(), world);

@@ -3,7 +3,7 @@
 
 #include "tests/volume/fields.hpp"
 #include "tests/volume/steps.hpp"
-#include "volume/lattice/near_boxes.hpp"
+#include "volume/lattice/grid_box_tree.hpp"
 
 #include <algorithm>
 #include <random>
@@ -42,10 +42,11 @@ struct Divided {
     std::vector<TakenBlock> taken;
     for (BlockIndex b = 0; b < tree.block_count(); ++b) {
       around.move_to(b);
-      for (const NearZone& near : around.zones()) {
+      for (const HaloZone& halo : around.zones()) {
         std::uint8_t leaves = 0;
-        for (int child = 0; near.zone == zone && child < tree.leaf_count(b); ++child) {
-          if (near.knows(GridBox::of(tree.leaf(b, child)))) leaves |= static_cast<std::uint8_t>(1U << child);
+        for (int child = 0; halo.zone == zone && child < tree.leaf_count(b); ++child) {
+          if (halo.reaches(GridBox::of(tree.leaf(b, child))))
+            leaves |= static_cast<std::uint8_t>(1U << child);
         }
         if (leaves != 0) taken.push_back({b, leaves});
       }
@@ -195,7 +196,7 @@ TEST(LargestSizeAround, looks_at_a_block_and_those_it_touches) {
   }
 }
 
-TEST(NearBoxes, tell_whether_one_is_near) {
+TEST(GridBoxTree, tell_whether_one_is_near) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> place(0, 100);
   const auto box = [&] {
@@ -203,9 +204,7 @@ TEST(NearBoxes, tell_whether_one_is_near) {
     return GridBox{low, low + Vec3{3, 1, 2}};
   };
   for (const int count : {0, 1, 2, 3, 7, 40}) {
-    NearBoxes near;
-    near.add(box());
-    near.clear();
+    GridBoxTree near;
     std::vector<GridBox> boxes;
     for (int i = 0; i < count; ++i) {
       boxes.push_back(box());

@@ -18,7 +18,7 @@ constexpr Window window{0, 0, 60, 40};
 Image drawn_wing(const Communicator& communicator, double edge_opacity) {
   const mesh::DistributedMesh surface = examples::wing_in_box(communicator);
   const Scene scene = find_scene(surface, {});
-  const EdgeNeighbours neighbours = find_edge_neighbours(surface, mesh::number_mesh(surface), scene.shown);
+  const EdgeNeighbours neighbours = find_edge_neighbours(mesh::number_mesh(surface), scene.shown);
   const Viewpoint view = look_from({-1, -1, 1}, {0, 0, 1});
   Canvas canvas(window.width, window.height);
   draw_surface(canvas, close_up(view, {0, 0, 0}, 3, window), surface, neighbours, scene,

@@ -24,7 +24,7 @@ class FoldsOfCube : public testing::TestWithParam<int> {};
 TEST_P(FoldsOfCube, KnowEveryNeighbourWhateverThePieces) {
   const Communicator world = Communicator::world();
   const mesh::DistributedMesh cube = mesh::examples::cube_surface(world, 4, GetParam());
-  const EdgeNeighbours neighbours = find_edge_neighbours(cube, mesh::number_mesh(cube), all_shown(cube));
+  const EdgeNeighbours neighbours = find_edge_neighbours(mesh::number_mesh(cube), all_shown(cube));
   std::int64_t open = 0, flat = 0, creases = 0;
   for (std::size_t p = 0; p < cube.pieces.size(); ++p) {
     const mesh::Piece& piece = cube.pieces[p];
@@ -64,7 +64,7 @@ TEST(EdgeNeighbours, OpenEdgesAndThoseOfSeveralTrianglesAreKnown) {
   }
   const mesh::DistributedMesh sheets = builder.distribute(world, {"sheets"});
   std::int64_t open = 0, several = 0;
-  for (const auto& of_piece : find_edge_neighbours(sheets, mesh::number_mesh(sheets), all_shown(sheets))) {
+  for (const auto& of_piece : find_edge_neighbours(mesh::number_mesh(sheets), all_shown(sheets))) {
     for (const EdgeNeighbour& neighbour : of_piece) open += neighbour.is_open(), several += neighbour.several;
   }
   EXPECT_EQ(world.sum(several), 3 * 3);

@@ -14,11 +14,10 @@ struct Places {
   std::optional<Place> leading_edge, junction;
 };
 Places places_of(const mesh::DistributedMesh& surface) {
-  const mesh::Numbering numbering = mesh::number_mesh(surface);
+  const mesh::NumberedMesh numbered = mesh::number_mesh(surface);
   const Scene scene = find_scene(surface, {});
-  const EdgeNeighbours neighbours = find_edge_neighbours(surface, numbering, scene.shown);
-  return {find_leading_edge(surface, numbering, neighbours, scene),
-          find_junction(surface, numbering, neighbours, scene)};
+  const EdgeNeighbours neighbours = find_edge_neighbours(numbered, scene.shown);
+  return {find_leading_edge(numbered, neighbours, scene), find_junction(numbered, neighbours, scene)};
 }
 
 TEST(Places, TheLeadingEdgeOfAWing) {

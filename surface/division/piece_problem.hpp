@@ -1,0 +1,31 @@
+/// The input for meshing one surface piece.
+#pragma once
+
+#include "sizing/field/size_field.hpp"
+#include "surface/charts/chart_surface.hpp"
+
+#include <tuple>
+
+namespace aeroloom::surface {
+
+/// All that a rank needs to mesh a piece, besides the model and the size field.
+struct PieceProblem {
+  ChartSurface surface;
+  FaceVertices vertices;  ///< on the borders of the piece
+  double load = 1;        ///< predicted triangles
+
+  static constexpr auto fields() {
+    return std::tuple(&PieceProblem::surface, &PieceProblem::vertices, &PieceProblem::load);
+  }
+};
+
+/// Predicted number of triangles of a surface under a field, by Euler's formula from the number of vertices.
+/// Vertices on the loops are known. The number inside is the integral of 2/(sqrt(3) h^2), less what belongs
+/// to the loops.
+double predict_triangles(const ChartSurface& surface, const sizing::SizeField& field);
+
+/// Number of triangles for bounds on work: the integral alone, over parts of facets of a few sizes. So small
+/// regions with small sizes count in full.
+double integrate_triangles(const ChartSurface& surface, const sizing::SizeField& field);
+
+}  // namespace aeroloom::surface
