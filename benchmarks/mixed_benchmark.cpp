@@ -57,10 +57,10 @@ private:
 };
 
 /// The columns of this rank, without boundary faces: those are found.
-io::RawMesh raw_share(const Communicator& communicator, int squares) {
+io::RawMesh local_columns(const Communicator& communicator, int squares) {
   const auto first_of = [&](int rank) { return rank * (squares + 1) / communicator.size(); };
   const MixedMesh columns(squares, {first_of(communicator.rank()), first_of(communicator.rank() + 1)});
-  io::RawMesh raw;
+  io::RawMesh raw({communicator, "mixed"});
   raw.regions = columns.regions;
   for (std::size_t v = 0; v < columns.points.size(); ++v) {
     const geometry::Vec3 p = columns.points[v];
@@ -97,10 +97,10 @@ mesh::DistributedMesh through_checkpoint(const mesh::DistributedMesh& mesh, cons
   io::CheckpointDraft draft;
   for (const mesh::Piece& piece : mesh.pieces)
     draft.items.push_back({piece.id, [&piece] { return parallel::to_wire(piece); }});
-  io::write_checkpoint(communicator, path, {}, draft);
+  io::write_checkpoint({communicator, path}, {}, draft);
   mesh::DistributedMesh result = mesh;
   result.pieces.clear();
-  for (const io::CheckpointContent::Item& item : io::read_checkpoint(communicator, path).items)
+  for (const io::CheckpointContent::Item& item : io::read_checkpoint({communicator, path}).items)
     result.pieces.push_back(parallel::from_wire<mesh::Piece>(item.bytes));
   communicator.barrier();
   if (communicator.is_root()) {
@@ -110,7 +110,7 @@ mesh::DistributedMesh through_checkpoint(const mesh::DistributedMesh& mesh, cons
     file.seekp(at).put(static_cast<char>(byte ^ 4));
   }
   communicator.barrier();
-  require(is_refused([&] { io::read_checkpoint(communicator, path); }), "a damaged checkpoint is read");
+  require(is_refused([&] { io::read_checkpoint({communicator, path}); }), "a damaged checkpoint is read");
   communicator.barrier();
   if (communicator.is_root()) std::filesystem::remove(path);
   return result;
@@ -144,8 +144,8 @@ void require_all_missed(const mesh::DistributedMesh& mesh) {
 
 void run(const Communicator& communicator, int squares, const std::string& folder) {
   Steps steps(communicator);
-  const io::Assembled file = steps.time(
-      "assemble", [&] { return io::assemble(communicator, raw_share(communicator, squares), "mixed", 0); });
+  const io::Assembled file =
+      steps.time("assemble", [&] { return io::assemble(local_columns(communicator, squares), 0); });
   const mesh::GlobalIndex cells = file.mesh.cell_count();
   mesh::NumberedMesh cut = steps.time("repartition", [&] {
     return mesh::repartition(*file.mesh.pieces, static_cast<mesh::PieceId>(cells / cells_per_piece + 2));

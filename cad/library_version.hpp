@@ -1,11 +1,11 @@
-/// The CAD library, for those who may not see it.
+/// The version of the CAD library.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::cad {
 
-/// Of OpenCASCADE, as it was compiled against.
+/// The version of OpenCASCADE at compile time.
 std::string opencascade_version();
 
 }  // namespace aeroloom::cad

@@ -121,6 +121,7 @@ struct Box {
   bool contains(Vec3 p) const {
     return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
   }
+  bool contains(const Box& b) const { return contains(b.low) && contains(b.high); }
   bool overlaps(const Box& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
            low.z <= b.high.z && b.low.z <= high.z;

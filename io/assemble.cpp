@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -27,8 +26,8 @@ using mesh::PointTable;
 /// Cells of a part where nothing else decides.
 constexpr GlobalIndex suitable_part_cells = 250'000;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
-  throw parallel::CollectiveError(parallel::FailureKind::input, fmt::format("'{}': {}", path, what));
+[[noreturn]] void refuse(const SharedPath& file, const std::string& what) {
+  throw parallel::CollectiveError(parallel::FailureKind::input, fmt::format("'{}': {}", file.path, what));
 }
 
 void require_ids(const std::vector<GlobalIndex>& ids, const char* whose) {
@@ -45,7 +44,7 @@ void require_names(const Ids& ids, std::size_t count, const char* what) {
   }
 }
 
-/// Checks of a share that need no other one.
+/// Checks of the items of this rank that need no other rank.
 void require_sound(const RawMesh& raw) {
   if (raw.coordinates.size() != 3 * raw.point_ids.size()) throw std::logic_error("points and ids differ");
   require_ids(raw.point_ids, "a point");
@@ -76,23 +75,23 @@ void require_sound(const RawMesh& raw) {
   }
 }
 
-/// Counts before the share of this rank, and totals.
+/// Counts before the cells of this rank, and totals.
 struct CellPlaces {
   std::array<GlobalIndex, cell_shape_count> first{};  ///< among all cells: tetrahedra, pyramids, prisms
   GlobalIndex total = 0;
 };
 
-CellPlaces place_cells(const parallel::Communicator& communicator, const RawMesh& raw) {
+CellPlaces place_cells(const RawMesh& raw) {
   CellPlaces places;
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
     const auto mine = static_cast<std::int64_t>(raw.cell_regions[s].size());
-    places.first[s] = places.total + communicator.exclusive_scan(mine);
-    places.total += communicator.sum(mine);
+    places.first[s] = places.total + raw.file.communicator.exclusive_scan(mine);
+    places.total += raw.file.communicator.sum(mine);
   }
   return places;
 }
 
-/// The ids that cells of the share use.
+/// The ids that cells on this rank use.
 IdTable used_ids(const RawMesh& raw) {
   std::vector<GlobalIndex> used;
   for (const auto& cells : raw.cells) used.insert(used.end(), cells.begin(), cells.end());
@@ -128,36 +127,36 @@ void reverse_orientation(std::array<LocalIndex, N>& c) {
   if constexpr (N == 6) std::swap(c[1], c[2]), std::swap(c[4], c[5]);
 }
 
-/// The share of a rank on its way from ids to numbers.
-class ShareBuilder {
+/// Builds the mesh of this rank with numbers in place of ids.
+class LocalMeshBuilder {
 public:
-  ShareBuilder(const RawMesh& raw, const IdTable& ids, const std::vector<std::array<double, 3>>& points)
+  LocalMeshBuilder(const RawMesh& raw, const IdTable& ids, const std::vector<std::array<double, 3>>& points)
       : _raw(raw), _ids(ids), _points(points) {}
 
-  void add_cells(const CellPlaces& places, std::int32_t parts, NumberedShare& share, PieceItems& items) {
+  void add_cells(const CellPlaces& places, std::int32_t parts, LocalMesh& local, PieceItems& items) {
     mesh::for_each_cell_shape([&](auto s) {
       constexpr std::size_t n = s + 4;
       const std::vector<GlobalIndex>& ids = _raw.cells[s];
       auto& out = std::get<s>(items.cells);
       out.reserve(ids.size() / n);
-      share.cells[s].reserve(ids.size());
+      local.cells[s].reserve(ids.size());
       for (std::size_t c = 0; c < ids.size(); c += n) {
         std::array<LocalIndex, n> corners;
         for (std::size_t k = 0; k < n; ++k) corners[k] = _ids.place(ids[c + k]);
         require_volume<n>(cell_shapes[s], corners, ids[c]);
-        share.cells[s].insert(share.cells[s].end(), corners.begin(), corners.end());
+        local.cells[s].insert(local.cells[s].end(), corners.begin(), corners.end());
         const GlobalIndex order = places.first[s] + static_cast<GlobalIndex>(c / n);
         const auto part =
             static_cast<std::int32_t>(static_cast<double>(order) / static_cast<double>(places.total) * parts);
         const std::int32_t region = _raw.cell_regions[s][c / n];
-        share.pieces[s].push_back(std::min(part, parts - 1));
+        local.pieces[s].push_back(std::min(part, parts - 1));
         mesh::CellItem<n>& item = out.emplace_back();
-        for (std::size_t k = 0; k < n; ++k) item.corners[k] = share.numbers[corners[k]];
+        for (std::size_t k = 0; k < n; ++k) item.corners[k] = local.numbers[corners[k]];
         item.order = order;
-        item.piece = share.pieces[s].back();
+        item.piece = local.pieces[s].back();
         item.group = region;
       }
-      share.regions[s] = _raw.cell_regions[s];
+      local.regions[s] = _raw.cell_regions[s];
     });
   }
 
@@ -179,7 +178,7 @@ private:
   const std::vector<std::array<double, 3>>& _points;
 };
 
-/// The ids that faces of the share use.
+/// The ids that faces on this rank use.
 IdTable face_ids(const RawMesh& raw) {
   std::vector<GlobalIndex> ids;
   for (const auto& faces : raw.faces) ids.insert(ids.end(), faces.begin(), faces.end());
@@ -189,23 +188,23 @@ IdTable face_ids(const RawMesh& raw) {
 /// The faces of the file by numbers. Those with a point that no cell uses belong to no cell: they are left
 /// out, and counted.
 GlobalIndex number_faces(const RawMesh& raw, const IdTable& ids, const std::vector<GlobalIndex>& numbers,
-                         NumberedShare& share) {
+                         LocalMesh& local) {
   GlobalIndex left_out = 0;
   for (const FaceShape shape : face_shapes) {
     const auto s = static_cast<std::size_t>(shape);
     const auto n = static_cast<std::size_t>(corners_of(shape));
     for (std::size_t f = 0; f < raw.face_patches[s].size(); ++f) {
-      const std::size_t before = share.faces[s].size();
+      const std::size_t before = local.faces[s].size();
       bool complete = true;
       for (std::size_t k = 0; k < n; ++k) {
         const LocalIndex at = ids.place(raw.faces[s][n * f + k]);
-        share.faces[s].push_back(numbers[at]);
+        local.faces[s].push_back(numbers[at]);
         complete = complete && numbers[at] >= 0;
       }
       if (complete) {
-        share.patches[s].push_back(raw.face_patches[s][f]);
+        local.patches[s].push_back(raw.face_patches[s][f]);
       } else {
-        share.faces[s].resize(before);
+        local.faces[s].resize(before);
         ++left_out;
       }
     }
@@ -213,7 +212,8 @@ GlobalIndex number_faces(const RawMesh& raw, const IdTable& ids, const std::vect
   return left_out;
 }
 
-PointTable store_points(const parallel::Communicator& communicator, RawMesh& raw, const std::string& path) {
+PointTable store_points(RawMesh& raw) {
+  const parallel::Communicator& communicator = raw.file.communicator;
   GlobalIndex limit = 0;
   for (const GlobalIndex id : raw.point_ids) limit = std::max(limit, id + 1);
   for (const auto& cells : raw.cells) {
@@ -229,7 +229,7 @@ PointTable store_points(const parallel::Communicator& communicator, RawMesh& raw
   mesh::KeyRanges ranges = mesh::fair_ranges(communicator, std::move(raw.point_ids), limit);
   PointTable store(communicator, std::move(ranges), std::move(points));
   if (store.clash() >= 0)
-    refuse(path, fmt::format("point {} comes with different coordinates", store.clash()));
+    refuse(raw.file, fmt::format("point {} comes with different coordinates", store.clash()));
   return store;
 }
 
@@ -238,49 +238,50 @@ std::int32_t suitable_parts(GlobalIndex cells) {
       std::max<GlobalIndex>(1, (cells + suitable_part_cells / 2) / suitable_part_cells));
 }
 
-/// Runs what one share alone may find wrong. Collective.
+/// Runs checks of one rank alone, and adds the path to their errors. Collective.
 template <class Work>
-void agree_on(const parallel::Communicator& communicator, const std::string& path, const Work& work) {
-  parallel::agree(communicator, [&] {
+void agree_on(const SharedPath& file, const Work& work) {
+  parallel::agree(file.communicator, [&] {
     try {
       work();
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(fmt::format("'{}': {}", path, error.what()));
+      throw std::runtime_error(fmt::format("'{}': {}", file.path, error.what()));
     }
   });
 }
 
 }  // namespace
 
-Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
-                   std::int32_t parts) {
-  agree_on(communicator, path, [&] { require_sound(raw); });
-  const CellPlaces places = place_cells(communicator, raw);
-  if (places.total == 0) refuse(path, "there are no tetrahedra, pyramids or prisms in it");
+Assembled assemble(RawMesh raw, std::int32_t parts) {
+  const parallel::Communicator& communicator = raw.file.communicator;
+  agree_on(raw.file, [&] { require_sound(raw); });
+  const CellPlaces places = place_cells(raw);
+  if (places.total == 0) refuse(raw.file, "there are no tetrahedra, pyramids or prisms in it");
   if (parts <= 0) parts = suitable_parts(places.total);
   Assembled result;
-  PointTable store = store_points(communicator, raw, path);
+  PointTable store = store_points(raw);
   const GlobalIndex in_file = store.count();
   const IdTable ids = used_ids(raw);
   PieceItems items;
-  NumberedShare share;
+  LocalMesh local;
+  local.file = raw.file;
   {
     const PointTable::Fetched found = store.fetch(ids.numbers());
     if (found.missing >= 0)
-      refuse(path, fmt::format("a cell refers to point {}, which there is not", found.missing));
+      refuse(raw.file, fmt::format("a cell refers to point {}, which there is not", found.missing));
     const IdTable of_faces = face_ids(raw);
     PointTable::Numbers numbers = store.number(ids.numbers(), of_faces.numbers());
-    share.numbers = std::move(numbers.used);
-    share.shared = std::move(numbers.shared);
-    result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, share));
-    ShareBuilder builder(raw, ids, found.values);
-    agree_on(communicator, path, [&] { builder.add_cells(places, parts, share, items); });
+    local.numbers = std::move(numbers.used);
+    local.shared = std::move(numbers.shared);
+    result.left_out_faces = communicator.sum(number_faces(raw, of_faces, numbers.others, local));
+    LocalMeshBuilder builder(raw, ids, found.values);
+    agree_on(raw.file, [&] { builder.add_cells(places, parts, local, items); });
     result.turned_cells = communicator.sum(builder.turned);
   }
   result.dropped_points = in_file - store.count();
   raw.cells = {}, raw.faces = {};
-  MatchedFaces matched = match_boundary(communicator, share, std::move(raw.patches), raw.regions, path);
-  share = {};
+  MatchedFaces matched = match_boundary(local, std::move(raw.patches), raw.regions);
+  local = {};
   result.unnamed_faces = matched.unnamed;
   result.left_out_faces += matched.left_out;
   items.faces = std::move(matched.items);

@@ -1,4 +1,4 @@
-/// The patches that formats of the boundary alone write, and names that they can hold.
+/// Patches for formats that hold no faces between regions, and names as a format allows them.
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -12,26 +12,26 @@
 
 namespace aeroloom::io {
 
-/// The patches that bound the mesh (not `interior`) and have faces, in their order.
+/// The patches on the boundary of the mesh that have faces, in their order. `interior` patches are left out.
 struct BoundaryPatches {
-  std::vector<std::int32_t> ids;     ///< of FileMesh::patches
-  std::vector<std::int32_t> places;  ///< by id of patch: its place in `ids`, -1 of others
-  /// By place and shape of face: how many faces of the shape lower places have; one more at the end.
+  std::vector<std::int32_t> ids;     ///< indices in FileMesh::patches
+  std::vector<std::int32_t> places;  ///< for each patch of the mesh: its index in `ids`, or -1
+  /// By index in `ids` and shape of face: the number of such faces in the patches before; one row more.
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> before;
 
   std::size_t size() const { return ids.size(); }
 };
 BoundaryPatches boundary_patches(const FileMesh& mesh);
 
-/// Names that a format allows.
+/// What names a format allows.
 struct NameRule {
-  std::string_view signs;                        ///< besides letters, digits and what is beyond ASCII
-  std::size_t most_bytes = 1U << 16;             ///< of UTF-8
-  std::span<const std::string_view> reserved{};  ///< that mean something else
+  std::string_view signs;                        ///< allowed besides letters, digits and non-ASCII characters
+  std::size_t most_bytes = 1U << 16;             ///< the largest length in UTF-8
+  std::span<const std::string_view> reserved{};  ///< names with a meaning of their own in the format
 };
-/// One name for each, all different: what is not allowed becomes `_`, long ones are cut between characters,
-/// empty ones become `patch`, and the later of equal ones get `_2`, `_3` and so on. Names that fit and are
-/// unique stay.
+/// One name for each of `names`, all different. Forbidden characters become `_`, and empty names `patch`.
+/// Names that are too long are cut between characters. Of equal names the later ones get `_2`, `_3`, ...
+/// Allowed and unique names stay.
 std::vector<std::string> plain_names(std::span<const std::string> names, const NameRule& rule);
 
 }  // namespace aeroloom::io

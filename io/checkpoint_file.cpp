@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <numeric>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -99,13 +98,13 @@ Bytes read_header(const std::string& path, Preamble& preamble) {
 }
 
 /// On every rank; empty where there is no file.
-Bytes share_header(const Communicator& communicator, const std::string& path) {
+Bytes broadcast_header(const SharedPath& file) {
   Bytes bytes;
-  parallel::on_root(communicator, [&] {
+  parallel::on_root(file.communicator, [&] {
     Preamble preamble;
-    bytes = read_header(path, preamble);
+    bytes = read_header(file.path, preamble);
   });
-  communicator.broadcast(bytes);
+  file.communicator.broadcast(bytes);
   return bytes;
 }
 
@@ -138,43 +137,43 @@ Bytes read_checked(std::ifstream& stream, const std::string& path, const SavedIt
 
 }  // namespace
 
-void write_checkpoint(const Communicator& communicator, const std::string& path, const CheckpointLabel& label,
-                      const CheckpointDraft& draft) {
+void write_checkpoint(const SharedPath& file, const CheckpointLabel& label, const CheckpointDraft& draft) {
+  const Communicator& communicator = file.communicator;
   const Header header = plan(communicator, label, draft);
   const Bytes packed = parallel::to_wire(header);
   const auto offsets = header.offsets(preamble_bytes + static_cast<std::int64_t>(packed.size()));
   // The old file stays until all of the new one is there.
-  const std::string fresh = path + ".new";
-  const auto work = [&](parallel::SharedFile& file) {
+  const std::string fresh = file.path + ".new";
+  const auto work = [&](parallel::SharedFile& opened) {
     if (communicator.is_root()) {
       Preamble preamble{magic, version, static_cast<std::int64_t>(packed.size()), offsets.back(), {}};
       preamble.digest = preamble.right_digest(packed);
-      file.write(0, parallel::to_wire(preamble));
-      file.write(preamble_bytes, packed);
-      file.write(offsets.front(), draft.common);
+      opened.write(0, parallel::to_wire(preamble));
+      opened.write(preamble_bytes, packed);
+      opened.write(offsets.front(), draft.common);
     }
     for (const CheckpointDraft::Item& item : draft.items) {
       const auto row =
           std::lower_bound(header.rows.begin() + 1, header.rows.end(), item.number,
                            [](const SavedItem& a, std::int64_t number) { return a.number < number; });
-      file.write(offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
+      opened.write(offsets[static_cast<std::size_t>(row - header.rows.begin())], item.bytes());
     }
   };
   parallel::write_shared_file(communicator, fresh, work, parallel::Named::when_written);
-  parallel::on_root(communicator, [&] { std::filesystem::rename(fresh, path); });
+  parallel::on_root(communicator, [&] { std::filesystem::rename(fresh, file.path); });
 }
 
-std::optional<CheckpointLabel> read_checkpoint_label(const Communicator& communicator,
-                                                     const std::string& path, std::size_t texts) {
-  const Bytes packed = share_header(communicator, path);
+std::optional<CheckpointLabel> read_checkpoint_label(const SharedPath& file, std::size_t texts) {
+  const Bytes packed = broadcast_header(file);
   if (packed.empty()) return std::nullopt;
   CheckpointLabel label = parallel::from_wire<Header>(packed).label;
   if (label.about.size() != texts) return std::nullopt;
   return label;
 }
 
-CheckpointContent read_checkpoint(const Communicator& communicator, const std::string& path) {
-  const Bytes packed = share_header(communicator, path);
+CheckpointContent read_checkpoint(const SharedPath& file) {
+  const auto& [communicator, path] = file;
+  const Bytes packed = broadcast_header(file);
   CheckpointContent content;
   parallel::agree(communicator, [&] {
     if (packed.empty()) throw std::ios_base::failure("there is no '" + path + "'");

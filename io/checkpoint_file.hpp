@@ -1,11 +1,12 @@
-/// The result of a stage in a file, for a run that goes on from there: written by all ranks at once, read by
-/// any number of them, refused as soon as one bit is not what it was.
+/// The result of a stage in a file, from which a later run goes on. All ranks write it together, and any
+/// number of ranks read it. A file with one wrong bit is refused.
 ///
-/// Layout: magic, version, bytes of the header, digest of both and of the header; the header with key, texts,
-/// and for the common bytes and each item its number, bytes and digest; then their bytes, without gaps.
+/// Layout: magic number, version, length of the header, digest of these and of the header. Then the header:
+/// key, texts, and number, length and digest of the common bytes and of each item. Then the bytes, without
+/// gaps.
 #pragma once
 
-#include "parallel/communication/communicator.hpp"
+#include "io/shared_path.hpp"
 #include "parallel/storage/digest.hpp"
 
 #include <cstdint>
@@ -17,47 +18,45 @@
 
 namespace aeroloom::io {
 
-/// The key of a checkpoint, by which a run tells whether it is its own.
+/// Tells a run whether a checkpoint is its own.
 struct CheckpointLabel {
-  parallel::Digest key;            ///< of everything its content depends on
-  std::vector<std::string> about;  ///< the same in words, to tell what is different where the key is
+  parallel::Digest key;            ///< of everything that the content depends on
+  std::vector<std::string> about;  ///< the same in words, to explain a different key
 
   static constexpr auto fields() { return std::tuple(&CheckpointLabel::key, &CheckpointLabel::about); }
 };
 
-/// Content to be written.
+/// The content of a checkpoint before it is written.
 struct CheckpointDraft {
-  /// One of the parts that are spread over ranks. Its bytes are asked for twice, so that no rank holds those
-  /// of all its items.
+  /// One of the items that are distributed over ranks. `bytes` is called twice, so that no rank holds the
+  /// bytes of all its items at once.
   struct Item {
-    std::int64_t number = 0;  ///< not negative, each once in the whole file
+    std::int64_t number = 0;  ///< not negative, unique in the whole file
     std::function<parallel::Bytes()> bytes;
   };
-  parallel::Bytes common;  ///< that of rank 0 counts
+  parallel::Bytes common;  ///< those of rank 0 are written
   std::vector<Item> items;
 };
 
-/// Content that was read.
+/// The content of a checkpoint that was read.
 struct CheckpointContent {
   struct Item {
     std::int64_t number = 0;
     parallel::Bytes bytes;
   };
   parallel::Bytes common;   ///< on every rank
-  std::vector<Item> items;  ///< of this rank: ascending numbers, distributed by their bytes
+  std::vector<Item> items;  ///< of this rank, by ascending number; distributed by their length
 };
 
 /// Writes the file whole or not at all (parallel/storage/shared_file.hpp). Collective; throws
 /// CollectiveError.
-void write_checkpoint(const parallel::Communicator& communicator, const std::string& path,
-                      const CheckpointLabel& label, const CheckpointDraft& draft);
+void write_checkpoint(const SharedPath& file, const CheckpointLabel& label, const CheckpointDraft& draft);
 
-/// The label alone; nothing where there is no file, or one with another number of texts. Collective; throws
-/// CollectiveError where it is damaged.
-std::optional<CheckpointLabel> read_checkpoint_label(const parallel::Communicator& communicator,
-                                                     const std::string& path, std::size_t texts);
+/// Reads the label alone. Empty where there is no file, or where the number of texts is not `texts`.
+/// Collective; throws CollectiveError where the file is damaged.
+std::optional<CheckpointLabel> read_checkpoint_label(const SharedPath& file, std::size_t texts);
 
-/// Collective; throws CollectiveError where it cannot be read or is damaged.
-CheckpointContent read_checkpoint(const parallel::Communicator& communicator, const std::string& path);
+/// Collective; throws CollectiveError where the file is damaged or cannot be read.
+CheckpointContent read_checkpoint(const SharedPath& file);
 
 }  // namespace aeroloom::io

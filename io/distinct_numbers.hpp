@@ -1,4 +1,4 @@
-/// The different numbers among many, of all ranks. Internal to io/.
+/// The distinct numbers in lists of all ranks. Internal to io/.
 #pragma once
 
 #include "geometry/sort_unique.hpp"
@@ -13,13 +13,12 @@
 
 namespace aeroloom::io {
 
-/// The different ones in the lists of all ranks, ascending, where there are `most` of them at the most;
-/// otherwise throws CollectiveError (input) with `complaint`. Needs no more memory than a few times `most`
-/// numbers before it asks other ranks. Collective.
+/// The distinct numbers in the lists of all ranks, ascending. Throws CollectiveError (input) with `message`
+/// where there are more than `most`. Takes memory for a few times `most` numbers. Collective.
 template <class Number>
 std::vector<Number> distinct_numbers(const parallel::Communicator& communicator,
                                      const std::vector<std::span<const Number>>& lists, std::size_t most,
-                                     const std::string& complaint) {
+                                     const std::string& message) {
   std::vector<Number> found;
   const auto is_too_many = [&] {
     geometry::sort_unique(found);
@@ -35,10 +34,10 @@ std::vector<Number> distinct_numbers(const parallel::Communicator& communicator,
     }
     fails = is_too_many();
   });
-  // The text does not depend on how many ranks find too many in their shares.
+  // The text does not depend on how many ranks find too many in their lists.
   const auto require_few = [&] {
     if (communicator.maximum(std::int64_t{fails}) > 0)
-      throw parallel::CollectiveError(parallel::FailureKind::input, complaint);
+      throw parallel::CollectiveError(parallel::FailureKind::input, message);
   };
   require_few();
   found = communicator.all_gather_items(std::span<const Number>(found));

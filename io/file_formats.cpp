@@ -28,7 +28,6 @@ namespace aeroloom::io {
 namespace {
 
 namespace fs = std::filesystem;
-using parallel::Communicator;
 
 /// A writer that needs no options.
 template <void (*write)(const FileMesh&, const std::string&)>
@@ -64,8 +63,8 @@ void write_msh_from_first(const FileMesh& mesh, const std::string& path) {
   write_msh_parts(mesh, msh_name(path));
 }
 
-void remove_msh_after(const Communicator& communicator, const std::string& path, std::int32_t parts) {
-  remove_later_msh_parts(communicator, msh_name(path), parts);
+void remove_msh_after(const SharedPath& file, std::int32_t parts) {
+  remove_later_msh_parts({file.communicator, msh_name(file.path)}, parts);
 }
 
 void write_meshb(const FileMesh& mesh, const std::string& path) {
@@ -74,10 +73,9 @@ void write_meshb(const FileMesh& mesh, const std::string& path) {
 
 /// The case is the folder of the file, which viewers open and which holds nothing.
 void write_foam(const FileMesh& mesh, const std::string& path) {
-  const Communicator& communicator = mesh.pieces->communicator;
   const fs::path folder = fs::path(path).parent_path();
   write_openfoam(mesh, folder.empty() ? "." : folder.string());
-  parallel::write_shared_file(communicator, path, [](parallel::SharedFile&) {});
+  parallel::write_shared_file(mesh.communicator(), path, [](parallel::SharedFile&) {});
 }
 
 constexpr FormatContent whole_mesh{.regions = true, .interfaces = true};

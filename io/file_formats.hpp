@@ -1,7 +1,5 @@
-/// The formats of mesh files: a row has all that the program asks of one.
+/// The formats of mesh files. A row of the table has all that the program needs to know of a format.
 #pragma once
-
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>
@@ -14,6 +12,7 @@ namespace aeroloom::io {
 
 struct FileMesh;
 struct RawMesh;
+struct SharedPath;
 struct WriteOptions;
 
 enum class FileFormat : std::uint8_t {
@@ -30,15 +29,14 @@ enum class FileFormat : std::uint8_t {
   openfoam,   ///< OpenFOAM, a case with processor folders
 };
 
-/// What the files of a format have a place for. Cells of all shapes and patches of the boundary have one in
-/// every format.
+/// What the files of a format can hold, besides cells of all shapes and boundary patches.
 struct FormatContent {
-  bool regions = false;     ///< more than one
-  bool interfaces = false;  ///< patches between regions
-  bool parts = false;       ///< as many parts as are asked for
+  bool regions = false;     ///< several regions
+  bool interfaces = false;  ///< faces between regions
+  bool parts = false;       ///< any number of parts
 };
 
-/// The end of the names of files that are read, and what such a file is.
+/// The ending of file names that are read, and a description of such files.
 struct ReadableEnd {
   std::string_view text;
   std::string_view description;
@@ -46,56 +44,54 @@ struct ReadableEnd {
 
 struct FormatRow {
   FileFormat format;
-  std::string_view name;  ///< in the case
-  /// Of paths to write; the first is that of the file of a run. What is empty is none.
+  std::string_view name;  ///< in the case file
+  /// The endings of paths to write. The first one is that of the output of a run. Empty entries do not count.
   std::array<std::string_view, 2> ends;
-  /// Of paths to read; none where files are read as those of another format. What is empty is none.
+  /// The endings of paths to read; none if files are read as those of another format.
   std::array<ReadableEnd, 3> readable_ends = {};
-  /// Null: the format is not read.
-  RawMesh (*read)(const parallel::Communicator& communicator, const std::string& path) = nullptr;
-  /// `path`: as written_path() has it.
+  /// Null: the format cannot be read.
+  RawMesh (*read)(const SharedPath& file) = nullptr;
+  /// `path`: a result of written_path().
   void (*write)(const FileMesh& mesh, const std::string& path, const WriteOptions& options);
   FormatContent content = {};
-  /// The file has the first of `ends` whatever is asked for, for viewers go by it: PATH and PATH with this
-  /// end both become PATH with that one. Empty: the file has the name that is asked for.
+  /// An ending that ends.front() replaces, because viewers need the latter: PATH and PATH with this ending
+  /// become PATH with ends.front(). Empty: a file has the name that the user gives.
   std::string_view replaced_end = {};
-  /// A folder with files of its user, of that name in the output directory of a run: written in its place,
-  /// after all other formats. Empty: a file that appears together with those beside it.
+  /// The folder in the output directory where the user edits files (OpenFOAM). It is written in place, after
+  /// all other formats. Empty: the format writes files, which appear together with their companions.
   std::string_view folder = {};
-  std::string_view announcement = "mesh";  ///< before the path when a run ends
-  /// How many parts a file names; 0 where it names none. Null: files name none.
+  std::string_view announcement = "mesh";  ///< the word before the path when a run ends
+  /// The number of files that an index file names. Null: the format has no index files.
   int (*named_parts)(const std::string& path) = nullptr;
-  /// Removes parts of an earlier mesh with more than `parts`. Null: there can be none.
-  void (*remove_later_parts)(const parallel::Communicator& communicator, const std::string& path,
-                             std::int32_t parts) = nullptr;
-  /// What to know of lengths in a unit that is not the metre. Null: files have any unit.
+  /// Removes the files of parts from `parts` on, of an earlier mesh. Null: the format has no such files.
+  void (*remove_later_parts)(const SharedPath& file, std::int32_t parts) = nullptr;
+  /// A warning for a unit of length other than the metre. Null: files may have any unit.
   std::string (*unit_warning)(const std::string& unit, double in_metres) = nullptr;
 };
 
-/// All formats, in their order.
+/// All formats, in the order of FileFormat.
 std::span<const FormatRow> file_formats();
 const FormatRow& row_of(FileFormat format);
 std::string_view name_of(FileFormat format);
-/// Empty where no format is called so.
+/// The format with this name in the case file, if any.
 std::optional<FileFormat> format_called(std::string_view name);
 
-/// The format that a path asks for by its end; empty where none does. A single letter of byte order before
-/// `.ugrid` is the writer's affair.
+/// The format that the ending of a path means, if any. The UGRID writer checks the letters before `.ugrid`.
 std::optional<FileFormat> format_of_path(const std::string& path);
-/// All ends of paths that mean a format, for messages.
+/// All endings of paths that mean a format, for messages.
 std::string known_extensions();
 
-/// The file that write_mesh() makes for `path`: formats that viewers know by the end of the name alone get
-/// it, .pvtu instead of .vtu, _1.msh instead of .msh; otherwise `path` itself.
+/// The file that write_mesh() makes for `path`: .pvtu instead of .vtu, _1.msh instead of .msh, because
+/// viewers need these endings; otherwise `path`.
 std::string written_path(FileFormat format, const std::string& path);
 
-/// The row and the readable end that a path has; null where it is not read.
+/// The row and the ending of a path that can be read; null for other paths.
 struct ReadableFile {
   const FormatRow* row = nullptr;
   const ReadableEnd* end = nullptr;
 };
 ReadableFile readable_file(const std::string& path);
-/// A path without an end, where it has it.
+/// The path without the ending `end`, or the path itself if it ends otherwise.
 std::string without_end(const std::string& path, std::string_view end);
 
 }  // namespace aeroloom::io

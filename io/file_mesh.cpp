@@ -21,7 +21,7 @@ using mesh::LocalIndex;
 constexpr int kind_count = cell_shape_count + face_shape_count;
 
 /// A block of a part: cells by shape, then faces by shape.
-Block& block_of(FilePart& part, int kind) {
+Block& block_of(MeshPart& part, int kind) {
   return kind < cell_shape_count ? part.cells[kind] : part.faces[kind - cell_shape_count];
 }
 
@@ -37,7 +37,7 @@ struct CountRow {
 
 std::vector<CountRow> count_rows(FileMesh& mesh) {
   std::vector<CountRow> rows;
-  for (FilePart& part : mesh.parts) {
+  for (MeshPart& part : mesh.parts) {
     rows.push_back({part.id, -1, 0, part.owned_count});
     for (int kind = 0; kind < kind_count; ++kind) {
       for (const Run& run : block_of(part, kind).runs)
@@ -47,14 +47,14 @@ std::vector<CountRow> count_rows(FileMesh& mesh) {
   return rows;
 }
 
-FilePart* find_part(FileMesh& mesh, std::int32_t id) {
+MeshPart* find_part(FileMesh& mesh, std::int32_t id) {
   const auto found =
       std::lower_bound(mesh.parts.begin(), mesh.parts.end(), id,
-                       [](const FilePart& part, std::int32_t wanted) { return part.id < wanted; });
+                       [](const MeshPart& part, std::int32_t wanted) { return part.id < wanted; });
   return found != mesh.parts.end() && found->id == id ? &*found : nullptr;
 }
 
-/// Adds up the rows of all parts in their order, and tells the parts that are here what came before them.
+/// Adds up the rows of all parts in their order, and sets the counts before each part on this rank.
 void place_parts(FileMesh& mesh, std::vector<CountRow> rows) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const CountRow& a, const CountRow& b) { return a.part < b.part; });
@@ -65,7 +65,7 @@ void place_parts(FileMesh& mesh, std::vector<CountRow> rows) {
   std::vector<int> parts_seen(mesh.part_count, 0);
   for (const CountRow& row : rows) {
     if (row.part != at) before_part = of_kind, at = row.part;
-    FilePart* const part = find_part(mesh, row.part);
+    MeshPart* const part = find_part(mesh, row.part);
     if (row.kind < 0) {
       ++parts_seen.at(row.part);
       if (part != nullptr) part->first_owned = mesh.vertex_count;
@@ -91,10 +91,9 @@ void place_parts(FileMesh& mesh, std::vector<CountRow> rows) {
 
 /// Counts, offsets and totals of a mesh whose parts are set. Collective.
 void finish(FileMesh& mesh) {
-  const parallel::Communicator communicator = mesh.pieces->communicator;
   const std::vector<CountRow> mine = count_rows(mesh);
-  const std::vector<CountRow> all = communicator.all_gather_items(std::span<const CountRow>(mine));
-  parallel::agree(communicator, [&] { place_parts(mesh, all); });
+  const std::vector<CountRow> all = mesh.communicator().all_gather_items(std::span<const CountRow>(mine));
+  parallel::agree(mesh.communicator(), [&] { place_parts(mesh, all); });
 }
 
 /// A patch whose faces lie between regions as well as outside is distinguished by ids after those of all.
@@ -110,7 +109,6 @@ struct SplitPatches {
 };
 
 SplitPatches split_patches(const mesh::DistributedMesh& mesh) {
-  const parallel::Communicator& communicator = mesh.communicator;
   const std::size_t count = mesh.patches.size();
   std::vector<std::uint8_t> used(2 * count, 0);
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -119,7 +117,8 @@ SplitPatches split_patches(const mesh::DistributedMesh& mesh) {
       for (std::size_t f = 0; f < faces.size(); ++f) used.at(patch_with_side(mesh, patches[f], faces[f])) = 1;
     }
   }
-  const std::vector<std::uint8_t> all = communicator.all_gather_items(std::span<const std::uint8_t>(used));
+  const std::vector<std::uint8_t> all =
+      mesh.communicator.all_gather_items(std::span<const std::uint8_t>(used));
   for (std::size_t i = 0; i < all.size(); ++i) used[i % used.size()] |= all[i];
   SplitPatches split;
   split.target.resize(2 * count);
@@ -170,9 +169,9 @@ Block faces_of_piece(const mesh::DistributedMesh& mesh, const mesh::Piece& piece
   return block;
 }
 
-FilePart part_of(const mesh::NumberedMesh& mesh, std::size_t i, const SplitPatches& split) {
+MeshPart part_of(const mesh::NumberedMesh& mesh, std::size_t i, const SplitPatches& split) {
   const mesh::Piece& piece = mesh.pieces[i];
-  FilePart part;
+  MeshPart part;
   part.id = piece.id;
   part.piece = &piece;
   part.coordinates = piece.coordinates;
@@ -215,7 +214,7 @@ void require_fitting(const mesh::NumberedMesh& mesh) {
 }
 
 void require_numbers(const FileMesh& mesh) {
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     GlobalIndex next = part.first_owned;
     for (std::size_t v = 0; v < part.numbers.size(); ++v) {
       if (part.owned[v])
@@ -228,38 +227,27 @@ void require_numbers(const FileMesh& mesh) {
 }  // namespace
 
 GlobalIndex FileMesh::cell_count(CellShape shape) const {
-  GlobalIndex count = 0;
-  for (const auto& of_region : region_cells) count += of_region[static_cast<std::size_t>(shape)];
-  return count;
+  return counts(CountedFaces::all).cells[static_cast<std::size_t>(shape)];
 }
 
 GlobalIndex FileMesh::cell_count() const {
-  GlobalIndex count = 0;
-  for (const CellShape shape : cell_shapes) count += cell_count(shape);
-  return count;
+  const ShapeCounts all = counts(CountedFaces::all);
+  return std::accumulate(all.cells.begin(), all.cells.end(), GlobalIndex{0});
 }
 
 GlobalIndex FileMesh::boundary_count(FaceShape shape) const {
-  GlobalIndex count = 0;
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    if (patches[p].type != mesh::PatchType::interior)
-      count += patch_faces[p][static_cast<std::size_t>(shape)];
-  }
-  return count;
-}
-
-GlobalIndex FileMesh::face_count(FaceShape shape) const {
-  GlobalIndex count = 0;
-  for (const auto& of_patch : patch_faces) count += of_patch[static_cast<std::size_t>(shape)];
-  return count;
+  return counts(CountedFaces::boundary).faces[static_cast<std::size_t>(shape)];
 }
 
 ShapeCounts FileMesh::counts(CountedFaces faces) const {
   ShapeCounts counts{.vertices = vertex_count};
-  for (const FaceShape shape : face_shapes)
-    counts.faces[static_cast<std::size_t>(shape)] =
-        faces == CountedFaces::all ? face_count(shape) : boundary_count(shape);
-  for (const CellShape shape : cell_shapes) counts.cells[static_cast<std::size_t>(shape)] = cell_count(shape);
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    if (faces == CountedFaces::boundary && patches[p].type == mesh::PatchType::interior) continue;
+    for (std::size_t s = 0; s < face_shape_count; ++s) counts.faces[s] += patch_faces[p][s];
+  }
+  for (const auto& of_region : region_cells) {
+    for (std::size_t s = 0; s < cell_shape_count; ++s) counts.cells[s] += of_region[s];
+  }
   return counts;
 }
 

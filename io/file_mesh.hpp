@@ -1,9 +1,8 @@
-/// The layout of a mesh in files: its pieces as parts, boundary faces by patch, cells by region, and the
-/// place of each among all.
+/// The layout of a distributed mesh in files: what all writers use.
 ///
-/// Writers see every mesh this way and never gather it. A part is written by the rank that holds the piece;
-/// the place of all it has in a file follows from counts, which every rank knows or finds here. Files depend
-/// on the pieces, never on ranks.
+/// Each piece of the mesh is a part: a subdomain in the file. Its cells are ordered by region, and its
+/// boundary faces by patch. The rank that holds a piece writes its part. The place of every item in a file
+/// follows from counts, so no rank gathers the mesh. Files depend on the parts, never on the number of ranks.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -33,11 +32,11 @@ using mesh::face_shapes;
 using mesh::faces_of;
 using mesh::FaceShape;
 
-/// Consecutive cells of one region, or faces of one patch.
+/// Consecutive cells of one region, or faces of one patch, all of one shape, in a part.
 struct Run {
-  std::int32_t id = 0;                  ///< of the region or patch
-  mesh::LocalIndex begin = 0, end = 0;  ///< in the part, among those of this shape
-  mesh::GlobalIndex before = 0;         ///< of this shape and id, in parts of lower id
+  std::int32_t id = 0;                  ///< region or patch
+  mesh::LocalIndex begin = 0, end = 0;  ///< among the items of this shape in the part
+  mesh::GlobalIndex before = 0;         ///< number of items of this shape and id in the parts before
 
   static constexpr auto fields() { return std::tuple(&Run::id, &Run::begin, &Run::end, &Run::before); }
 };
@@ -45,10 +44,10 @@ struct Run {
 /// The cells or faces of one shape in a part.
 struct Block {
   int corners = 0;
-  std::span<const mesh::LocalIndex> connectivity;  ///< (m, corners), vertices of the piece, in its order
-  std::vector<Run> runs;                           ///< ascending id, together all of the block
-  mesh::GlobalIndex before = 0;                    ///< of this shape, in parts of lower id
-  std::vector<mesh::LocalIndex> order;             ///< (m) the place in the piece of each; empty: its own
+  std::span<const mesh::LocalIndex> connectivity;  ///< (m, corners) vertices of the piece, in its order
+  std::vector<Run> runs;                           ///< by ascending id; they cover the block
+  mesh::GlobalIndex before = 0;                    ///< number of items of this shape in the parts before
+  std::vector<mesh::LocalIndex> order;             ///< (m) index of each item in the piece; empty: the same
 
   mesh::LocalIndex count() const {
     return corners == 0
@@ -61,22 +60,22 @@ struct Block {
   }
 };
 
-/// One part: n vertices, cells, and the boundary faces of these cells (of the front region's cell, of a face
-/// between regions). The vertices that it owns have consecutive numbers, in their order; each vertex of
-/// the mesh has one owner, and numbers ascend with the id of the owning part.
-struct FilePart {
+/// A part: n vertices, cells, and boundary faces of these cells. A face between two regions is in the part of
+/// the front region's cell. Each vertex of the mesh has one owner among the parts. Owned vertices have
+/// consecutive numbers, which ascend with the id of the part.
+struct MeshPart {
   std::int32_t id = 0;
   std::span<const double> coordinates;         ///< (n,3)
-  std::span<const mesh::GlobalIndex> numbers;  ///< (n) of the whole mesh, from 0
+  std::span<const mesh::GlobalIndex> numbers;  ///< (n) numbers in the whole mesh, from 0
   std::span<const std::uint8_t> owned;         ///< (n) 1 where this part owns the vertex
-  mesh::GlobalIndex first_owned = 0;           ///< the number of the first vertex that it owns
+  mesh::GlobalIndex first_owned = 0;           ///< number of the first owned vertex
   mesh::LocalIndex owned_count = 0;
   std::array<Block, cell_shape_count> cells;
   std::array<Block, face_shape_count> faces;
 
-  std::span<const std::int16_t> layers;  ///< of the cells (mesh::Piece::layers), or empty
+  std::span<const std::int16_t> layers;  ///< boundary layer of each cell (mesh::Piece::layers), or empty
 
-  const mesh::Piece* piece = nullptr;  ///< what the part looks into; none of what came from another rank
+  const mesh::Piece* piece = nullptr;  ///< the piece; null for a part that another rank has sent
 
   mesh::LocalIndex vertex_count() const { return static_cast<mesh::LocalIndex>(numbers.size()); }
   mesh::LocalIndex cell_count() const { return cells[0].count() + cells[1].count() + cells[2].count(); }
@@ -87,45 +86,45 @@ struct FilePart {
   }
 };
 
-/// How much there is of a mesh, or of a file.
+/// The counts of a mesh, or of a file.
 struct ShapeCounts {
   mesh::GlobalIndex vertices = 0;
   std::array<mesh::GlobalIndex, face_shape_count> faces{};
   std::array<mesh::GlobalIndex, cell_shape_count> cells{};
 };
-/// Of all patches, or of those that are not interior.
+/// Whether faces of all patches count, or only those on the boundary (not interior).
 enum class CountedFaces { all, boundary };
 
-/// The parts of one mesh that are on this rank: views of its pieces, no coordinates or cells are copied.
+/// A mesh as writers see it, and the parts on this rank. Parts are views: no coordinates or cells are copied.
 struct FileMesh {
-  const mesh::NumberedMesh* pieces = nullptr;      ///< what the parts look into, and must live on unchanged
-  std::shared_ptr<const mesh::NumberedMesh> held;  ///< the same, where nobody else holds it
+  const mesh::NumberedMesh* pieces = nullptr;      ///< the viewed mesh; must exist unchanged as long as this
+  std::shared_ptr<const mesh::NumberedMesh> held;  ///< owns the mesh, or is null
 
   std::int32_t part_count = 0;         ///< of the whole mesh
-  std::vector<FilePart> parts;         ///< on this rank, ascending id
-  mesh::GlobalIndex vertex_count = 0;  ///< of the whole mesh, as all below; the same on every rank
-  std::vector<mesh::Patch> patches;    ///< patches between regions are `interior`, and only they
-  std::vector<std::string> regions;    ///< one at least
-  bool has_layers = false;             ///< whether any cell is of a boundary layer
+  std::vector<MeshPart> parts;         ///< on this rank, by ascending id
+  mesh::GlobalIndex vertex_count = 0;  ///< of the whole mesh, as all members below
+  std::vector<mesh::Patch> patches;    ///< `interior` if and only if between regions
+  std::vector<std::string> regions;    ///< at least one
+  bool has_layers = false;             ///< whether any cell belongs to a boundary layer
   std::vector<std::array<mesh::GlobalIndex, cell_shape_count>> region_cells;  ///< by region and shape
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> patch_faces;   ///< by patch and shape
 
+  const parallel::Communicator& communicator() const { return pieces->communicator; }
   mesh::GlobalIndex cell_count(CellShape shape) const;
   mesh::GlobalIndex cell_count() const;
-  /// Of patches that are not interior.
+  /// The faces of patches that are not interior.
   mesh::GlobalIndex boundary_count(FaceShape shape) const;
-  mesh::GlobalIndex face_count(FaceShape shape) const;
   ShapeCounts counts(CountedFaces faces) const;
 };
 
-/// The layout of a mesh, a part each piece. A patch with faces between regions and others becomes two, the
-/// former called NAME_interior. `mesh` must outlive the result, which holds it where it is given away. Throws
-/// CollectiveError (bug) where the arrays of a piece do not fit together, or owned vertices are not numbered
-/// one after another. Collective.
+/// The layout of a mesh, with a part for each piece. A patch with boundary faces and faces between regions is
+/// split; the latter become NAME_interior. `mesh` must outlive the result; the second form keeps the mesh
+/// itself. Throws CollectiveError (bug) where arrays of a piece contradict each other, or numbers of owned
+/// vertices are not consecutive. Collective.
 FileMesh file_mesh_of(const mesh::NumberedMesh& mesh);
 FileMesh file_mesh_of(mesh::NumberedMesh&& mesh);
 
-/// A mesh of a file in `parts` parts (mesh/transfer/repartition.hpp). Collective.
+/// The mesh in `parts` parts (mesh/transfer/repartition.hpp). Collective.
 FileMesh repartition(const FileMesh& mesh, std::int32_t parts,
                      mesh::PieceRegions regions = mesh::PieceRegions::several);
 

@@ -1,11 +1,11 @@
-/// The libraries behind the file formats, for those who may not see them.
+/// Versions of the libraries behind the file formats.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::io {
 
-/// Of the libraries that are loaded, which may be newer than those compiled against.
+/// The version that is loaded; it may be newer than the one at compile time.
 std::string vtk_version();
 std::string hdf5_version();
 

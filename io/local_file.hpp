@@ -1,4 +1,4 @@
-/// A file that one rank writes alone, and is not to be seen before it is complete.
+/// A file that one rank writes alone. Give it a temporary name, and rename it when it is complete.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace aeroloom::io {
 
-/// Writes one after another through a buffer of fixed size. All throw std::filesystem::filesystem_error with
-/// the path and the reason.
+/// Appends to a new file through a buffer of fixed size. All functions throw
+/// std::filesystem::filesystem_error with the path and the reason.
 class LocalFile {
 public:
   explicit LocalFile(std::string path);
@@ -27,8 +27,8 @@ public:
     write(std::as_bytes(std::span(&item, 1)));
   }
   void write(std::span<const std::byte> bytes);
-  /// All is handed over to the file system, and the file closed, which reports what a server refuses. It is
-  /// not waited for the disk: a mesh may have thousands of such files. Without it the file may be cut short.
+  /// Writes the rest and closes the file. Errors of a file server show here. Does not wait for the disk, as a
+  /// mesh may have thousands of such files. Without this call the end of the file may be missing.
   void finish();
 
 private:

@@ -39,16 +39,16 @@ struct FaceCandidate {
   }
 };
 
-/// The cells of a share, for match_faces.
-class ShareFaces {
+/// The sides of the cells on this rank, for match_faces.
+class LocalCellSides {
 public:
-  explicit ShareFaces(const NumberedShare& share) : _share(share) {}
+  explicit LocalCellSides(const LocalMesh& local) : _local(local) {}
 
   template <class Sink>
   void for_each_side(const Sink& sink) const {
     LocalIndex cell = 0;
     for (const CellShape shape : cell_shapes) {
-      const auto& corners = _share.cells[static_cast<std::size_t>(shape)];
+      const auto& corners = _local.cells[static_cast<std::size_t>(shape)];
       for (std::size_t i = 0; i < corners.size(); i += static_cast<std::size_t>(corners_of(shape)), ++cell) {
         std::int32_t side = 0;
         for (const CellFace& face : faces_of(shape))
@@ -62,35 +62,34 @@ public:
   FaceCandidate candidate(const FaceUser& user) const {
     LocalIndex cell = user.item;
     std::size_t s = 0;
-    while (cell >= static_cast<LocalIndex>(_share.regions[s].size()))
-      cell -= static_cast<LocalIndex>(_share.regions[s++].size());
+    while (cell >= static_cast<LocalIndex>(_local.regions[s].size()))
+      cell -= static_cast<LocalIndex>(_local.regions[s++].size());
     const auto corners =
         mesh::corners_at(faces_of(cell_shapes[s])[static_cast<std::size_t>(user.side)],
-                         _share.cells[s].data() + static_cast<std::size_t>(cell) *
+                         _local.cells[s].data() + static_cast<std::size_t>(cell) *
                                                       static_cast<std::size_t>(corners_of(cell_shapes[s])));
-    FaceCandidate candidate{{}, {-1, -1, -1, -1}, 0, _share.regions[s][cell], _share.pieces[s][cell], none};
+    FaceCandidate candidate{{}, {-1, -1, -1, -1}, 0, _local.regions[s][cell], _local.pieces[s][cell], none};
     for (std::size_t k = 0; k < 4; ++k) {
-      if (corners[k] >= 0) candidate.corners[k] = _share.numbers[corners[k]];
+      if (corners[k] >= 0) candidate.corners[k] = _local.numbers[corners[k]];
     }
     candidate.key = mesh::face_key(candidate.corners);
     return candidate;
   }
 
 private:
-  const NumberedShare& _share;
+  const LocalMesh& _local;
 };
 
-/// Sides of cells that are not matched inside one region here, or that a cell of another share may have, and
+/// Sides of cells that are not matched inside one region here, or that a cell on another rank may have, and
 /// all faces of the file.
-std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communicator,
-                                         const NumberedShare& share) {
+std::vector<FaceCandidate> candidates_of(const LocalMesh& local) {
   std::vector<FaceCandidate> candidates;
-  const ShareFaces faces(share);
+  const LocalCellSides faces(local);
   std::vector<FaceCandidate> met;
   const auto may_be_on_another_rank = [&](const FaceKey<LocalIndex>& key) {
-    return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || share.shared[v] != 0; });
+    return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || local.shared[v] != 0; });
   };
-  mesh::match_faces(share.numbers.size(), faces,
+  mesh::match_faces(local.numbers.size(), faces,
                     [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
                       met.clear();
                       for (const FaceUser& user : users) met.push_back(faces.candidate(user));
@@ -100,15 +99,15 @@ std::vector<FaceCandidate> candidates_of(const parallel::Communicator& communica
                       if (!matched) candidates.insert(candidates.end(), met.begin(), met.end());
                     });
   GlobalIndex count = 0;
-  for (const auto& patches : share.patches) count += static_cast<GlobalIndex>(patches.size());
-  GlobalIndex order = communicator.exclusive_scan(count);
+  for (const auto& patches : local.patches) count += static_cast<GlobalIndex>(patches.size());
+  GlobalIndex order = local.file.communicator.exclusive_scan(count);
   for (const FaceShape shape : face_shapes) {
     const auto s = static_cast<std::size_t>(shape);
-    for (std::size_t f = 0; f < share.patches[s].size(); ++f) {
-      const GlobalIndex* v = share.faces[s].data() + f * static_cast<std::size_t>(corners_of(shape));
+    for (std::size_t f = 0; f < local.patches[s].size(); ++f) {
+      const GlobalIndex* v = local.faces[s].data() + f * static_cast<std::size_t>(corners_of(shape));
       FaceCandidate candidate{{},      {v[0], v[1], v[2], shape == FaceShape::triangle ? -1 : v[3]},
                               order++, none,
-                              none,    share.patches[s][f]};
+                              none,    local.patches[s][f]};
       candidate.key = mesh::face_key(candidate.corners);
       candidates.push_back(candidate);
     }
@@ -179,14 +178,13 @@ private:
   }
 };
 
-void require_fit(const parallel::Communicator& communicator, const std::vector<UnmatchedFace>& mine,
-                 const std::string& path) {
-  const GlobalIndex count = communicator.sum(static_cast<std::int64_t>(mine.size()));
+void require_fit(const SharedPath& file, const std::vector<UnmatchedFace>& mine) {
+  const GlobalIndex count = file.communicator.sum(static_cast<std::int64_t>(mine.size()));
   if (count == 0) return;
   const auto less = [](const UnmatchedFace& a, const UnmatchedFace& b) { return a.key < b.key; };
   std::vector<UnmatchedFace> first;
   if (!mine.empty()) first.push_back(*std::min_element(mine.begin(), mine.end(), less));
-  const auto all = communicator.all_gather_items(std::span<const UnmatchedFace>(first));
+  const auto all = file.communicator.all_gather_items(std::span<const UnmatchedFace>(first));
   const UnmatchedFace& worst = *std::min_element(all.begin(), all.end(), less);
   throw parallel::CollectiveError(
       parallel::FailureKind::input,
@@ -194,7 +192,7 @@ void require_fit(const parallel::Communicator& communicator, const std::vector<U
                   "without those "
                   "that no cell uses): "
                   "the mesh does not conform; {} such faces",
-                  path,
+                  file.path,
                   worst.cells > 2 ? "more than two cells meet"
                                   : "two cells lie on the same side, or their corners cross,",
                   worst.key[0], worst.key[1], worst.key[2], count));
@@ -291,12 +289,12 @@ void name_faces(const std::vector<ModelFace>& faces, mesh::DistributedMesh& name
 
 }  // namespace
 
-MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
-                            std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
-                            const std::string& path) {
-  FaceMatch match(mesh::meet_by_key(communicator, candidates_of(communicator, share), &FaceCandidate::key,
-                                    &FaceCandidate::place));
-  require_fit(communicator, match.unmatched, path);
+MatchedFaces match_boundary(const LocalMesh& local, std::vector<mesh::Patch> patches,
+                            const std::vector<std::string>& regions) {
+  const parallel::Communicator& communicator = local.file.communicator;
+  FaceMatch match(
+      mesh::meet_by_key(communicator, candidates_of(local), &FaceCandidate::key, &FaceCandidate::place));
+  require_fit(local.file, match.unmatched);
   PatchTable table(communicator, std::move(patches), regions, match.found);
   std::vector<ModelFace> of_found;
   of_found.reserve(match.found.size());

@@ -1,4 +1,4 @@
-/// The boundary of a mesh as a file has it: matched with its cells. Internal to io/.
+/// Matches the boundary faces of a file with its cells. Internal to io/.
 #pragma once
 
 #include "io/raw_mesh.hpp"
@@ -10,34 +10,34 @@
 
 namespace aeroloom::io {
 
-/// The share of one rank with its points numbered: corners are places in `numbers`.
-struct NumberedShare {
-  std::vector<mesh::GlobalIndex> numbers;  ///< ascending; of the points that cells here use
-  std::vector<std::uint8_t> shared;        ///< by place: 1 where cells of other shares use the point too
+/// The cells and faces of one rank after points have numbers. Corners of cells are indices in `numbers`.
+struct LocalMesh {
+  SharedPath file;                         ///< the file that it comes from
+  std::vector<mesh::GlobalIndex> numbers;  ///< ascending; the points of the cells on this rank
+  std::vector<std::uint8_t> shared;        ///< by index: 1 where cells of other ranks use the point too
   std::array<std::vector<mesh::LocalIndex>, cell_shape_count> cells;
   std::array<std::vector<std::int32_t>, cell_shape_count> regions;
-  std::array<std::vector<std::int32_t>, cell_shape_count> pieces;  ///< where each cell goes
-  /// By number of point in the whole mesh, any direction.
+  std::array<std::vector<std::int32_t>, cell_shape_count> pieces;  ///< the piece of each cell
+  /// Corners by number in the whole mesh, in any direction.
   std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;
   std::array<std::vector<std::int32_t>, face_shape_count> patches;
 };
 
-/// The boundary faces with their patches, and counts of those that the file did not have right.
+/// The boundary faces with their patches, and counts of the corrections.
 struct MatchedFaces {
   decltype(mesh::PieceItems::faces) items;
-  mesh::DistributedMesh names;     ///< patches, their types, faces of the model, their sides, regions
-  mesh::GlobalIndex unnamed = 0;   ///< faces that the file left without a patch
-  mesh::GlobalIndex left_out = 0;  ///< faces of the file inside a region, of no cell, or given twice
+  mesh::DistributedMesh names;     ///< patches, types, faces of the model, their sides, regions
+  mesh::GlobalIndex unnamed = 0;   ///< faces without a patch in the file
+  mesh::GlobalIndex left_out = 0;  ///< faces inside a region, of no cell, or repeated
 };
 
-/// Gives each boundary face the piece of its cell and orients it out of that; faces that the file left out
-/// get patches of their own, `boundary_of_REGION` and `REGION_to_REGION`. A patch with faces between regions
-/// beside others becomes two. Each patch is a face of the model for each region that it bounds, or each two
-/// that it lies between, called like the patch, and by its regions where the patch has several. Throws
-/// CollectiveError (input) with `path` where more than two cells meet at a face, or two on the same side of
-/// it. Collective.
-MatchedFaces match_boundary(const parallel::Communicator& communicator, const NumberedShare& share,
-                            std::vector<mesh::Patch> patches, const std::vector<std::string>& regions,
-                            const std::string& path);
+/// Finds the piece of each boundary face, and directs the face out of its cell. Faces that are missing in the
+/// file get new patches, `boundary_of_REGION` and `REGION_to_REGION`. A patch with boundary faces and faces
+/// between regions is split. A patch is a face of the model for each region that it bounds, and for each pair
+/// of regions that it separates. Such a face has the name of the patch; if there are several, also of its
+/// regions. Throws CollectiveError (input) with the path where more than two cells have a common face, or two
+/// lie on the same side of it. Collective.
+MatchedFaces match_boundary(const LocalMesh& local, std::vector<mesh::Patch> patches,
+                            const std::vector<std::string>& regions);
 
 }  // namespace aeroloom::io

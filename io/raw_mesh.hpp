@@ -1,49 +1,52 @@
-/// The mesh of a file as it stands there: on each rank a share of its points, cells and boundary faces.
+/// A mesh as a reader has found it in a file, distributed over ranks, and its assembly.
 #pragma once
 
 #include "io/file_mesh.hpp"
+#include "io/shared_path.hpp"
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::io {
 
-/// Of a point in a file.
+/// The largest id of a point in a file.
 inline constexpr mesh::GlobalIndex largest_id = mesh::GlobalIndex{1} << 62;
 
-/// The share of one rank. Shares follow each other by rank: the order of the file is that of all shares one
-/// after another. Points are known by the ids of the file: any distinct numbers from 0 to `largest_id`.
+/// The points, cells and boundary faces of one rank. The lists of all ranks, one after another, have the
+/// order of the file. Points have the ids of the file: any numbers from 0 to `largest_id`.
 struct RawMesh {
+  explicit RawMesh(SharedPath of) : file(std::move(of)) {}
+
+  SharedPath file;                           ///< the file, and the ranks that hold the mesh
   std::vector<double> coordinates;           ///< (n,3)
-  std::vector<mesh::GlobalIndex> point_ids;  ///< (n); a point may come several times, with the same bits
+  std::vector<mesh::GlobalIndex> point_ids;  ///< (n); repeated points must have equal coordinates
   std::array<std::vector<mesh::GlobalIndex>, cell_shape_count>
-      cells;  ///< (m, corners) of ids, in CellShape's order
+      cells;  ///< (m, corners) ids, in CellShape's order
   std::array<std::vector<std::int32_t>, cell_shape_count> cell_regions;  ///< (m)
-  std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;  ///< (k, corners) of ids, any direction
+  std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;  ///< (k, corners) ids, in any direction
   std::array<std::vector<std::int32_t>, face_shape_count> face_patches;  ///< (k)
   std::vector<mesh::Patch> patches;                                      ///< the same on every rank
-  std::vector<std::string> regions;  ///< the same on every rank, one at least
+  std::vector<std::string> regions;  ///< the same on every rank, at least one
 };
 
-/// A mesh and what had to be done to it.
+/// An assembled mesh, and counts of the corrections.
 struct Assembled {
   FileMesh mesh;
   mesh::GlobalIndex turned_cells = 0, dropped_points = 0;
   mesh::GlobalIndex unnamed_faces = 0;   ///< without a patch in the file
   mesh::GlobalIndex left_out_faces = 0;  ///< inside a region, of no cell, or given twice
 };
-/// Puts the shares together as a mesh of `parts` pieces (0: of what suits its size), in the order of the
-/// file: part k gets the k-th share of cells (tetrahedra first, then pyramids, then prisms) and owns the k-th
-/// share of vertices. repartition() makes compact parts. Cells whose corners come in mirrored order are
-/// turned over, faces oriented out of the fluid; points that no cell uses are dropped; vertices are numbered
-/// in the order of ids. Faces of cells that the file leaves open become patches `boundary_of_REGION` or
-/// `REGION_to_REGION`. Throws CollectiveError (input) with `path` and the place: a point that does not exist
-/// or comes twice with different coordinates, a corner twice, coordinates that are no numbers, a tetrahedron
-/// without volume, cells that do not conform, no cells at all. Collective; the same for any number of ranks.
-Assembled assemble(const parallel::Communicator& communicator, RawMesh raw, const std::string& path,
-                   std::int32_t parts);
+/// Assembles a mesh of `parts` pieces (0: a suitable number) in the order of the file. Tetrahedra come first,
+/// then pyramids, then prisms. Each part gets an equal range of the cells, and owns an equal range of the
+/// vertices; repartition() makes compact parts. Mirrored cells are reversed, faces directed out of the fluid,
+/// and points without a cell dropped. Vertices are numbered by id. Faces that are missing in the file get
+/// patches `boundary_of_REGION` or `REGION_to_REGION`. The result does not depend on the number of ranks.
+/// Collective. Throws CollectiveError (input) with the path and the place: a point is missing or has two
+/// positions, a corner is repeated, a coordinate is no number, a cell has no volume, cells do not conform, or
+/// there are no cells.
+Assembled assemble(RawMesh raw, std::int32_t parts);
 
 }  // namespace aeroloom::io

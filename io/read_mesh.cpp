@@ -11,7 +11,8 @@
 
 namespace aeroloom::io {
 
-Assembled read_mesh(const parallel::Communicator& communicator, const std::string& path, std::int32_t parts) {
+Assembled read_mesh(const SharedPath& file, std::int32_t parts) {
+  const std::string& path = file.path;
   const ReadableFile found = readable_file(path);
   if (found.row == nullptr) {
     throw parallel::CollectiveError(
@@ -19,12 +20,12 @@ Assembled read_mesh(const parallel::Communicator& communicator, const std::strin
         fmt::format("'{}': no format of meshes that is read here ends like this; known are {}", path,
                     fmt::join(readable_extensions(), ", ")));
   }
-  parallel::agree(communicator, [&] {
-    if (communicator.is_root() && path.find('*') == std::string::npos && !std::filesystem::exists(path))
+  parallel::on_root(file.communicator, [&] {
+    if (path.find('*') == std::string::npos && !std::filesystem::exists(path))
       throw std::filesystem::filesystem_error("cannot read", path,
                                               std::make_error_code(std::errc::no_such_file_or_directory));
   });
-  return assemble(communicator, found.row->read(communicator, path), path, parts);
+  return assemble(found.row->read(file), parts);
 }
 
 std::vector<std::string> readable_extensions() {

@@ -1,4 +1,4 @@
-/// Reading a mesh, whatever its format.
+/// Reads a mesh in any known format.
 #pragma once
 
 #include "io/raw_mesh.hpp"
@@ -9,16 +9,16 @@
 namespace aeroloom::io {
 
 /// Reads a file by its extension: .vtu, .pvtu, .vtk, .vtkhdf, .msh, .ugrid (with the letters before it),
-/// .su2, .su2b, .mesh, .meshb. Each rank reads its share where the format allows it. `parts` and the rest as
-/// assemble() has it. Collective; throws CollectiveError (files where the file cannot be opened, input for
-/// what is in it).
-Assembled read_mesh(const parallel::Communicator& communicator, const std::string& path, std::int32_t parts);
+/// .su2, .su2b, .mesh, .meshb. Each rank reads a range of the items if the format allows it. `parts`: as for
+/// assemble(). Collective. Throws CollectiveError: (files) where the file cannot be opened, (input) for its
+/// content.
+Assembled read_mesh(const SharedPath& file, std::int32_t parts);
 
-/// The ends of paths that read_mesh() knows, each with its dot.
+/// The extensions that read_mesh() knows, with their dots.
 std::vector<std::string> readable_extensions();
 
-/// The repairs of a file's mesh in words: "3 cells turned over, 10 points without a cell dropped, ...";
-/// "nothing changed".
+/// The corrections in words: "3 cells turned over, 10 points without a cell dropped, ...", or "nothing to
+/// mend".
 std::string describe(const Assembled& file);
 
 }  // namespace aeroloom::io

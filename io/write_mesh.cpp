@@ -1,5 +1,6 @@
 #include "io/write_mesh.hpp"
 
+#include "io/shared_path.hpp"
 #include "io/staged_files.hpp"
 #include "parallel/observation/log.hpp"
 
@@ -42,7 +43,6 @@ void warn_of_losses(const FileMesh& mesh, const FormatContent& content, const st
 
 void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
                 const WriteOptions& options) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const FormatRow& row = row_of(format);
   const std::int32_t parts = options.parts > 0 ? options.parts : mesh.part_count;
   const bool cut = row.content.parts && (parts != mesh.part_count || (options.recut && parts > 1));
@@ -53,12 +53,13 @@ void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path
   }
   const fs::path file = written_path(format, path);
   if (!row.folder.empty()) return row.write(mesh, file.string(), options);
-  if (communicator.is_root()) warn_of_losses(mesh, row.content, file.filename().string());
-  write_together(communicator, file.parent_path().string(), file.filename().string(),
+  if (mesh.communicator().is_root()) warn_of_losses(mesh, row.content, file.filename().string());
+  write_together(mesh.communicator(), file.parent_path().string(), file.filename().string(),
                  [&](const std::string& staging) {
                    row.write(mesh, (fs::path(staging) / file.filename()).string(), options);
                  });
-  if (row.remove_later_parts != nullptr) row.remove_later_parts(communicator, file.string(), mesh.part_count);
+  if (row.remove_later_parts != nullptr)
+    row.remove_later_parts({mesh.communicator(), file.string()}, mesh.part_count);
 }
 
 }  // namespace aeroloom::io

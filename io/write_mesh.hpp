@@ -1,4 +1,4 @@
-/// Writing a mesh, whatever its format.
+/// Writes a mesh in any format.
 #pragma once
 
 #include "io/file_formats.hpp"
@@ -11,22 +11,21 @@
 namespace aeroloom::io {
 
 struct WriteOptions {
-  std::int32_t parts = 0;                       ///< of formats that come in parts; 0: those of the mesh
-  Compression compression = Compression::none;  ///< of .vtu and .vtp
-  /// Parts are cut anew even where the mesh has as many: those of assemble() are runs of the file's cells,
-  /// which may lie anywhere, and own vertices that they do not use.
+  std::int32_t parts = 0;                       ///< for formats with parts; 0: the parts of the mesh
+  Compression compression = Compression::none;  ///< for .vtu and .vtp
+  /// Repartitions even if the mesh has this number of parts. The parts of assemble() need it: they are ranges
+  /// of the file's cells, not compact, and own vertices that they do not use.
   bool recut = false;
-  /// Beside NAME.pvtu the boundary as NAME_surface.pvtp, and faces between regions, where there are some, as
-  /// NAME_interfaces.pvtp. NAME.vtkhdf has its surface always.
+  /// Writes NAME_surface.pvtp beside NAME.pvtu, and NAME_interfaces.pvtp if there are faces between regions.
+  /// NAME.vtkhdf always has its surface.
   bool surface = false;
 };
 
-/// Writes a mesh to written_path(format, path); what lies beside it (`.mapbc`, folders of
-/// parts, surfaces for viewers) takes its name from there, and appears together with it or not at all
-/// (write_together; OpenFOAM: its mesh does). Formats in parts get as many as asked for, cut anew by
-/// repartition() where the mesh has others. Never gathers; the files depend on the parts, not on ranks.
-/// Collective; throws CollectiveError (files) where something cannot be written, (input) where the format
-/// cannot hold the mesh.
+/// Writes a mesh to written_path(format, path). Companions (`.mapbc`, folders with data files, surfaces for
+/// viewers) take their names from it. All appear together or not at all (write_together); of OpenFOAM the
+/// mesh does. For formats with parts, repartition() cuts the mesh if it has another number of parts than
+/// asked for. The mesh is never gathered; files depend on the parts, not on ranks. Collective. Throws
+/// CollectiveError: (files) where a file cannot be written, (input) where the format cannot hold the mesh.
 void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
                 const WriteOptions& options);
 

@@ -137,7 +137,7 @@ io::CheckpointLabel Checkpoints::label_of(SavedStage stage) const {
 /// Nothing where there is none that can be read.
 std::optional<io::CheckpointLabel> Checkpoints::read_label(SavedStage stage) const {
   try {
-    return io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
+    return io::read_checkpoint_label({_communicator, path_of(stage)}, about_texts);
   } catch (const parallel::CollectiveError& error) {
     if (_communicator.is_root())
       log_warning(fmt::format("checkpoint: {}; stage {} is done anew", error.what(), name_of(stage)));
@@ -149,7 +149,7 @@ std::optional<io::CheckpointLabel> Checkpoints::read_label(SavedStage stage) con
 bool Checkpoints::is_of_this_case(SavedStage stage) const {
   try {
     const std::optional<io::CheckpointLabel> found =
-        io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
+        io::read_checkpoint_label({_communicator, path_of(stage)}, about_texts);
     return !found || found->key == label_of(stage).key;
   } catch (const parallel::CollectiveError&) {
     return false;
@@ -161,7 +161,7 @@ void Checkpoints::refuse_imported() const {
     const auto stage = static_cast<SavedStage>(s);
     std::optional<io::CheckpointLabel> found;
     try {
-      found = io::read_checkpoint_label(_communicator, path_of(stage), about_texts);
+      found = io::read_checkpoint_label({_communicator, path_of(stage)}, about_texts);
     } catch (const parallel::CollectiveError&) {  // find() tells, where it is needed
     }
     if (!found) continue;
@@ -195,7 +195,7 @@ std::optional<io::CheckpointContent> Checkpoints::find(SavedStage stage) {
     return std::nullopt;
   }
   try {
-    io::CheckpointContent content = io::read_checkpoint(_communicator, path_of(stage));
+    io::CheckpointContent content = io::read_checkpoint({_communicator, path_of(stage)});
     parallel::log_info(fmt::format("checkpoint: stage {} from '{}'", name_of(stage), path_of(stage)));
     remove_left_over(stage);
     return content;
@@ -225,7 +225,7 @@ bool Checkpoints::attempt(const std::function<void()>& work) {
 void Checkpoints::keep(SavedStage stage, const std::function<io::CheckpointDraft()>& draft) {
   if (!_writes) return;
   attempt([&] {
-    io::write_checkpoint(_communicator, path_of(stage), label_of(stage), draft());
+    io::write_checkpoint({_communicator, path_of(stage)}, label_of(stage), draft());
     remove_needless(stage);
   });
 }

@@ -26,7 +26,7 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
       throw std::invalid_argument(fmt::format("'{}' cannot be converted onto itself", conversion.from));
   }
   const double begin = parallel::wall_seconds();
-  const io::Assembled file = io::read_mesh(communicator, conversion.from, 0);
+  const io::Assembled file = io::read_mesh({communicator, conversion.from}, 0);
   const io::FileMesh& mesh = file.mesh;
   if (communicator.is_root()) {
     parallel::log_info(fmt::format(

@@ -45,7 +45,7 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   cases::Case fixed = input;
   fixed.improve.boundary_may_change = false;
   mesh::DistributedMesh volume = run_stage(record, "input", report::ExitCode::files, [&] {
-    return imported::import_mesh(communicator, file, input.volume.piece_tets);
+    return imported::import_mesh({communicator, file}, input.volume.piece_tets);
   });
   record.face_names = volume.faces;
   warn_of_layers(volume);

@@ -26,7 +26,7 @@ constexpr int info_schema_version = 1;
 
 geometry::Box bounds_of(const io::FileMesh& mesh) {
   geometry::Box box;
-  for (const io::FilePart& part : mesh.parts) {
+  for (const io::MeshPart& part : mesh.parts) {
     for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) box.add(part.point(v));
   }
   return mesh::box_over_ranks(mesh.pieces->communicator, box);
@@ -50,7 +50,7 @@ void show(const Communicator& communicator, const InfoRequest& request, const Js
 }
 
 void show_mesh(const Communicator& communicator, const InfoRequest& request) {
-  const io::Assembled file = io::read_mesh(communicator, request.file, 0);
+  const io::Assembled file = io::read_mesh({communicator, request.file}, 0);
   const io::ReadableFile format = io::readable_file(request.file);
   MeshFileFacts facts{std::string(format.end->description), 0, bounds_of(file.mesh)};
   if (communicator.is_root() && format.row->named_parts != nullptr)

@@ -85,7 +85,7 @@ std::string dump(const Json& json) {
 
 std::string show_quality(const parallel::Communicator& communicator, const QualityRequest& request,
                          const cases::QualityGate& gate) {
-  const io::Assembled file = io::read_mesh(communicator, request.file, 0);
+  const io::Assembled file = io::read_mesh({communicator, request.file}, 0);
   const mesh::NumberedMesh& pieces = *file.mesh.pieces;
   const mesh::MixedQuality quality = mesh::measure_quality(pieces, mesh::link_faces(pieces));
   std::string missed = cases::missed_limits(gate, quality);

@@ -108,7 +108,7 @@ void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* s
   for (const io::FileFormat format : output.formats) {
     const io::FormatRow& row = io::row_of(format);
     if (row.remove_later_parts != nullptr)
-      row.remove_later_parts(communicator, path_of(output, format), parts);
+      row.remove_later_parts({communicator, path_of(output, format)}, parts);
   }
 }
 

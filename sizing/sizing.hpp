@@ -2,7 +2,7 @@
 /// bounds, it makes the size field that every later stage follows.
 #pragma once
 
-#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/feature_resolution.hpp"
 #include "sizing/choice/given_sizes.hpp"
 #include "sizing/choice/levels.hpp"
 #include "sizing/field/size_field.hpp"

@@ -184,8 +184,8 @@ void PiecePool::mesh_problems(const TaskDistribution& distribution, const CurveM
                     distribution.places.at(key)};
       meshed.vertex_sizes = sizes_at_vertices(field, meshed.piece);
       parallel::note_task({parallel::TaskKind::surface_piece, key[0],
-                           load_of_piece(problem.load, static_cast<double>(problem.surface.triangles.size())),
-                           parallel::cpu_seconds() - begin, mesh::bytes_at_rest(meshed.piece)});
+                           load_of_piece(problem.load, problem.facets()), parallel::cpu_seconds() - begin,
+                           mesh::bytes_at_rest(meshed.piece)});
       _meshed.emplace(key, std::move(meshed));
     } catch (const FaceConflict& conflict) {
       if (conflicts.message.empty()) conflicts.message = conflict.what();

@@ -77,11 +77,10 @@ private:
   parallel::TaskStore* _tasks;  // may be null
   TaskDistributor _distributor;
   bool _started = false;
-  double _first = 0;                 // triangles predicted in the first round
-  std::vector<std::int32_t> _parts;  // per face: pieces, 0 before it is divided
-  std::map<PieceKey, double>
-      _costs;  // of the piece problems of faces made here in this round, in triangles to mesh
-  std::map<PieceKey, Meshed> _meshed;                 // on this rank
+  double _first = 0;                   // triangles predicted in the first round
+  std::vector<std::int32_t> _parts;    // per face: pieces, 0 before it is divided
+  std::map<PieceKey, double> _costs;   // of faces prepared here in this round, in triangles to mesh
+  std::map<PieceKey, Meshed> _meshed;  // on this rank
   std::map<PieceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };
 

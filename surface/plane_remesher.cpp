@@ -98,10 +98,9 @@ private:
       const FaceId face = key[0];
       try {
         mesh::Piece piece = mesh_piece(_model, problem, _field, _options);
-        parallel::note_task(
-            {parallel::TaskKind::surface_piece, face,
-             load_of_piece(problem.load, static_cast<double>(problem.surface.triangles.size())),
-             parallel::cpu_seconds() - begin, mesh::bytes_at_rest(piece)});
+        parallel::note_task({parallel::TaskKind::surface_piece, face,
+                             load_of_piece(problem.load, problem.facets()), parallel::cpu_seconds() - begin,
+                             mesh::bytes_at_rest(piece)});
         _pieces.insert_or_assign({face, distribution.places.at(key)}, std::move(piece));
       } catch (const FaceConflict& conflict) {
         reject(face, problem, conflict.vertices(), conflict.what());
@@ -200,7 +199,7 @@ private:
   std::map<FaceId, std::int32_t> _parts;  // of each face: pieces
   std::map<std::pair<FaceId, std::int32_t>, mesh::Piece> _pieces;  // on this rank, by face and place there
   PlaneConflicts _mine;                                            // of this rank
-  std::vector<FaceId> _undivided;  // that had better stay whole, says this rank
+  std::vector<FaceId> _undivided;                                  // of this rank: to be one piece each
 };
 
 }  // namespace

@@ -38,7 +38,7 @@ struct NewLattice {
 NewLattice make_lattice(const VolumeInput& input) {
   const bool is_alone = input.surface.communicator.size() == 1;
   auto lattice = std::make_unique<Lattice>(grow_lattice(input, mesh::box_of(input.surface)));
-  // One rank has the whole surface. The search radii do not change the regions: all triangles give the same.
+  // One rank has the whole surface. The search radii do not change the regions: any triangle gives the same.
   if (!is_alone) {
     const ScopedCpu task(ScopedCpu::As::task);
     lattice->radii = search_radii_of_blocks(*lattice, lattice->tree.first(), lattice->tree.last());

@@ -18,11 +18,11 @@ class TaskStore;
 
 namespace aeroloom::volume {
 
-/// The input of the volume stage. Refers to what lives elsewhere.
+/// The input of the volume stage. Refers to surface and tasks.
 struct VolumeInput {
-  const sizing::SizedSurface& surface;  ///< closed around every region, its vertices classified
+  const sizing::SizedSurface& surface;  ///< closed around every region, with classified vertices
   VolumeOptions options;
-  parallel::TaskStore* tasks = nullptr;  ///< where filled zones are kept and found, if anywhere
+  parallel::TaskStore* tasks = nullptr;  ///< store of filled zones, or null
   bool surface_numbers = false;          ///< whether pieces get mesh::Piece::surface_numbers
 };
 

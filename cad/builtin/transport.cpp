@@ -1,6 +1,6 @@
 #include "cad/builtin/transport.hpp"
 
-#include "cad/builtin/transport_parts.hpp"
+#include "cad/builtin/transport_components.hpp"
 #include "cad/model/named_shape.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/repair/volumes.hpp"
@@ -26,7 +26,7 @@
 namespace aeroloom::cad {
 namespace {
 
-/// In the aircraft's unit, metres: sides of its parts are the same curves, off by rounding alone.
+/// In the aircraft's unit, metres: sides of its components are the same curves, off by rounding alone.
 constexpr double sewing_tolerance = 1e-6;
 /// How deep a root section lies inside the fuselage, at least, in fuselage diameters: no boolean operation
 /// has to cut faces that touch.
@@ -34,7 +34,7 @@ constexpr double least_depth = 0.005;
 /// Where roots may lie, in fuselage radii off the plane of symmetry, the first that is inside enough: the
 /// farther off, the shorter what is cut away.
 constexpr double root_stations[] = {0.35, 0.2, 0.1};
-/// Beyond these bounds (degrees, over chord) parts would cross themselves or each other.
+/// Beyond these bounds (degrees, over chord) components would cross themselves or each other.
 constexpr double most_sweep = 75, most_dihedral = 60, most_incidence = 30, most_thickness = 0.4,
                  most_camber = 0.1;
 
@@ -108,12 +108,12 @@ void check_tip_outside(const std::string& name, const Fuselage& fuselage, const 
   }
 }
 
-Part mirror(const Part& part, const std::string& from, const std::string& to) {
+Component mirror(const Component& component, const std::string& from, const std::string& to) {
   gp_Trsf reflection;
   reflection.SetMirror(gp_Ax2(gp::Origin(), gp::DY()));
-  BRepBuilderAPI_Transform transform(part.solid, reflection, Standard_True);
-  Part result{transform.Shape(), {}};
-  for (const NamedFace& face : part.faces) {
+  BRepBuilderAPI_Transform transform(component.solid, reflection, Standard_True);
+  Component result{transform.Shape(), {}};
+  for (const NamedFace& face : component.faces) {
     std::string name = face.name;
     name.replace(name.find(from), from.size(), to);
     result.faces.push_back({TopoDS::Face(transform.ModifiedShape(face.face)), name});
@@ -121,34 +121,34 @@ Part mirror(const Part& part, const std::string& from, const std::string& to) {
   return result;
 }
 
-std::vector<Part> make_parts(const TransportDimensions& d) {
+std::vector<Component> make_components(const TransportDimensions& d) {
   const Fuselage fuselage(d);
   const double radius = 0.5 * d.fuselage_diameter;
   std::vector<double> beside;
   for (const double station : root_stations) beside.push_back(station * radius);
-  std::vector<Part> parts{fuselage.make_part()};
+  std::vector<Component> components{fuselage.make_component()};
   const auto add_halves = [&](const std::string& name, const LiftingSurface& surface) {
     const Lifting lifting(surface, SpreadTo::right);
     const double inner = find_inner_station(name, fuselage, lifting, beside, d);
     check_tip_outside(name, fuselage, lifting, surface.half_span);
-    parts.push_back(lifting.make_part(name + "_right", inner));
-    parts.push_back(mirror(parts.back(), "_right", "_left"));
+    components.push_back(lifting.make_component(name + "_right", inner));
+    components.push_back(mirror(components.back(), "_right", "_left"));
   };
   add_halves("wing", d.wing);
   add_halves("horizontal_tail", d.horizontal_tail);
   const Lifting fin(d.vertical_tail, SpreadTo::up);
   const double inner = find_inner_station("vertical_tail", fuselage, fin, {0.0}, d);
   check_tip_outside("vertical_tail", fuselage, fin, d.vertical_tail.half_span);
-  parts.push_back(fin.make_part("vertical_tail", inner));
-  return parts;
+  components.push_back(fin.make_component("vertical_tail", inner));
+  return components;
 }
 
 /// Checks what a boolean operation that reports success may still have got wrong.
-void check_union(const TopoDS_Shape& shape, const std::vector<Part>& parts) {
+void check_union(const TopoDS_Shape& shape, const std::vector<Component>& components) {
   Volumes volumes;
   double sum = 0;
-  for (const Part& part : parts) sum += volumes.of(part.solid);
-  const double total = volumes.of(shape), fuselage = volumes.of(parts.front().solid);
+  for (const Component& component : components) sum += volumes.of(component.solid);
+  const double total = volumes.of(shape), fuselage = volumes.of(components.front().solid);
   if (!(total > fuselage && total < sum) || !BRepCheck_Analyzer(shape).IsValid()) {
     throw CadError(
         fmt::format("transport: the dimensions do not unite to one valid body (fuselage {:.6g} m^3, sum of "
@@ -157,10 +157,10 @@ void check_union(const TopoDS_Shape& shape, const std::vector<Part>& parts) {
   }
 }
 
-NamedShape unite_parts(const std::vector<Part>& parts) {
+NamedShape unite_all(const std::vector<Component>& components) {
   TopTools_ListOfShape arguments, tools;
-  arguments.Append(parts.front().solid);
-  for (std::size_t i = 1; i < parts.size(); ++i) tools.Append(parts[i].solid);
+  arguments.Append(components.front().solid);
+  for (std::size_t i = 1; i < components.size(); ++i) tools.Append(components[i].solid);
   BRepAlgoAPI_Fuse fuse;
   fuse.SetArguments(arguments);
   fuse.SetTools(tools);
@@ -171,15 +171,13 @@ NamedShape unite_parts(const std::vector<Part>& parts) {
   result.shape = solids.Current();
   solids.Next();
   if (solids.More()) throw CadError("transport: the parts do not form one body");
-  check_union(result.shape, parts);
-  for (const Part& part : parts) {
-    for (const NamedFace& face : part.faces) {
+  check_union(result.shape, components);
+  for (const Component& component : components) {
+    for (const NamedFace& face : component.faces) {
+      const FaceLabel label{face.name, "", "", "transport", false};
       const TopTools_ListOfShape& modified = fuse.Modified(face.face);
-      for (const TopoDS_Shape& piece : modified)
-        result.labels.Bind(piece, {face.name, "", "", "transport", false});
-      if (modified.IsEmpty() && !fuse.IsDeleted(face.face)) {
-        result.labels.Bind(face.face, {face.name, "", "", "transport", false});
-      }
+      for (const TopoDS_Shape& piece : modified) result.labels.Bind(piece, label);
+      if (modified.IsEmpty() && !fuse.IsDeleted(face.face)) result.labels.Bind(face.face, label);
     }
   }
   result.unit_name.assign(1, 'm');
@@ -193,7 +191,7 @@ TopoDS_Face whole_face(const Handle(Geom_Surface) & surface) {
   return BRepBuilderAPI_MakeFace(surface, sewing_tolerance);
 }
 
-Part sew_part(const std::vector<NamedFace>& faces) {
+Component sew_component(const std::vector<NamedFace>& faces) {
   BRepBuilderAPI_Sewing sewing(sewing_tolerance);
   for (const NamedFace& face : faces) sewing.Add(face.face);
   sewing.Perform();
@@ -203,16 +201,16 @@ Part sew_part(const std::vector<NamedFace>& faces) {
   }
   TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
   BRepLib::OrientClosedSolid(solid);
-  Part part{solid, {}};
+  Component component{solid, {}};
   for (const NamedFace& face : faces) {
-    part.faces.push_back({TopoDS::Face(sewing.ModifiedSubShape(face.face)), face.name});
+    component.faces.push_back({TopoDS::Face(sewing.ModifiedSubShape(face.face)), face.name});
   }
-  return part;
+  return component;
 }
 
 NamedShape make_transport(const TransportDimensions& dimensions) {
   check_dimensions(dimensions);
-  return guarded("building the transport aircraft", [&] { return unite_parts(make_parts(dimensions)); });
+  return guarded("building the transport aircraft", [&] { return unite_all(make_components(dimensions)); });
 }
 
 }  // namespace aeroloom::cad

@@ -1,23 +1,24 @@
-/// The built-in transport aircraft: a parametric configuration to try the program on without a file.
+/// The built-in transport aircraft, given by its dimensions. It lets users try the program without a CAD
+/// file.
 #pragma once
 
 #include <tuple>
 
 namespace aeroloom::cad {
 
-/// A lifting surface, half span, from a symmetric or cambered four-digit aerofoil.
+/// One half of a lifting surface. Its section is a four-digit NACA aerofoil.
 struct LiftingSurface {
   double root_chord;      ///< m, at the symmetry plane
   double taper;           ///< tip chord over root chord, (0,1]
-  double half_span;       ///< m, from the symmetry plane (fin: from the root) to the tip
+  double half_span;       ///< m, from the symmetry plane (fin: from the root) to the wing tip
   double sweep;           ///< degrees, of the leading edge
   double dihedral;        ///< degrees
-  double thickness;       ///< largest thickness over chord
-  double camber;          ///< largest camber over chord
+  double thickness;       ///< maximum thickness over chord
+  double camber;          ///< maximum camber over chord
   double root_incidence;  ///< degrees, nose up
   double tip_incidence;   ///< degrees, nose up
-  double x;               ///< m, leading edge of the root behind the nose
-  double z;               ///< m, root above the fuselage axis
+  double x;               ///< m, from the nose to the leading edge of the root
+  double z;               ///< m, height of the root above the fuselage axis
   double trailing_edge;   ///< thickness of the blunt trailing edge over chord; 0 makes it sharp
 
   static constexpr auto fields() {
@@ -29,8 +30,8 @@ struct LiftingSurface {
   }
 };
 
-/// All dimensions in metres and degrees; x aft, y to the right wing, z up, nose at the origin. The defaults
-/// give a single-aisle transport of about 38 m length and 34 m span.
+/// Dimensions are in metres and degrees. x points aft, y to the right wing, z up; the origin is the nose. The
+/// defaults give a single-aisle transport of about 38 m length and 34 m span.
 struct TransportDimensions {
   double fuselage_length = 37.6;
   double fuselage_diameter = 3.95;

@@ -1,4 +1,4 @@
-#include "cad/builtin/transport_parts.hpp"
+#include "cad/builtin/transport_components.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -61,7 +61,7 @@ Fuselage::Fuselage(const TransportDimensions& d) {
   _breaks = {0, cabin_front - 1, cabin_end - 1, spans};
 }
 
-Part Fuselage::make_part() const {
+Component Fuselage::make_component() const {
   const int count = static_cast<int>(_stations.size()), spans = count - spline_degree;
   TColStd_Array1OfReal u_knots(1, 2), v_knots(1, spans + 1);
   TColStd_Array1OfInteger u_multiplicities(1, 2), v_multiplicities(1, spans + 1);
@@ -92,7 +92,7 @@ Part Fuselage::make_part() const {
       faces.push_back({whole_face(part), "fuselage"});
     }
   }
-  return sew_part(faces);
+  return sew_component(faces);
 }
 
 Fuselage::Station Fuselage::evaluate(double parameter) const {

@@ -1,4 +1,4 @@
-#include "cad/builtin/transport_parts.hpp"
+#include "cad/builtin/transport_components.hpp"
 #include "cad/tolerances.hpp"
 
 #include <cmath>
@@ -154,7 +154,7 @@ std::vector<Vec3> Lifting::section(double station) const {
   return points;
 }
 
-Part Lifting::make_part(const std::string& name, double inner_station) const {
+Component Lifting::make_component(const std::string& name, double inner_station) const {
   const bool up = _to == SpreadTo::up;
   const double outer_station = _surface.half_span;
   const auto inner = [&](Vec2 p) { return place(p, inner_station); };
@@ -175,7 +175,7 @@ Part Lifting::make_part(const std::string& name, double inner_station) const {
     faces.push_back({whole_face(rule(line(inner(low), inner(high)), line(outer(low), outer(high)))),
                      name + "_trailing_edge"});
   }
-  return sew_part(faces);
+  return sew_component(faces);
 }
 
 }  // namespace aeroloom::cad

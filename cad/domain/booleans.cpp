@@ -1,6 +1,5 @@
 #include "cad/domain/booleans.hpp"
 
-#include "cad/model/model.hpp"
 #include "cad/model/step_trace.hpp"
 
 #include <TopExp_Explorer.hxx>
@@ -12,18 +11,17 @@ void follow_labels(BRepBuilderAPI_MakeShape& operation, const std::vector<TopoDS
                    FaceLabels& labels) {
   for (const TopoDS_Solid& solid : arguments) {
     for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next()) {
-      const FaceLabel* label = labels.Seek(faces.Current());
-      if (!label) continue;
-      const FaceLabel kept = *label;
+      if (!labels.IsBound(faces.Current())) continue;
       for (const TopoDS_Shape& image : operation.Modified(faces.Current())) {
-        if (image.ShapeType() == TopAbs_FACE && !labels.IsBound(image)) labels.Bind(image, kept);
+        if (image.ShapeType() == TopAbs_FACE && !labels.IsBound(image))
+          copy_label(labels, faces.Current(), image);
       }
     }
   }
 }
 
 void perform(BRepAlgoAPI_BuilderAlgo& operation, const char* doing) {
-  tell_step(doing);
+  report_step(doing);
   operation.SetRunParallel(false);
   operation.SetToFillHistory(true);
   operation.Build();

@@ -4,7 +4,7 @@
 #include "cad/domain/far_field.hpp"
 #include "cad/domain/far_field_shape.hpp"
 #include "cad/domain/mixed_bodies.hpp"
-#include "cad/domain/sharpen.hpp"
+#include "cad/domain/trailing_edges.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -188,22 +188,18 @@ Domain prepare(const DomainOptions& options, const std::string& distrust) {
   return {std::move(model), std::move(report)};
 }
 
-std::string source_name(const DomainOptions& options) {
-  return options.transport ? "the built-in aircraft" : fmt::format("'{}'", options.file);
-}
-
 /// Errors below know the entity, not the file.
 template <class Action>
 auto with_source(const DomainOptions& options, Action&& action) {
-  const std::string source = source_name(options);
+  const std::string source = options.transport ? "the built-in aircraft" : fmt::format("'{}'", options.file);
   try {
     return guarded("preparing the domain", std::forward<Action>(action));
   } catch (const CadError& error) {
     const std::string text = error.what();
-    const auto is_told = [&](const std::string& name) { return text.find(name) != std::string::npos; };
-    if (is_told(source)) throw;
+    const auto is_named = [&](const std::string& name) { return text.find(name) != std::string::npos; };
+    if (is_named(source)) throw;
     for (const FacetedBody& part : options.parts)
-      if (is_told(part.file)) throw;
+      if (is_named(part.file)) throw;
     throw CadError(source + ": " + text);
   }
 }
@@ -216,7 +212,7 @@ Domain prepare_domain(const DomainOptions& options) {
   });
 }
 
-void export_step(const DomainOptions& options, ExportedPart part, const std::string& file) {
+void export_step(const DomainOptions& options, ExportedShape shape, const std::string& file) {
   with_source(options, [&] {
     const auto refuse_facets = [] {
       throw CadError("triangles are not written as STEP. Remedy: geometry of a CAD program");
@@ -224,7 +220,7 @@ void export_step(const DomainOptions& options, ExportedPart part, const std::str
     if (has_facets(options) || !options.parts.empty()) refuse_facets();
     Changes changes;
     Volumes volumes;
-    if (part == ExportedPart::geometry)
+    if (shape == ExportedShape::geometry)
       return write_step(make_solids(read_source(options), options.smallest_size, volumes, changes), file);
     const FluidShape fluid = make_fluid(options, {}, volumes, changes);
     if (fluid.mixed) refuse_facets();

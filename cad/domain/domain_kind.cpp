@@ -1,5 +1,6 @@
 #include "cad/domain/domain_kind.hpp"
 
+#include "cad/model/shape_map.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
@@ -7,10 +8,6 @@
 #include <limits>
 #include <numbers>
 
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Face.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -75,7 +72,7 @@ double radical_inverse(int base, int index) {
   return result;
 }
 
-/// Share of the box, by Halton's points.
+/// The fraction of the box, by Halton's points.
 double Polytope::volume(const Box& box) const {
   constexpr int samples = 20000;  // chosen, not measured
   const Vec3 size = box.size();
@@ -112,8 +109,7 @@ double distance_to_hull(const Facets& facets, const Polytope& hull) {
 /// As side_of_box(); the box of a face takes long where it is no plane, and its edges tell mostly that it is
 /// not flat.
 std::string side_of_face(const TopoDS_Shape& face, const Box& all) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape edges = map_of(face, TopAbs_EDGE);
   const Box border = tight_box(std::vector<TopoDS_Shape>(edges.cbegin(), edges.cend()));
   if (!border.empty() && side_of_box(border, all).empty()) return {};
   return side_of_box(tight_box(face), all);
@@ -161,8 +157,7 @@ KindDecision decide_kind(const HullComparison& hull) {
 }
 
 std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const HullComparison* hull) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(domain.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(domain.shape, TopAbs_FACE);
   const Box all = kind == DomainKind::fluid ? tight_box(domain.shape) : Box{};
   const std::vector<std::vector<int>> solids = solids_around_faces(domain.shape);
   bool is_numbered = false;

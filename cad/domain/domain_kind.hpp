@@ -1,4 +1,4 @@
-/// Whether solids are the fluid or bodies in it, and what a face is called. Seen by this folder only.
+/// Decides whether solids are the fluid or bodies in it. Names faces and patches. Internal to cad/.
 #pragma once
 
 #include "cad/domain/domain.hpp"
@@ -9,16 +9,14 @@
 
 namespace aeroloom::cad {
 
-/// Solids against their convex hull.
+/// How solids compare with their convex hull.
 struct HullComparison {
   double fill = 0;            ///< volume of the solids over that of the hull
-  std::vector<char> on_hull;  ///< per face: it is part of the hull's surface
-  int inner_faces =
-      0;  ///< faces with much of the hull in front of them, as around an obstacle or in a cavity
+  std::vector<char> on_hull;  ///< per face: it lies on the surface of the hull
+  int inner_faces = 0;        ///< faces deep inside the hull, as of an obstacle or a cavity
 };
 
-/// Compares by coarse facets and a polytope of some 200 half spaces around them. `volume` is that of all
-/// solids.
+/// The hull is that of coarse facets, approximated by about 200 half spaces. `volume` is that of all solids.
 HullComparison compare_with_hull(const Model& solids, double volume);
 
 struct KindDecision {
@@ -26,18 +24,19 @@ struct KindDecision {
   std::string reason;
 };
 
-/// Fluid when the solids nearly fill their hull and faces lie well inside it (a box minus an aircraft);
-/// otherwise bodies.
+/// The solids are the fluid if they fill most of their hull and some faces lie deep inside it, as in a box
+/// minus an aircraft. Otherwise they are bodies.
 KindDecision decide_kind(const HullComparison& comparison);
 
-/// "xmin" and so on for a flat face on the box; empty otherwise.
+/// "xmin", "xmax" and so on if the face is flat and lies on a side of the box; empty otherwise.
 std::string side_of_box(const Box& face, const Box& all);
 
-/// Face and patch names of the domain, by TopExp's order of faces. A patch is called as its face where the
-/// file names it. Unnamed faces between two regions are called "interface_<region>_<region>". Unnamed faces
-/// of bodies go by solid, layer or colour, in this order, and last "body"; those of a ready-made fluid by
-/// layer or colour, then "xmin" ... "zmax" for planar faces on the domain's box, "outer" for others on its
-/// hull, and "body" for the rest.
+/// Names of all faces and of their patches, in the order of TopExp. A patch has the name of its face if the
+/// file names the face. For unnamed faces the patch is:
+/// - between two regions: "interface_<region>_<region>";
+/// - of bodies: the name of the solid, the layer or the colour, else "body";
+/// - of a ready-made fluid: layer or colour; "xmin" to "zmax" on a side of the box; "outer" on the hull; else
+/// "body".
 std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const HullComparison* hull);
 
 }  // namespace aeroloom::cad

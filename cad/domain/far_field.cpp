@@ -13,13 +13,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
 #include <BRepClass3d.hxx>
 #include <BRep_Builder.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -29,10 +27,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-bool holds(const Box& outer, const Box& inner) {
-  return outer.contains(inner.low) && outer.contains(inner.high);
-}
 
 /// The shells that face the fluid. A body's cavities hold no outside fluid; a body in another's cavity never
 /// meets it.
@@ -59,7 +53,7 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
   for (std::size_t i = 0; i < nested.size(); ++i) {
     bool buried = false;
     for (std::size_t j = 0; j < nested.size() && !buried; ++j) {
-      const bool may_nest = i != j && (holds(boxes[i], boxes[j]) || holds(boxes[j], boxes[i]));
+      const bool may_nest = i != j && (boxes[i].contains(boxes[j]) || boxes[j].contains(boxes[i]));
       buried = may_nest && nest_shells({outer[j], outer[i]}, volumes).size() == 1;
     }
     if (!buried) outermost.push_back(outer[i]);
@@ -176,7 +170,7 @@ TopoDS_Solid make_fluid_solid(const Walls& walls, const FaceLabels& labels, Volu
   const auto groups = connected_groups(all);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const TopoDS_Shell shell = make_closed_shell(groups[i]);
-    const bool has_island = std::any_of(groups[i].begin(), groups[i].end(), [&](const TopoDS_Face& face) {
+    const bool has_island = std::ranges::any_of(groups[i], [&](const TopoDS_Face& face) {
       const FaceLabel* label = labels.Seek(face);
       return label != nullptr && label->symmetry;
     });
@@ -251,7 +245,7 @@ void require_off_plane(const Box& beside, const SymmetryPlane& symmetry) {
 
 NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes,
                     const Box& beside) {
-  tell_step("building the far field");
+  report_step("building the far field");
   const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
   Box box = tight_box(bodies.shape);
   if (symmetry && !beside.empty()) require_off_plane(beside, *symmetry);

@@ -1,6 +1,8 @@
 #include "cad/domain/far_field_shape.hpp"
 
-#include <algorithm>
+#include "cad/model/shape_map.hpp"
+#include "cad/model/to_vec.hpp"
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -8,8 +10,6 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <fmt/format.h>
 #include <gp.hxx>
 #include <gp_Ax2.hxx>
@@ -32,7 +32,7 @@ TopoDS_Solid make_box(const Extent& extent, const std::optional<SymmetryPlane>& 
   Vec3 low{extent.center.X() - r, extent.center.Y() - r, extent.center.Z() - r};
   Vec3 high{extent.center.X() + r, extent.center.Y() + r, extent.center.Z() + r};
   if (symmetry) (symmetry->positive ? low : high)[symmetry->axis] = symmetry->position;
-  return BRepPrimAPI_MakeBox(gp_Pnt(low.x, low.y, low.z), gp_Pnt(high.x, high.y, high.z)).Solid();
+  return BRepPrimAPI_MakeBox(to_gp(low), to_gp(high)).Solid();
 }
 
 /// A sphere, or the half of it inside the plane.
@@ -120,8 +120,7 @@ void require_clearance(const FarFieldOptions& options, const Box& body, const gp
 }
 
 void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(far_field, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(far_field, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i) {
     FaceLabel label;
     label.name = faces.Extent() == 1 ? std::string("farfield") : fmt::format("farfield_{}", i);
@@ -137,7 +136,7 @@ TopoDS_Solid place_far_field(const FarFieldOptions& options, const BodyBoxes& bo
                              const std::optional<SymmetryPlane>& symmetry, FaceLabels& labels) {
   const Box& box = bodies.body;
   const double reference = unit_of(options, bodies.whole, box, symmetry);
-  gp_Pnt center(box.center().x, box.center().y, box.center().z);
+  gp_Pnt center = to_gp(box.center());
   if (symmetry) center.SetCoord(symmetry->axis + 1, symmetry->position);
   require_clearance(options, box, center, reference);
   TopoDS_Solid far_field = make_far_field(options, {center, options.extent * reference}, symmetry);

@@ -1,4 +1,4 @@
-/// Where a far field stands and what it looks like. Seen by this folder only.
+/// Position, size and shape of the far field. Internal to cad/.
 #pragma once
 
 #include "cad/domain/symmetry.hpp"
@@ -10,7 +10,7 @@
 
 namespace aeroloom::cad {
 
-/// Boxes of the bodies: before they were cut at a plane of symmetry, and of what is left.
+/// The box of the bodies before they were cut at a symmetry plane (`whole`) and after (`body`).
 struct BodyBoxes {
   Box whole, body;
 };
@@ -19,7 +19,7 @@ inline double largest_extent(Vec3 size) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// The far field around bodies, its faces labelled. Throws CadError where it does not clear them.
+/// The far field around bodies, with labelled faces. Throws CadError if it does not clear them.
 TopoDS_Solid place_far_field(const FarFieldOptions& options, const BodyBoxes& bodies,
                              const std::optional<SymmetryPlane>& symmetry, FaceLabels& labels);
 

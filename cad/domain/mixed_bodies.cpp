@@ -1,6 +1,5 @@
 #include "cad/domain/mixed_bodies.hpp"
 
-#include "cad/domain/domain_kind.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_meeting.hpp"
 #include "cad/faceted/facet_walls.hpp"
@@ -43,12 +42,6 @@ void append_soup(FacetSoup& all, const FacetSoup& more) {
   }
 }
 
-Box box_of(const FacetSoup& soup) {
-  Box box;
-  for (const Vec3 p : soup.points) box.add(p);
-  return box;
-}
-
 std::string name_of_soup(const FacetSoup& soup) {
   const FacetSoup::Group& group = soup.groups[soup.group_of.front()];
   return group.part.empty() ? group.name : group.part;
@@ -72,8 +65,9 @@ public:
     for (const TopoDS_Solid& solid : refused.solids) bodies.push_back({solid, tight_box(solid), {}});
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        const MeetingPlace found = meet(
-            bodies[i], [&](double share) -> const FacetSoup& { return triangulate(bodies[j], share).soup; });
+        const MeetingPlace found = meet(bodies[i], [&](double fraction) -> const FacetSoup& {
+          return triangulate(bodies[j], fraction).soup;
+        });
         if (found.meeting != FacetMeeting::near) continue;
         throw CadError(fmt::format("{}; nor do their triangles tell whether they touch near {}",
                                    refused.reason, geometry::place_text(found.at)));
@@ -100,13 +94,13 @@ public:
   /// What lies inside a body of the other kind does not reach the fluid.
   void drop_buried() {
     const auto is_buried = [&](const FacetSoup& soup) {
-      return std::any_of(_solids.begin(), _solids.end(), [&](CadBody& body) {
+      return std::ranges::any_of(_solids, [&](CadBody& body) {
         return !body.facets.soup.triangles.empty() && encloses(body.facets.soup, soup.points.front());
       });
     };
     const std::size_t facets = std::erase_if(_facets, is_buried);
     const std::size_t solids = std::erase_if(_solids, [&](const CadBody& body) {
-      return std::any_of(_facets.begin(), _facets.end(), [&](const FacetSoup& soup) {
+      return std::ranges::any_of(_facets, [&](const FacetSoup& soup) {
         return !body.facets.soup.triangles.empty() && encloses(soup, body.facets.soup.points.front());
       });
     });
@@ -132,7 +126,7 @@ private:
     TopoDS_Solid solid;
     Box box;
     ShapeFacets facets;
-    double share = 0;  ///< of the limits that the facets were made with; 0: not made
+    double fraction = 0;  ///< of the limits that the facets were made with; 0: not made
   };
 
   double deflection(const CadBody& body) const {
@@ -141,10 +135,10 @@ private:
     return std::max(deflection_over_size * _options.smallest_size, least_deflection * diagonal);
   }
 
-  const ShapeFacets& triangulate(CadBody& body, double share) {
-    if (body.share == 0 || body.share > share) {
-      body.facets = facets_of(body.solid, _labels, {share * deflection(body), most_facet_angle});
-      body.share = share;
+  const ShapeFacets& triangulate(CadBody& body, double fraction) {
+    if (body.fraction == 0 || body.fraction > fraction) {
+      body.facets = facets_of(body.solid, _labels, {fraction * deflection(body), most_facet_angle});
+      body.fraction = fraction;
     }
     return body.facets;
   }
@@ -153,10 +147,10 @@ private:
   template <class Other>
   MeetingPlace meet(CadBody& body, const Other& other) {
     MeetingPlace found;
-    for (const double share : finer) {
-      const FacetSoup& soup = other(share);
-      const ShapeFacets& own = triangulate(body, share);
-      found = find_meeting(own.soup, soup, 2 * std::max(own.deviation, share * deflection(body)));
+    for (const double fraction : finer) {
+      const FacetSoup& soup = other(fraction);
+      const ShapeFacets& own = triangulate(body, fraction);
+      found = find_meeting(own.soup, soup, 2 * std::max(own.deviation, fraction * deflection(body)));
       if (found.meeting != FacetMeeting::near) return found;
     }
     return found;
@@ -165,7 +159,7 @@ private:
   /// What a CAD body overlaps among the triangles.
   std::optional<std::string> overlapped_by(CadBody& body) {
     for (const FacetSoup& soup : _facets) {
-      if (!box_of(soup).overlaps(body.box.dilated(2 * deflection(body)))) continue;
+      if (!box_of_points(soup.points).overlaps(body.box.dilated(2 * deflection(body)))) continue;
       const MeetingPlace found = meet(body, [&](double) -> const FacetSoup& { return soup; });
       if (found.meeting == FacetMeeting::crossing) return name_of_soup(soup);
       if (found.meeting == FacetMeeting::apart) continue;
@@ -207,7 +201,7 @@ std::optional<FacetComplex> make_walls(FacetSoup facets, const DomainOptions& op
 
 void gather_facets(BodyMixer& mixer, const std::vector<RefusedUnion>& refused, bool has_cad,
                    const DomainOptions& options, Changes& changes) {
-  tell_step("reading the triangles");
+  report_step("reading the triangles");
   if (!has_cad) mixer.add(read_bodies(options.file, 1, options.feature_angle, changes));
   for (const FacetedBody& part : options.parts) mixer.add(read_part(part, options.feature_angle, changes));
   for (const RefusedUnion& each : refused) mixer.add_refused(each);
@@ -221,7 +215,7 @@ MixedFluid surround_mixed(NamedShape bodies, const std::vector<RefusedUnion>& re
   const bool has_cad = !bodies.shape.IsNull();
   BodyMixer mixer(bodies, options, changes);
   gather_facets(mixer, refused, has_cad, options, changes);
-  tell_step("finding bodies that overlap triangles");
+  report_step("finding bodies that overlap triangles");
   mixer.absorb();
   mixer.drop_buried();
   MixedFluid fluid;
@@ -234,13 +228,12 @@ MixedFluid surround_mixed(NamedShape bodies, const std::vector<RefusedUnion>& re
     fluid.shape = far_field_around(*walls, far_field);
     fluid.shape.unit_name = bodies.unit_name, fluid.shape.unit_in_metres = bodies.unit_in_metres;
   } else {
-    Box beside;
-    for (std::size_t p = 0; walls && p < walls->points.size(); ++p) beside.add(walls->points[p]);
+    const Box beside = walls ? box_of_points(walls->points) : Box{};
     bodies.shape = make_compound(solids);
     fluid.shape = surround(std::move(bodies), far_field, volumes, changes, beside);
   }
   if (!walls) return fluid;
-  fluid.walls.emplace(make_faceted_part(*std::move(walls)));
+  fluid.walls.emplace(make_faceted_geometry(*std::move(walls)));
   fluid.wall_tags = tag_walls(fluid.walls->complex(), !has_cad);
   return fluid;
 }

@@ -2,11 +2,11 @@
 
 #include "cad/domain/booleans.hpp"
 #include "cad/model/model_data.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,7 +18,6 @@
 #include <GeomLib_IsPlanarSurface.hxx>
 #include <Geom_Surface.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
 
@@ -123,17 +122,14 @@ TopoDS_Solid half_space(const Box& box, const SymmetryPlane& symmetry, bool posi
   const double margin = box.diagonal();
   Vec3 low = box.low - margin * Vec3{1, 1, 1}, high = box.high + margin * Vec3{1, 1, 1};
   (positive ? low : high)[symmetry.axis] = symmetry.position;
-  return BRepPrimAPI_MakeBox(gp_Pnt(low.x, low.y, low.z), gp_Pnt(high.x, high.y, high.z)).Solid();
+  return BRepPrimAPI_MakeBox(to_gp(low), to_gp(high)).Solid();
 }
 
 std::vector<TopoDS_Solid> common_with(const TopoDS_Solid& body, const TopoDS_Solid& half,
                                       FaceLabels& labels) {
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(body);
-  tools.Append(half);
   BRepAlgoAPI_Common common;
-  common.SetArguments(arguments);
-  common.SetTools(tools);
+  common.SetArguments(list_of(std::vector{body}));
+  common.SetTools(list_of(std::vector{half}));
   perform(common, "cutting a body at the plane of symmetry");
   follow_labels(common, {body}, labels);
   return common.Shape().IsNull() ? std::vector<TopoDS_Solid>{} : solids_of(common.Shape());
@@ -164,7 +160,7 @@ gp_Pln SymmetryPlane::plane() const {
   Vec3 at, normal;
   at[axis] = position;
   normal[axis] = positive ? -1 : 1;
-  return gp_Pln(gp_Pnt(at.x, at.y, at.z), gp_Dir(normal.x, normal.y, normal.z));
+  return gp_Pln(to_gp(at), gp_Dir(normal.x, normal.y, normal.z));
 }
 
 bool SymmetryPlane::holds(const TopoDS_Face& face) const {

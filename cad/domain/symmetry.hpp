@@ -1,4 +1,4 @@
-/// The plane of symmetry of half models. Seen by this folder only.
+/// The symmetry plane of half models. Internal to cad/.
 #pragma once
 
 #include "cad/domain/domain.hpp"
@@ -13,27 +13,28 @@
 
 namespace aeroloom::cad {
 
-/// A plane normal to a coordinate axis, and the side of it that the fluid is on.
+/// A plane normal to a coordinate axis, and the side on which the fluid lies.
 struct SymmetryPlane {
   int axis = 1;
   double position = 0;
   bool positive = true;  ///< the fluid has larger coordinates than the plane
-  double tolerance = 0;  ///< what is nearer to the plane than this is on it
-  std::string reason;    ///< how it was found
+  double tolerance = 0;  ///< points nearer than this lie on the plane
+  std::string reason;    ///< how the plane was found
 
   gp_Pln plane() const;  ///< its normal points out of the fluid
   /// Whether a face lies on the plane.
   bool holds(const TopoDS_Face& face) const;
 };
 
-/// "plane of symmetry y = 0: ...", with how it was found.
+/// "plane of symmetry y = 0: ...", followed by the reason.
 std::string describe(const SymmetryPlane& symmetry);
 
-/// The plane that the options ask for, if any. Throws CadError where none can be found, or the body does not
+/// The plane that the options ask for, if any. Throws CadError if no plane can be found or the body does not
 /// reach it.
 std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies);
 
-/// The bodies' part on the plane's side; cut there, volumes checked, where they cross it. Labels follow.
+/// The bodies on the plane's side. Bodies that cross the plane are cut, and volumes are checked. Labels
+/// follow.
 NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Volumes& volumes,
                            Changes& changes);
 

@@ -1,5 +1,3 @@
-#include "cad/domain/unions.hpp"
-
 #include "cad/domain/booleans.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
@@ -18,19 +16,12 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
 namespace {
 
 using Solids = std::vector<TopoDS_Solid>;
-
-TopTools_ListOfShape list_of(const Solids& solids) {
-  TopTools_ListOfShape list;
-  for (const TopoDS_Solid& solid : solids) list.Append(solid);
-  return list;
-}
 
 /// One way to have the CAD library unite solids.
 struct Way {
@@ -47,8 +38,8 @@ std::vector<Way> ways(double diagonal) {
   std::vector<Way> all{{"as they are", false, false, 0, false, true},
                        {"the other way round", true},
                        {"one by one", false, true}};
-  for (const double share : tolerances::uniting) {
-    const double length = share * diagonal;
+  for (const double fraction : tolerances::uniting) {
+    const double length = fraction * diagonal;
     all.push_back({fmt::format("with points up to {:.3g} apart taken as one", length), false, false, length});
     all.push_back({fmt::format("the other way round, with points up to {:.3g} apart taken as one", length),
                    true, false, length});
@@ -74,12 +65,6 @@ Union fuse(const Solids& arguments, const Solids& tools, const Way& way, const F
   Union result{solids_of(fuse.Shape()), labels};
   follow_labels(fuse, inputs, result.labels);
   return result;
-}
-
-double volume_of(const Solids& solids, Volumes& volumes) {
-  double sum = 0;
-  for (const TopoDS_Solid& solid : solids) sum += volumes.of(solid);
-  return sum;
 }
 
 /// Why a union is none; empty where it is sound.
@@ -131,16 +116,7 @@ std::string name_of_body(const TopoDS_Shape& body, const FaceLabels& labels) {
     if (const std::string name = shown_name(*label); !name.empty())
       return fmt::format("that with face '{}'", name);
   }
-  const Vec3 at = tight_box(body).center();
-  return fmt::format("that around {}", geometry::place_text(at));
-}
-
-/// The middle of what the boxes of two shapes share.
-Vec3 meeting_place(const Box& a, const Box& b) {
-  Vec3 middle;
-  for (int axis = 0; axis < 3; ++axis)
-    middle[axis] = 0.5 * (std::max(a.low[axis], b.low[axis]) + std::min(a.high[axis], b.high[axis]));
-  return middle;
+  return fmt::format("that around {}", geometry::place_text(tight_box(body).center()));
 }
 
 [[noreturn]] void refuse_union(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
@@ -156,23 +132,33 @@ Vec3 meeting_place(const Box& a, const Box& b) {
                                       std::max(box.low[axis], other_box.low[axis]));
     if (overlap > most) most = overlap, nearest = &other;
   }
-  const Vec3 at = meeting_place(box, tight_box(*nearest));
   throw CadError(fmt::format(
       "the bodies {} and {} touch or overlap near {}, and no way of the CAD library unites them soundly: {}. "
       "Remedy: unite them in the CAD program, or move one so that they overlap clearly or stay apart",
-      name_of_body(*nearest, labels), name_of_body(solid, labels), geometry::place_text(at), fault));
+      name_of_body(*nearest, labels), name_of_body(solid, labels),
+      geometry::place_text(meeting_place(box, tight_box(*nearest))), fault));
 }
 
 }  // namespace
 
+Vec3 meeting_place(const Box& a, const Box& b) {
+  Vec3 middle;
+  for (int axis = 0; axis < 3; ++axis)
+    middle[axis] = 0.5 * (std::max(a.low[axis], b.low[axis]) + std::min(a.high[axis], b.high[axis]));
+  return middle;
+}
+
+double volume_of(const Solids& solids, Volumes& volumes) {
+  double sum = 0;
+  for (const TopoDS_Solid& solid : solids) sum += volumes.of(solid);
+  return sum;
+}
+
 double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, double tolerance,
                      Volumes& volumes) {
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(first);
-  tools.Append(second);
   BRepAlgoAPI_Common common;
-  common.SetArguments(arguments);
-  common.SetTools(tools);
+  common.SetArguments(list_of(std::vector{first}));
+  common.SetTools(list_of(std::vector{second}));
   if (tolerance > 0) common.SetFuzzyValue(tolerance);
   perform(common, "intersecting two bodies");
   return common.Shape().IsNull() ? 0 : std::abs(volumes.of(common.Shape()));

@@ -1,6 +1,5 @@
 #include "cad/domain/booleans.hpp"
 #include "cad/domain/far_field.hpp"
-#include "cad/domain/unions.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
@@ -12,8 +11,6 @@
 #include <utility>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -100,12 +97,8 @@ std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volum
       if (common <= tolerances::integrated_volume * std::min(volumes.of(group[i]), volumes.of(group[j])))
         continue;
       ++found;
-      const Vec3 low{std::max(boxes[i].low.x, boxes[j].low.x), std::max(boxes[i].low.y, boxes[j].low.y),
-                     std::max(boxes[i].low.z, boxes[j].low.z)};
-      const Vec3 high{std::min(boxes[i].high.x, boxes[j].high.x), std::min(boxes[i].high.y, boxes[j].high.y),
-                      std::min(boxes[i].high.z, boxes[j].high.z)};
-      const Vec3 at = 0.5 * (low + high);
-      text += fmt::format("; two share a volume of {:.6g} around {}", common, geometry::place_text(at));
+      text += fmt::format("; two share a volume of {:.6g} around {}", common,
+                          geometry::place_text(meeting_place(boxes[i], boxes[j])));
     }
   }
   return text;
@@ -120,19 +113,13 @@ NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) 
       result.push_back(group.front());
       continue;
     }
-    TopTools_ListOfShape arguments;
-    double parts = 0;
-    for (const TopoDS_Solid& solid : group) {
-      arguments.Append(solid);
-      parts += volumes.of(solid);
-    }
+    const double parts = volume_of(group, volumes);
     BRepAlgoAPI_BuilderAlgo join;
-    join.SetArguments(arguments);
+    join.SetArguments(list_of(group));
     perform(join, "joining regions that touch");
     follow_labels(join, group, regions.labels);
     const std::vector<TopoDS_Solid> joined = solids_of(join.Shape());
-    double whole = 0;
-    for (const TopoDS_Solid& solid : joined) whole += volumes.of(solid);
+    const double whole = volume_of(joined, volumes);
     if (joined.size() < group.size() || std::abs(whole - parts) > tolerances::integrated_volume * parts) {
       throw CadError(
           fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}{}. Remedy: make "

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,11 +28,7 @@ struct CapLoop {
 
 class FacetCaps {
 public:
-  explicit FacetCaps(FacetSoup& soup) : _soup(soup) {
-    geometry::Box box;
-    for (const Vec3 p : soup.points) box.add(p);
-    _diagonal = box.diagonal();
-  }
+  explicit FacetCaps(FacetSoup& soup) : _soup(soup), _diagonal(box_of_points(soup.points).diagonal()) {}
 
   bool cap(Changes& changes) {
     if (!trace() || _loops.size() > most_caps) return false;
@@ -130,9 +125,8 @@ private:
     const std::int32_t group = find_group(capped, {name, {}});
     for (const auto& [a, b, c] : *triangles) {
       const geometry::TriangleCorners t = {numbers[a], numbers[turn ? c : b], numbers[turn ? b : c]};
-      area +=
-          0.5 * norm(cross(_soup.points[t[1]] - _soup.points[t[0]], _soup.points[t[2]] - _soup.points[t[0]]));
       capped.triangles.push_back(t);
+      area += 0.5 * norm(area_vector2(corners_of(capped, capped.triangles.size() - 1)));
       capped.group_of.push_back(group);
     }
     caps.push_back({fmt::format("a planar opening of area {:.6g} closed by a face named '{}'", area, name),
@@ -163,9 +157,7 @@ private:
     const FacetComponents components = find_components(capped);
     std::vector<double> wall_area(components.count, 0), cap_area(components.count, 0);
     for (std::size_t t = 0; t < capped.triangles.size(); ++t) {
-      const auto& [a, b, c] = capped.triangles[t];
-      const auto& p = capped.points;
-      (t < walls ? wall_area : cap_area)[components.of[t]] += norm(cross(p[b] - p[a], p[c] - p[a]));
+      (t < walls ? wall_area : cap_area)[components.of[t]] += norm(area_vector2(corners_of(capped, t)));
     }
     for (std::int32_t i = 0; i < components.count; ++i) {
       if (cap_area[i] > widest_cap * wall_area[i]) return true;
@@ -174,7 +166,7 @@ private:
   }
 
   FacetSoup& _soup;
-  double _diagonal = 0;
+  double _diagonal;
   int _count = 0;
   std::vector<CapLoop> _loops;
 };

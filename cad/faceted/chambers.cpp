@@ -121,13 +121,8 @@ private:
     }
   }
 
-  Vec3 place_of_leaf(Leaf leaf) const {
-    const auto& [a, b, c] = _soup.triangles[leaf / 2];
-    return (point(a) + point(b) + point(c)) / 3.0;
-  }
   Vec3 way_of_leaf(Leaf leaf) const {
-    const auto& [a, b, c] = _soup.triangles[leaf / 2];
-    const Vec3 normal = cross(point(b) - point(a), point(c) - point(a));
+    const Vec3 normal = area_vector2(corners_of(_soup, leaf / 2));
     return leaf % 2 == 0 ? normal : -normal;
   }
 
@@ -164,7 +159,7 @@ private:
     const bool single = _shells.size() == 2;
     for (ChamberShell& shell : _shells) {
       if (shell.volume6 > 0) continue;
-      shell.chamber = single ? 0 : chamber_around(place_of_leaf(shell.best), shell.best);
+      shell.chamber = single ? 0 : chamber_around(middle_of(_soup, shell.best / 2), shell.best);
       _around.emplace_back(shell.component, shell.chamber);
     }
     std::sort(_around.begin(), _around.end());

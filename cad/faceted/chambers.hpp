@@ -1,4 +1,5 @@
-/// The spaces between triangles: which are material, and what lies on either side of each triangle.
+/// Finds the spaces that triangles enclose, decides which are material, and says what lies on either side of
+/// each triangle.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -11,23 +12,23 @@
 
 namespace aeroloom::cad {
 
-/// A space enclosed by triangles; number 0 is the outside, without end.
+/// A space enclosed by triangles. Number 0 is the unbounded space outside.
 struct Chamber {
   bool filled = false;
-  std::string name;             ///< of a region point in it; empty without
-  std::int32_t region = -1;     ///< of filled ones, counted in the order of the file
-  std::int32_t component = -1;  ///< of triangles that hang together over sides, whose chamber it is
+  std::string name;             ///< name of a region point inside; empty without one
+  std::int32_t region = -1;     ///< number among filled chambers, in the order of the file
+  std::int32_t component = -1;  ///< the connected set of triangles that bounds it
 };
 
 struct Chambers {
   std::vector<Chamber> chambers;
-  /// Per triangle the chamber that its counter-clockwise normal points to, and the one behind.
+  /// Per triangle: the chamber on the side of its counter-clockwise normal, and the one behind.
   std::vector<std::array<std::int32_t, 2>> beside;
 };
 
-/// Triangles are paired around their sides by exact angles; what belongs together bounds a chamber, from
-/// without or as an island in it. No two triangles may meet elsewhere than in common points and sides
-/// (find_facet_contacts), and no side may be open. Notes hole and region points that lie outside.
+/// Pairs triangles around their common sides by exact angles. Connected pairs bound a chamber, from outside
+/// or as an island in it. Triangles may meet in common points and sides only (find_facet_contacts), and no
+/// side may be open. Hole points and region points outside all chambers are listed as changes.
 Chambers find_chambers(const FacetSoup& soup, Changes& changes);
 
 }  // namespace aeroloom::cad

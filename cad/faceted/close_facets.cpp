@@ -1,7 +1,6 @@
 #include "cad/faceted/close_facets.hpp"
 
 #include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/box_tree.hpp"
@@ -21,12 +20,6 @@ namespace {
 
 /// Points are one only where they are nearer than this fraction of the shortest open side at either.
 constexpr double fraction_of_side = 0.25;
-
-double diagonal_of_points(const FacetSoup& soup) {
-  geometry::Box box;
-  for (const Vec3 p : soup.points) box.add(p);
-  return box.diagonal();
-}
 
 /// Pairs of open points that are nearest to each other.
 class NearOpenPoints {
@@ -113,7 +106,7 @@ void close_facets(FacetSoup& soup, Changes& changes) {
   constexpr int rounds = 8;
   for (int i = 0; i < rounds && split_open_sides(soup, 0, changes) > 0; ++i)
     drop_void_triangles(soup, changes);
-  const double diagonal = diagonal_of_points(soup);
+  const double diagonal = box_of_points(soup.points).diagonal();
   for (const double fraction : tolerances::sewing) {
     if (!is_open()) return;
     weld_open_points(soup, fraction * diagonal, changes);
@@ -137,11 +130,10 @@ void refuse_open_sides(const FacetSoup& soup) {
     length[loop] += distance(soup.points[a], soup.points[side_end(soup.triangles, h)]);
     if (longest < 0 || length[loop] > length[longest]) longest = loop;
   }
-  const Vec3 at = soup.points[longest];
-  throw CadError(
-      fmt::format("{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
-                  "length {:.6g}, passes {}; close the surface there and export it again",
-                  soup.file, open.size(), loops, length[longest], geometry::place_text(at)));
+  throw CadError(fmt::format(
+      "{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
+      "length {:.6g}, passes {}; close the surface there and export it again",
+      soup.file, open.size(), loops, length[longest], geometry::place_text(soup.points[longest])));
 }
 
 }  // namespace aeroloom::cad

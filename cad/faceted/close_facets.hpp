@@ -1,28 +1,39 @@
-/// Open sides of a soup, closed where there is one way to do so.
+/// Repairs a triangle soup: welds points, drops void triangles, closes openings.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/repair/change.hpp"
 
-#include <vector>
-
 namespace aeroloom::cad {
 
-/// In this order, each only while sides are open: triangles are split where open points lie on their open
-/// sides; open points are made one that are nearer to each other than to any side's other end, where that
-/// leaves fewer open sides; planar openings are closed. Equal points are one, and no triangle is void
-/// (weld_facets.hpp).
+/// Closes open sides (sides of one triangle only). The steps below run in this order, each while sides are
+/// open. Triangles are split where open points lie on their open sides. Open points are welded if they are
+/// near each other and that leaves fewer open sides. Planar openings are capped. Equal points must be one,
+/// and there may be no void triangles (weld_equal_points, drop_void_triangles).
 void close_facets(FacetSoup& soup, Changes& changes);
 
-/// Splits triangles at open points that lie exactly on their open sides, or within `tolerance` of them, along
-/// a chain of other open sides. Returns the number of triangles split, and adds a change for them.
+/// Splits triangles at open points on their open sides. With a tolerance, points near a side count too if
+/// other open sides connect them to a chain. Returns the number of split triangles and adds one change.
 std::size_t split_open_sides(FacetSoup& soup, double tolerance, Changes& changes);
 
-/// Closes planar openings, all or none. False where one is not planar, too narrow, or too wide for the body
-/// around it.
+/// Closes all planar openings or none. False if an opening is not planar, too narrow, or too wide for its
+/// body.
 bool cap_facets(FacetSoup& soup, Changes& changes);
 
-/// Throws CadError with the number of open loops, the longest of them and where it lies.
+/// Throws CadError if sides are open. It names the number of open loops, the longest loop and its position.
 void refuse_open_sides(const FacetSoup& soup);
+
+/// Makes points with equal coordinates one and drops unused points. No coordinate changes.
+void weld_equal_points(FacetSoup& soup);
+
+/// Replaces each corner p by `representative[p]` and drops unused points.
+void replace_points(FacetSoup& soup, const std::vector<std::int32_t>& representative);
+
+/// Whether three points are collinear. Exact.
+bool on_one_line(Vec3 a, Vec3 b, Vec3 c);
+
+/// Drops void triangles, whose corners are collinear or equal, and all but the first of triangles with the
+/// same corners. This may leave open sides.
+void drop_void_triangles(FacetSoup& soup, Changes& changes);
 
 }  // namespace aeroloom::cad

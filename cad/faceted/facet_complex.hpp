@@ -1,6 +1,7 @@
-/// Flat triangles that enclose regions, cut into faces along curves: a faceted model once it is repaired.
+/// A repaired faceted model: triangles that enclose regions, divided into faces by curves.
 #pragma once
 
+#include "cad/faceted/facet_soup.hpp"
 #include "cad/model/model.hpp"
 
 #include <array>
@@ -10,31 +11,32 @@
 
 namespace aeroloom::cad {
 
-/// Every point is used. Triangles meet in common points and sides only, and every side has two or more of
-/// them.
+/// The regions on the two sides of a triangle.
+struct FacetRegions {
+  RegionId front = no_entity, back = no_entity;  ///< as in Face
+  bool cavity = false;                           ///< `back` is a void inside its own region
+  friend bool operator==(const FacetRegions&, const FacetRegions&) = default;
+};
+
+/// Every point is used. Triangles meet in common points and sides only. Every side has at least two
+/// triangles.
 struct FacetComplex {
-  struct Face {
-    std::string name, part;                        ///< as in the file; empty where it gives none
-    RegionId front = no_entity, back = no_entity;  ///< as in Face
-    bool cavity = false;                           ///< beyond it lies a void that is enclosed by its region
-    std::string patch = {}, layer = {}, colour = {};  ///< of faces of CAD, as in FacetSoup::Group
-    std::int32_t number = -1;
-  };
-  /// A chain of sides between two of `vertices`; a closed one begins and ends with the same vertex.
+  struct Face : FacetSoup::Group, FacetRegions {};
+  /// A chain of sides between two of `vertices`. A closed curve begins and ends at the same vertex.
   struct Curve {
     std::vector<std::int32_t> points;
   };
 
   std::vector<Vec3> points;
   std::vector<std::array<std::int32_t, 3>>
-      triangles;                ///< counter-clockwise seen against the normal out of `front`
-  std::vector<FaceId> face_of;  ///< of each triangle
-  std::vector<Face> faces;      ///< each connected across sides that lie on no curve
-  /// Where faces meet, or a face meets itself at a sharp angle; each side on one curve at most.
+      triangles;                ///< counter-clockwise seen against the normal, which points out of `front`
+  std::vector<FaceId> face_of;  ///< per triangle
+  std::vector<Face> faces;      ///< each connected over sides that lie on no curve
+  /// Where faces meet, or where one face is sharp. Each side lies on one curve at most.
   std::vector<Curve> curves;
-  std::vector<std::int32_t> vertices;  ///< points, ascending
-  std::vector<std::string> regions;    ///< names of what is enclosed
-  bool united = false;                 ///< components that crossed became one
+  std::vector<std::int32_t> vertices;  ///< numbers of points, ascending
+  std::vector<std::string> regions;    ///< names of regions
+  bool united = false;                 ///< components that crossed were united
 };
 
 }  // namespace aeroloom::cad

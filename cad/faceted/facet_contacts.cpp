@@ -8,13 +8,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
 namespace {
+
+using geometry::Vec3;
 
 constexpr int facets_per_leaf = 8;  // chosen, not measured
 
@@ -182,8 +183,8 @@ private:
     _group_of.resize(_soup.triangles.size(), 0), _place.resize(_soup.triangles.size());
     for (std::size_t t = 0; t < _soup.triangles.size(); ++t) {
       const auto& corners = _soup.triangles[t];
-      const std::int32_t p = *std::max_element(corners.begin(), corners.end(),
-                                               [&](auto a, auto b) { return degree[a] < degree[b]; });
+      const std::int32_t p =
+          *std::ranges::max_element(corners, [&](auto a, auto b) { return degree[a] < degree[b]; });
       if (degree[p] >= least_star && star[p] == 0) {
         star[p] = static_cast<std::int32_t>(_groups.size());
         _groups.emplace_back();
@@ -236,16 +237,10 @@ std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup) {
 FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components) {
   const std::vector<FacetContact> all = list_facet_contacts(soup);
   if (all.empty()) return {};
-  const auto apart = std::find_if(all.begin(), all.end(), [&](const FacetContact& pair) {
-    return components.of[pair.first] != components.of[pair.second];
-  });
+  const auto apart = std::ranges::find_if(
+      all, [&](const FacetContact& pair) { return components.of[pair.first] != components.of[pair.second]; });
   const FacetContact& shown = apart == all.end() ? all.front() : *apart;
   return {all.size(), shown.first, shown.second};
-}
-
-Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle) {
-  const auto& [a, b, c] = soup.triangles[triangle];
-  return (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
 }
 
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle) {

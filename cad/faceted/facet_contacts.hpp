@@ -1,4 +1,4 @@
-/// Triangles of a faceted model that cross, touch or overlap others than in common points and sides.
+/// Triangles that intersect elsewhere than in common points and sides, and connected components of a soup.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -10,9 +10,8 @@
 
 namespace aeroloom::cad {
 
-using geometry::Vec3;
-
-/// For each triangle what hangs together with it over sides, counted in the order of the file.
+/// Per triangle the component it belongs to. Components are connected over sides and numbered in the order of
+/// the file.
 struct FacetComponents {
   std::vector<std::int32_t> of;
   std::int32_t count = 0;
@@ -21,7 +20,7 @@ FacetComponents find_components(const FacetSoup& soup);
 
 struct FacetContacts {
   std::size_t pairs = 0;
-  /// The first pair, ascending, of two components where there is one; -1 without.
+  /// The first pair from two different components if there is one, else the first pair; -1 without.
   std::int32_t first = -1, second = -1;
 };
 
@@ -34,11 +33,10 @@ struct FacetContact {
 /// All pairs, ascending. Exact. Points with equal coordinates must be one.
 std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup);
 
-/// What a component is called in messages, by one of its triangles, and where that is.
+/// The name of a triangle's component, for messages.
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle);
-Vec3 middle_of(const FacetSoup& soup, std::int32_t triangle);
 
-/// As list_facet_contacts.
+/// The number of pairs, and one of them. Conditions as for list_facet_contacts.
 FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components);
 
 }  // namespace aeroloom::cad

@@ -1,8 +1,8 @@
 #include "cad/faceted/facet_facts.hpp"
 
+#include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/weld_facets.hpp"
 
 namespace aeroloom::cad {
 
@@ -14,12 +14,11 @@ FacetFacts look_at_facets(const FacetSoup& original) {
   facts.points = static_cast<std::int32_t>(soup.points.size());
   facts.triangles = static_cast<std::int32_t>(soup.triangles.size());
   for (const FacetSoup::Group& group : soup.groups) facts.groups.push_back({group.name, group.part});
-  for (const Vec3 p : soup.points) facts.bounds.add(p);
+  facts.bounds = box_of_points(soup.points);
   const Vec3 base = facts.bounds.center();
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    const auto& [i, j, k] = soup.triangles[t];
-    const Vec3 a = soup.points[i], b = soup.points[j], c = soup.points[k];
-    const double area = 0.5 * norm(cross(b - a, c - a));
+    const auto [a, b, c] = corners_of(soup, t);
+    const double area = 0.5 * norm(area_vector2({a, b, c}));
     facts.area += area;
     facts.volume += geometry::volume6(base, a, b, c) / 6;
     facts.without_area += on_one_line(a, b, c);

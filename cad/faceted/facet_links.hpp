@@ -1,4 +1,4 @@
-/// Who is beside whom in a complex of facets. Seen by this folder only.
+/// Neighbours of triangles in a complex. Internal to cad/faceted/.
 #pragma once
 
 #include "cad/faceted/facet_complex.hpp"
@@ -8,22 +8,22 @@
 
 namespace aeroloom::cad {
 
-/// The side of a curve that a half-edge of the triangles is.
+/// The position of a half-edge on a curve. A half-edge is a side of one triangle, with its direction.
 struct CurveSide {
-  std::int32_t curve = no_entity;  ///< no_entity: it lies inside a face
-  std::int32_t side = 0;           ///< from point `side` of the curve to the next one
-  bool along = true;               ///< the half-edge runs as the curve does
+  std::int32_t curve = no_entity;  ///< no_entity: the half-edge lies inside a face
+  std::int32_t side = 0;           ///< from point `side` of the curve to the next point
+  bool along = true;               ///< same direction as the curve
 };
 
 struct FacetLinks {
   std::vector<CurveSide> on_curve;         ///< per half-edge
-  std::vector<geometry::HalfEdge> inside;  ///< per half-edge its twin in the same face; -1 on curves
+  std::vector<geometry::HalfEdge> inside;  ///< per half-edge, its twin in the same face; -1 on curves
 };
 
-/// Throws CadError where a side that lies on no curve does not have two triangles of one face.
+/// Throws CadError if a side inside a face does not have exactly two triangles of that face.
 FacetLinks link_facets(const FacetComplex& complex);
 
-/// The half-edge that leaves the end of `h` along the border of its face.
+/// The half-edge that follows `h` on the border of its face.
 geometry::HalfEdge next_on_border(const FacetLinks& links, geometry::HalfEdge h);
 
 inline std::int32_t start_of(const FacetComplex& complex, geometry::HalfEdge h) {
@@ -35,10 +35,6 @@ inline std::int32_t end_of(const FacetComplex& complex, geometry::HalfEdge h) {
 inline std::array<Vec3, 3> corners_of(const FacetComplex& complex, std::int32_t triangle) {
   const auto& [a, b, c] = complex.triangles[triangle];
   return {complex.points[a], complex.points[b], complex.points[c]};
-}
-/// The normal of a triangle times twice its area.
-inline Vec3 area_vector2(const std::array<Vec3, 3>& corners) {
-  return cross(corners[1] - corners[0], corners[2] - corners[0]);
 }
 
 }  // namespace aeroloom::cad

@@ -16,15 +16,10 @@ using geometry::Box;
 using geometry::Vec3;
 using FacetCorners = std::array<Vec3, 3>;
 
-FacetCorners facet_corners(const FacetSoup& soup, std::int32_t t) {
-  const auto& [a, b, c] = soup.triangles[t];
-  return {soup.points[a], soup.points[b], soup.points[c]};
-}
-
 std::vector<Box> facet_boxes(const FacetSoup& soup) {
   std::vector<Box> boxes(soup.triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) {
-    for (const Vec3 p : facet_corners(soup, static_cast<std::int32_t>(t))) boxes[t].add(p);
+    for (const Vec3 p : corners_of(soup, t)) boxes[t].add(p);
   }
   return boxes;
 }
@@ -41,7 +36,7 @@ double distance_of_segments(Vec3 p, Vec3 p_end, Vec3 q, Vec3 q_end) {
 
 /// From a point to a triangle whose plane it falls into inside; infinite where it does not.
 double height_over(const FacetCorners& triangle, Vec3 point) {
-  const Vec3 normal = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+  const Vec3 normal = area_vector2(triangle);
   for (int i = 0; i < 3; ++i) {
     const Vec3 side = triangle[(i + 1) % 3] - triangle[i];
     if (dot(cross(normal, side), point - triangle[i]) < 0) return INFINITY;
@@ -72,14 +67,14 @@ MeetingPlace find_meeting(const FacetSoup& a, const FacetSoup& b, double clearan
   const std::vector<Box> others = facet_boxes(b);
   MeetingPlace found;
   for (std::size_t t = 0; t < others.size() && found.meeting != FacetMeeting::crossing; ++t) {
-    const FacetCorners other = facet_corners(b, static_cast<std::int32_t>(t));
+    const FacetCorners other = corners_of(b, t);
     geometry::for_each_overlap(tree, boxes, others[t].dilated(clearance), [&](std::int32_t i) {
       if (found.meeting == FacetMeeting::crossing) return;
-      const FacetCorners own = facet_corners(a, i);
+      const FacetCorners own = corners_of(a, i);
       if (boxes[i].overlaps(others[t]) && share_a_point(own, other))
-        found = {FacetMeeting::crossing, (other[0] + other[1] + other[2]) / 3.0};
+        found = {FacetMeeting::crossing, middle_of(b, t)};
       else if (found.meeting == FacetMeeting::apart && distance_of_triangles(own, other) < clearance)
-        found = {FacetMeeting::near, (other[0] + other[1] + other[2]) / 3.0};
+        found = {FacetMeeting::near, middle_of(b, t)};
     });
   }
   return found;

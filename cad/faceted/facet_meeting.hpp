@@ -1,4 +1,4 @@
-/// Whether two closed soups of triangles cross, or how near they come. Seen by cad/ only.
+/// Intersection and distance of two closed triangle soups. Internal to cad/.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -8,20 +8,20 @@
 namespace aeroloom::cad {
 
 enum class FacetMeeting : std::uint8_t {
-  apart,  ///< nowhere nearer than the clearance
-  near,   ///< nearer, but no two triangles share a point
+  apart,  ///< farther apart than the clearance
+  near,   ///< nearer than the clearance, but without a common point
   crossing
 };
 
 struct MeetingPlace {
   FacetMeeting meeting = FacetMeeting::apart;
-  geometry::Vec3 at;  ///< of the first triangles that are near or cross
+  geometry::Vec3 at;  ///< at the first triangles that are near or cross
 };
 
-/// Crossing exactly, nearness but for rounding.
+/// Crossing is decided exactly, nearness up to rounding.
 MeetingPlace find_meeting(const FacetSoup& a, const FacetSoup& b, double clearance);
 
-/// Whether one of the closed components of a soup encloses a point that is off them.
+/// Whether a closed component of the soup encloses the point, which must not lie on a triangle.
 bool encloses(const FacetSoup& soup, geometry::Vec3 point);
 
 }  // namespace aeroloom::cad

@@ -17,7 +17,7 @@ using geometry::orient3d;
 enum class Crossing { none, through, unclear };
 
 /// How the segment pq passes a triangle.
-Crossing crossing_of(Vec3 p, Vec3 q, const Vec3 (&t)[3]) {
+Crossing crossing_of(Vec3 p, Vec3 q, const std::array<Vec3, 3>& t) {
   int least = 1, most = -1;
   for (int i = 0; i < 3; ++i) {
     const int side = orient3d(p, q, t[i], t[(i + 1) % 3]);
@@ -64,9 +64,7 @@ bool FacetRays::collect(Vec3 point, Vec3 end, std::int32_t from, std::vector<std
                [&](std::int32_t place) {
                  const std::int32_t t = _tree.order()[place];
                  if (t == from || !clear) return;
-                 const auto& [a, b, c] = _soup.triangles[t];
-                 const Vec3 corners[3] = {_soup.points[a], _soup.points[b], _soup.points[c]};
-                 const Crossing crossing = crossing_of(point, end, corners);
+                 const Crossing crossing = crossing_of(point, end, corners_of(_soup, t));
                  if (crossing == Crossing::through) found.push_back(t);
                  if (crossing == Crossing::unclear) clear = false;
                });

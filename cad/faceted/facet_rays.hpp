@@ -1,5 +1,4 @@
-/// Which closed shells of triangles enclose a point: by the triangles that a ray from it passes. Seen by this
-/// folder only.
+/// Casts rays through triangles, to decide which closed shells enclose a point. Internal to cad/faceted/.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -14,9 +13,9 @@ class FacetRays {
 public:
   explicit FacetRays(const FacetSoup& soup);
 
-  /// Numbers of the triangles that a ray from the point passes, ascending. It begins on the side of triangle
-  /// `from` that `direction` points to, or off all triangles with from = -1. Exact, but for where the ray
-  /// begins; turned a little where it meets a side or a point.
+  /// Numbers of the triangles that a ray from the point crosses, ascending. If the point lies on triangle
+  /// `from`, the ray starts on the side to which `direction` points; -1: it lies on no triangle. The ray is
+  /// turned a little if it meets a side or a corner. Exact, apart from the start of the ray.
   std::vector<std::int32_t> passed(geometry::Vec3 point, std::int32_t from, geometry::Vec3 direction) const;
 
 private:

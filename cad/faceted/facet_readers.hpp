@@ -1,4 +1,4 @@
-/// The readers of single formats. Seen by this folder only.
+/// Readers of the single file formats. Internal to cad/faceted/.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -25,13 +25,13 @@ FacetSoup read_ply(const FacetFile& file);
 FacetSoup read_poly(const FacetFile& file);   ///< TetGen's .poly
 FacetSoup read_smesh(const FacetFile& file);  ///< TetGen's .smesh
 
-/// Whether an .stl is a binary one.
+/// Whether the content of an .stl file is binary.
 bool is_binary_stl(std::string_view bytes);
 
-/// The group with these names, made where there is none yet. The last ones are looked at first.
+/// The number of the group, which is added if it does not exist.
 std::int32_t find_group(FacetSoup& soup, const FacetSoup::Group& group);
 
-/// Adds a polygon as triangles. `fail` is told what is wrong with it.
+/// Triangulates a polygon and adds the triangles. `fail` is called with a message if the polygon is invalid.
 void add_polygon(FacetSoup& soup, std::span<const std::int64_t> corners, std::int32_t group,
                  const std::function<void(const std::string&)>& fail);
 

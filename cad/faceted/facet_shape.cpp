@@ -1,5 +1,6 @@
 #include "cad/faceted/facet_shape.hpp"
 
+#include "cad/faceted/facet_soup.hpp"
 #include "geometry/angle.hpp"
 
 #include <algorithm>
@@ -79,11 +80,7 @@ bool fit_form(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, Vec3 u
 }
 
 PrincipalCurvatures principal(const SymmetricTensor& tensor, Vec3 normal) {
-  const Vec3 axis = std::abs(normal.x) <= std::abs(normal.y) && std::abs(normal.x) <= std::abs(normal.z)
-                        ? Vec3{1, 0, 0}
-                    : std::abs(normal.y) <= std::abs(normal.z) ? Vec3{0, 1, 0}
-                                                               : Vec3{0, 0, 1};
-  const Vec3 s = normalized(cross(axis, normal)), t = cross(normal, s);
+  const Vec3 s = normalized(cross(farthest_axis(normal), normal)), t = cross(normal, s);
   const double a = tensor(s, s), b = tensor(s, t), c = tensor(t, t);
   const double spread = std::hypot(0.5 * (a - c), b), mean = 0.5 * (a + c);
   const double first = std::abs(mean + spread), second = std::abs(mean - spread);

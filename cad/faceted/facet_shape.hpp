@@ -1,4 +1,4 @@
-/// Normals and curvatures at the points of a face of facets. Seen by this folder only.
+/// Normals and curvatures at the points of a faceted face. Internal to cad/faceted/.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -8,16 +8,16 @@
 
 namespace aeroloom::cad {
 
-/// Per point, what the facets around it tell of the surface that they stand for.
+/// Estimates at each point for the smooth surface that the triangles approximate.
 struct FacetShape {
-  std::vector<Vec3> normals;  ///< unit, weighted by angles; slivers without a direction left out
-  /// By absolute value. Of the tensors that normals change by over each triangle (Rusinkiewicz, Estimating
-  /// curvatures and their derivatives on triangle meshes, 3DPVT 2004, doi:10.1109/TDPVT.2004.1335277), by
-  /// areas; none is much larger than around it.
+  std::vector<Vec3> normals;  ///< unit, weighted by angles; slivers do not count
+  /// Absolute values, from the change of normals over each triangle (Rusinkiewicz, Estimating curvatures and
+  /// their derivatives on triangle meshes, 3DPVT 2004, doi:10.1109/TDPVT.2004.1335277), averaged by area.
+  /// Outliers are cut.
   std::vector<PrincipalCurvatures> curvatures;
 };
 
-/// Triangles of one face, all with the normal out of it.
+/// Triangles of one face. Their normals point out of the face's region.
 FacetShape shape_of(const std::vector<Vec3>& points, const std::vector<geometry::TriangleCorners>& triangles);
 
 }  // namespace aeroloom::cad

@@ -28,10 +28,9 @@ constexpr double gap_of_sheets = 0.5;
 class ParameterGrid {
 public:
   explicit ParameterGrid(const std::vector<Vec3>& points) {
-    Box box;
-    for (const Vec3 p : points) box.add(p);
-    _cell = std::ldexp(
-        1.0, std::ilogb(std::max(box.diagonal(), std::numeric_limits<double>::min())) - bits_of_diagonal);
+    const double diagonal = box_of_points(points).diagonal();
+    _cell = std::ldexp(1.0,
+                       std::ilogb(std::max(diagonal, std::numeric_limits<double>::min())) - bits_of_diagonal);
   }
   double operator()(double x) const { return std::nearbyint(x / _cell) * _cell; }
   double up(double x) const { return std::ceil(x / _cell) * _cell; }
@@ -58,11 +57,7 @@ CornerUv lay_flat(const std::array<Vec3, 3>& corners, const ParameterGrid& grid)
 }
 
 FlatSheet facing(Vec3 normal, Vec3 origin) {
-  const Vec3 least = std::abs(normal.x) <= std::abs(normal.y) && std::abs(normal.x) <= std::abs(normal.z)
-                         ? Vec3{1, 0, 0}
-                     : std::abs(normal.y) <= std::abs(normal.z) ? Vec3{0, 1, 0}
-                                                                : Vec3{0, 0, 1};
-  FlatSheet sheet{origin, normalized(cross(least, normal)), {}};
+  FlatSheet sheet{origin, normalized(cross(farthest_axis(normal), normal)), {}};
   sheet.e2 = cross(normal, sheet.e1);
   return sheet;
 }

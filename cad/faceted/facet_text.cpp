@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -92,9 +93,7 @@ std::string_view FacetText::any_word(const char* what) {
 }
 
 std::string_view FacetText::rest() {
-  const std::string_view all = _line;
-  _line = {};
-  return all;
+  return std::exchange(_line, {});
 }
 
 double FacetText::to_number(std::string_view word, const char* what) const {

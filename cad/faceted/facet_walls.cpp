@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -53,17 +52,13 @@ bool encloses(const FacetComplex& complex, const WallShell& shell, Vec3 point) {
   return std::abs(angle) > 2 * std::numbers::pi;
 }
 
-bool lies_in(const Box& inner, const Box& outer) {
-  return outer.contains(inner.low) && outer.contains(inner.high);
-}
-
 /// Drops the shells that lie inside others.
 int drop_buried(const FacetComplex& complex, const std::vector<WallShell>& shells, std::vector<char>& kept) {
   int buried = 0;
   for (const WallShell& inner : shells) {
     const Vec3 point = complex.points[complex.triangles[inner.triangles.front()][0]];
-    const bool inside = std::any_of(shells.begin(), shells.end(), [&](const WallShell& outer) {
-      return &outer != &inner && lies_in(inner.box, outer.box) && encloses(complex, outer, point);
+    const bool inside = std::ranges::any_of(shells, [&](const WallShell& outer) {
+      return &outer != &inner && outer.box.contains(inner.box) && encloses(complex, outer, point);
     });
     if (!inside) continue;
     ++buried;
@@ -159,9 +154,7 @@ FacetComplex outer_walls(const FacetComplex& bodies, Changes& changes) {
 }
 
 double enclosed_volume(const FacetComplex& complex) {
-  Box box;
-  for (const Vec3 p : complex.points) box.add(p);
-  const Vec3 middle = box.center();
+  const Vec3 middle = box_of_points(complex.points).center();
   double volume = 0;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(complex.triangles.size()); ++t) {
     const auto corners = corners_of(complex, t);

@@ -1,4 +1,4 @@
-/// The walls of bodies of facets that a fluid around them meets. Seen by this folder only.
+/// The walls of faceted bodies that a surrounding fluid touches. Internal to cad/.
 #pragma once
 
 #include "cad/faceted/facet_complex.hpp"
@@ -6,11 +6,11 @@
 
 namespace aeroloom::cad {
 
-/// The outer faces of the bodies, seen from a fluid around them, which is region 0: what lies between bodies,
-/// in their cavities, or in a cavity of another is left out and listed. Regions are no longer named.
+/// The outer faces of the bodies, seen from the fluid, which is region 0. Faces between bodies and in
+/// cavities are left out, and so are bodies inside others. Changes are listed. Regions lose their names.
 FacetComplex outer_walls(const FacetComplex& bodies, Changes& changes);
 
-/// What the triangles of a closed surface enclose; their normals point out of it.
+/// The volume inside a closed surface whose normals point outward.
 double enclosed_volume(const FacetComplex& complex);
 
 }  // namespace aeroloom::cad

@@ -4,21 +4,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 namespace aeroloom::cad {
 namespace {
-
-void put_texts(const std::vector<std::string>& texts, ByteWriter& writer) {
-  writer.put<std::uint64_t>(texts.size());
-  for (const std::string& text : texts) writer.put_text(text);
-}
-
-std::vector<std::string> get_texts(ByteReader& reader) {
-  std::vector<std::string> texts;
-  for (auto left = reader.get<std::uint64_t>(); left > 0; --left) texts.push_back(reader.get_text());
-  return texts;
-}
 
 FacetComplex get_complex(ByteReader& reader) {
   FacetComplex complex;
@@ -34,17 +24,16 @@ FacetComplex get_complex(ByteReader& reader) {
     face.front = reader.get<RegionId>(), face.back = reader.get<RegionId>();
     face.cavity = reader.get<char>() != 0;
   }
-  complex.regions = get_texts(reader);
+  complex.regions = reader.get_texts();
   return complex;
 }
 
 /// The axis along which all points of a face have one coordinate, bit for bit.
-std::optional<int> exact_axis(const FacetedPart& part, const FacetedFace& face) {
-  const Vec3 first = part.complex().points[face.points.front()];
+std::optional<int> exact_axis(const FacetedGeometry& faceted, const FacetedFace& face) {
+  const Vec3 first = faceted.complex().points[face.points.front()];
   for (int axis = 0; axis < 3; ++axis) {
-    const bool same = std::all_of(face.points.begin(), face.points.end(), [&](std::int32_t p) {
-      return part.complex().points[p][axis] == first[axis];
-    });
+    const bool same = std::ranges::all_of(
+        face.points, [&](std::int32_t p) { return faceted.complex().points[p][axis] == first[axis]; });
     if (same) return axis;
   }
   return std::nullopt;
@@ -52,11 +41,11 @@ std::optional<int> exact_axis(const FacetedPart& part, const FacetedFace& face) 
 
 }  // namespace
 
-void put_faceted(const FacetedPart* part, ByteWriter& writer) {
-  writer.put<char>(part != nullptr);
-  if (!part) return;
-  const FacetComplex& complex = part->complex();
-  writer.put(part->planar_tolerance());
+void put_faceted(const FacetedGeometry* faceted, ByteWriter& writer) {
+  writer.put<char>(faceted != nullptr);
+  if (!faceted) return;
+  const FacetComplex& complex = faceted->complex();
+  writer.put(faceted->planar_tolerance());
   writer.put_all(complex.points);
   writer.put_all(complex.triangles);
   writer.put_all(complex.face_of);
@@ -69,24 +58,24 @@ void put_faceted(const FacetedPart* part, ByteWriter& writer) {
     writer.put(face.front), writer.put(face.back);
     writer.put<char>(face.cavity);
   }
-  put_texts(complex.regions, writer);
-  writer.put_all(part->sheets().sheets);
-  writer.put_all(part->sheets().of);
+  writer.put_texts(complex.regions);
+  writer.put_all(faceted->sheets().sheets);
+  writer.put_all(faceted->sheets().of);
 }
 
-std::shared_ptr<const FacetedPart> get_faceted(ByteReader& reader) {
+std::shared_ptr<const FacetedGeometry> get_faceted(ByteReader& reader) {
   if (reader.get<char>() == 0) return nullptr;
   const auto tolerance = reader.get<double>();
   FacetComplex complex = get_complex(reader);
   FacetSheets sheets;
   sheets.sheets = reader.get_all<FlatSheet>();
   sheets.of = reader.get_all<std::int32_t>();
-  return std::make_shared<const FacetedPart>(std::move(complex), std::move(sheets), tolerance);
+  return std::make_shared<const FacetedGeometry>(std::move(complex), std::move(sheets), tolerance);
 }
 
 void number_facets(Model::Data& data) {
-  const FacetedPart& part = *data.faceted;
-  const FacetComplex& complex = part.complex();
+  const FacetedGeometry& faceted = *data.faceted;
+  const FacetComplex& complex = faceted.complex();
   data.first_faceted_vertex = static_cast<VertexId>(data.vertices.size());
   data.first_faceted_edge = static_cast<EdgeId>(data.edges.size());
   data.first_faceted_face = static_cast<FaceId>(data.faces.size());
@@ -96,31 +85,30 @@ void number_facets(Model::Data& data) {
     const auto found = std::lower_bound(complex.vertices.begin(), complex.vertices.end(), point);
     return data.first_faceted_vertex + static_cast<VertexId>(found - complex.vertices.begin());
   };
-  for (const FacetedEdge& own : part.edges()) {
+  for (const FacetedEdge& own : faceted.edges()) {
     Edge& edge = data.edges.emplace_back();
     edge.first = vertex_at(own.points.front()), edge.last = vertex_at(own.points.back());
     edge.last_parameter = own.along.back();
     for (const FacetedUse& use : own.uses) edge.faces.push_back(data.first_faceted_face + use.face);
   }
   data.edge_snaps.resize(data.edges.size());
-  for (std::size_t f = 0; f < part.faces().size(); ++f) {
-    const FacetedFace& own = part.faces()[f];
+  for (std::size_t f = 0; f < faceted.faces().size(); ++f) {
+    const FacetedFace& own = faceted.faces()[f];
     Face& face = data.faces.emplace_back();
     face.loops = own.loops;
-    for (auto& loop : face.loops) {
-      for (Coedge& use : loop) use.edge += data.first_faceted_edge;
-    }
+    for (Coedge& use : face.loops | std::views::join) use.edge += data.first_faceted_edge;
     face.front = complex.faces[f].front, face.back = complex.faces[f].back;
     Snap& snap = data.face_snaps.emplace_back();
-    if (const auto axis = exact_axis(part, own)) snap.fix(*axis, complex.points[own.points.front()][*axis]);
+    if (const auto axis = exact_axis(faceted, own))
+      snap.fix(*axis, complex.points[own.points.front()][*axis]);
   }
 }
 
-FaceIntegrals integrate_facets(const FacetedPart& part, FaceId id, Vec3 reference) {
+FaceIntegrals integrate_facets(const FacetedGeometry& faceted, FaceId id, Vec3 reference) {
   FaceIntegrals sums;
-  const FacetedFace& face = part.faces()[id];
+  const FacetedFace& face = faceted.faces()[id];
   for (std::int32_t t = face.first; t < face.first + face.count; ++t) {
-    const auto corners = corners_of(part.complex(), t);
+    const auto corners = corners_of(faceted.complex(), t);
     const Vec3 vector = 0.5 * area_vector2(corners);
     const Vec3 centre = (corners[0] + corners[1] + corners[2]) / 3 - reference;
     const double area = norm(vector);

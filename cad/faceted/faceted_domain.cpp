@@ -3,17 +3,16 @@
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field_shape.hpp"
 #include "cad/faceted/facet_walls.hpp"
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <BRep_Builder.hxx>
-#include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -21,8 +20,7 @@ namespace {
 
 /// Patches of faces without a name go by part, then by the side of the domain they lie on.
 std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullComparison* hull) {
-  Box all;
-  for (const Vec3 p : complex.points) all.add(p);
+  const Box all = box_of_points(complex.points);
   std::vector<Box> boxes(complex.faces.size());
   for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
     for (const std::int32_t p : complex.triangles[t]) boxes[complex.face_of[t]].add(complex.points[p]);
@@ -54,9 +52,9 @@ FacetComplex with_named_regions(FacetComplex complex) {
   return complex;
 }
 
-Model fluid_model(const FacetedPart& part, const HullComparison* hull) {
+Model fluid_model(const FacetedGeometry& faceted, const HullComparison* hull) {
   static const HullComparison none;
-  return build_model({}, tag_facets(part.complex(), hull ? hull : &none), &part);
+  return build_model({}, tag_facets(faceted.complex(), hull ? hull : &none), &faceted);
 }
 
 double volume_of_regions(const Model& model) {
@@ -69,15 +67,15 @@ double volume_of_regions(const Model& model) {
 Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options, Changes& changes) {
   refuse_symmetry(options, "a faceted file");
   FacetComplex walls = outer_walls(bodies, changes);
-  tell_step("building the far field");
+  report_step("building the far field");
   const NamedShape far_field = far_field_around(walls, options);
   const double body = -enclosed_volume(walls);
   Volumes volumes;
   const double outer = volumes.of(far_field.shape);
-  const FacetedPart part = make_faceted_part(std::move(walls));
+  const FacetedGeometry faceted = make_faceted_geometry(std::move(walls));
   std::vector<FaceTag> tags = tag_faces(far_field, DomainKind::body, nullptr);
-  for (FaceTag& tag : tag_facets(part.complex(), nullptr)) tags.push_back(std::move(tag));
-  Model model = build_model(far_field, tags, &part);
+  for (FaceTag& tag : tag_facets(faceted.complex(), nullptr)) tags.push_back(std::move(tag));
+  Model model = build_model(far_field, tags, &faceted);
   const double fluid = model.region_volume(0);
   const double error = std::abs(outer - body - fluid);
   if (!(body > 0) || error > tolerances::sum_of_volumes * body + tolerances::rounding * outer) {
@@ -109,14 +107,9 @@ void refuse_symmetry(const FarFieldOptions& options, const std::string& who) {
 }
 
 NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options) {
-  Box box;
-  for (const Vec3 p : walls.points) box.add(p);
+  const Box box = box_of_points(walls.points);
   NamedShape named;
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  builder.Add(compound, place_far_field(options, {box, box}, std::nullopt, named.labels));
-  named.shape = compound;
+  named.shape = make_compound({place_far_field(options, {box, box}, std::nullopt, named.labels)});
   return named;
 }
 
@@ -132,17 +125,17 @@ Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& com
   DomainReport report;
   report.changes = std::move(changes);
   std::optional<HullComparison> hull;
-  std::optional<FacetedPart> part;
+  std::optional<FacetedGeometry> faceted;
   if (options.kind == DomainKind::fluid || (options.kind == DomainKind::automatic && !options.far_field)) {
-    part = make_faceted_part(with_named_regions(complex));
-    const Model alone = fluid_model(*part, nullptr);
+    faceted = make_faceted_geometry(with_named_regions(complex));
+    const Model alone = fluid_model(*faceted, nullptr);
     hull = compare_with_hull(alone, volume_of_regions(alone));
   }
   const KindDecision decision = choose_faceted_kind(options, hull);
   report.kind = decision.kind, report.reason = decision.reason;
   Model model =
       decision.kind == DomainKind::fluid
-          ? fluid_model(*part, &*hull)
+          ? fluid_model(*faceted, &*hull)
           : surround_facets(complex, options.far_field.value_or(options.default_far_field), report.changes);
   if (options.trailing_edges.treatment == TrailingEdges::sharpen)
     report.changes.push_back({"no trailing edge was closed: faces of triangles are kept as they are"});

@@ -1,4 +1,4 @@
-/// Domains of faceted files. Seen by cad/ only.
+/// Makes domains from faceted files. Internal to cad/.
 #pragma once
 
 #include "cad/domain/domain.hpp"
@@ -13,27 +13,27 @@
 
 namespace aeroloom::cad {
 
-/// As prepare_domain, of a faceted file. Throws CadError also where a plane of symmetry is asked for.
+/// As prepare_domain, for a faceted file. Throws CadError also if a symmetry plane is asked for.
 Domain prepare_faceted(const DomainOptions& options);
-/// The same from the triangles on.
+/// The same, from the repaired triangles on.
 Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes);
 
-/// The outer triangles of the bodies in a file, closed and repaired, times `scale`; those that cross are
-/// united.
+/// Reads and repairs the triangles of a file, scales them, and keeps the outer walls of the bodies. Bodies
+/// that cross are united.
 FacetSoup read_bodies(const std::string& file, double scale, double feature_angle, Changes& changes);
 
-/// The triangles of a part, in the model's unit, closed and repaired; its faces belong to the part and are
-/// called as it is, with the name of their group where there are several. Throws as prepare_faceted.
+/// As read_bodies, for a part of the case. Faces get the name of the part, with that of their group if there
+/// are several groups. Throws as prepare_faceted.
 FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& changes);
 
-/// What encloses bodies of triangles alone: the far field's shape, with its labels.
+/// The far field around bodies of triangles alone, with its labels.
 NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options);
-/// Throws CadError where a half model is asked for; `who` cannot be cut.
+/// Throws CadError if the options ask for a half model. `who` says what cannot be cut.
 void refuse_symmetry(const FarFieldOptions& options, const std::string& who);
-/// Names and patches of the faces of walls, in their order. Numbers are left out unless `numbered`.
+/// Names and patches of wall faces, in their order. Faces get numbers only if `numbered`.
 std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered);
 
-/// The counts, bounds and findings of a faceted file as it is read.
+/// Fills in counts, bounds and defects of a faceted file as it is.
 void examine_facets(const std::string& file, Diagnosis& diagnosis);
 CadFacts look_at_faceted_file(const std::string& file);
 

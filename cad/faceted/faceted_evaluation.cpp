@@ -1,4 +1,4 @@
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,7 @@ double distance_to_box(const Box& box, Vec3 p) {
 
 }  // namespace
 
-std::size_t FacetedPart::side_at(const FacetedEdge& edge, double parameter, double& fraction) const {
+std::size_t FacetedGeometry::side_at(const FacetedEdge& edge, double parameter, double& fraction) const {
   const auto above = std::upper_bound(edge.along.begin() + 1, edge.along.end() - 1, parameter);
   const std::size_t side = static_cast<std::size_t>(above - edge.along.begin()) - 1;
   const double length = edge.along[side + 1] - edge.along[side];
@@ -81,7 +81,7 @@ std::size_t FacetedPart::side_at(const FacetedEdge& edge, double parameter, doub
   return side;
 }
 
-Vec3 FacetedPart::edge_point(EdgeId id, double parameter) const {
+Vec3 FacetedGeometry::edge_point(EdgeId id, double parameter) const {
   const FacetedEdge& edge = _edges[id];
   double fraction = 0;
   const std::size_t side = side_at(edge, parameter, fraction);
@@ -94,21 +94,21 @@ Vec3 FacetedPart::edge_point(EdgeId id, double parameter) const {
   return point;
 }
 
-Vec3 FacetedPart::edge_tangent(EdgeId id, double parameter) const {
+Vec3 FacetedGeometry::edge_tangent(EdgeId id, double parameter) const {
   const FacetedEdge& edge = _edges[id];
   double fraction = 0;
   const std::size_t side = side_at(edge, parameter, fraction);
   return normalized(_complex.points[edge.points[side + 1]] - _complex.points[edge.points[side]]);
 }
 
-double FacetedPart::edge_curvature(EdgeId id, double parameter) const {
+double FacetedGeometry::edge_curvature(EdgeId id, double parameter) const {
   const FacetedEdge& edge = _edges[id];
   double fraction = 0;
   const std::size_t side = side_at(edge, parameter, fraction);
   return (1 - fraction) * edge.curvatures[side] + fraction * edge.curvatures[side + 1];
 }
 
-Vec2 FacetedPart::edge_uv(EdgeId id, FaceId face, double parameter) const {
+Vec2 FacetedGeometry::edge_uv(EdgeId id, FaceId face, double parameter) const {
   const FacetedEdge& edge = _edges[id];
   double fraction = 0;
   const std::size_t side = side_at(edge, parameter, fraction);
@@ -122,7 +122,7 @@ Vec2 FacetedPart::edge_uv(EdgeId id, FaceId face, double parameter) const {
   throw std::out_of_range("an edge does not bound this face of facets");
 }
 
-FacetedPart::Place FacetedPart::locate(FaceId id, Vec2 uv) const {
+FacetedGeometry::Place FacetedGeometry::locate(FaceId id, Vec2 uv) const {
   const FacetedFace& face = _faces[id];
   const std::int32_t wanted = face.first_sheet + sheet(id, uv);
   Place best;
@@ -147,7 +147,7 @@ FacetedPart::Place FacetedPart::locate(FaceId id, Vec2 uv) const {
   return best;
 }
 
-Vec3 FacetedPart::point_at(const Place& place) const {
+Vec3 FacetedGeometry::point_at(const Place& place) const {
   const auto corners = corners_of(_complex, place.triangle);
   const auto& [a, b, c] = place.weights;
   Vec3 point = a * corners[0] + b * corners[1] + c * corners[2];
@@ -161,16 +161,16 @@ Vec3 FacetedPart::point_at(const Place& place) const {
   return point;
 }
 
-Vec2 FacetedPart::uv_at(const Place& place) const {
+Vec2 FacetedGeometry::uv_at(const Place& place) const {
   const CornerUv& uv = _uv[place.triangle];
   return place.weights[0] * uv[0] + place.weights[1] * uv[1] + place.weights[2] * uv[2];
 }
 
-Vec3 FacetedPart::face_point(FaceId id, Vec2 uv) const {
+Vec3 FacetedGeometry::face_point(FaceId id, Vec2 uv) const {
   return point_at(locate(id, uv));
 }
 
-SurfaceFrame FacetedPart::face_frame(FaceId id, Vec2 uv) const {
+SurfaceFrame FacetedGeometry::face_frame(FaceId id, Vec2 uv) const {
   const Place place = locate(id, uv);
   const auto p = corners_of(_complex, place.triangle);
   const CornerUv& at = _uv[place.triangle];
@@ -188,7 +188,7 @@ SurfaceFrame FacetedPart::face_frame(FaceId id, Vec2 uv) const {
   return frame;
 }
 
-PrincipalCurvatures FacetedPart::face_curvatures(FaceId id, Vec2 uv) const {
+PrincipalCurvatures FacetedGeometry::face_curvatures(FaceId id, Vec2 uv) const {
   const FacetedFace& face = _faces[id];
   if (face.planar) return {0, 0, true};
   const Place place = locate(id, uv);
@@ -201,7 +201,7 @@ PrincipalCurvatures FacetedPart::face_curvatures(FaceId id, Vec2 uv) const {
   return found;
 }
 
-std::int32_t FacetedPart::sheet(FaceId id, Vec2 uv) const {
+std::int32_t FacetedGeometry::sheet(FaceId id, Vec2 uv) const {
   const FacetedFace& face = _faces[id];
   const auto first = _sheets.sheets.begin() + face.first_sheet, last = first + face.sheet_count;
   const auto above =
@@ -212,7 +212,7 @@ std::int32_t FacetedPart::sheet(FaceId id, Vec2 uv) const {
   return static_cast<std::int32_t>((nearer_to_next ? above : below) - first);
 }
 
-FacetedPart::Foot FacetedPart::foot_on(std::int32_t triangle, Vec3 point) const {
+FacetedGeometry::Foot FacetedGeometry::foot_on(std::int32_t triangle, Vec3 point) const {
   Foot foot{{triangle, nearest_weights(corners_of(_complex, triangle), point)}, {}, 0};
   foot.point = point_at(foot.place);
   foot.away = distance(foot.point, point);
@@ -220,7 +220,7 @@ FacetedPart::Foot FacetedPart::foot_on(std::int32_t triangle, Vec3 point) const 
 }
 
 /// From triangle to triangle around it, for as long as that leads nearer.
-FacetedPart::Foot FacetedPart::descend(std::int32_t triangle, Vec3 point) const {
+FacetedGeometry::Foot FacetedGeometry::descend(std::int32_t triangle, Vec3 point) const {
   Foot best = foot_on(triangle, point);
   for (bool nearer = true; nearer;) {
     nearer = false;
@@ -243,7 +243,7 @@ FacetedPart::Foot FacetedPart::descend(std::int32_t triangle, Vec3 point) const 
   return best;
 }
 
-Projection FacetedPart::project(FaceId id, Vec3 point, Vec2 guess) const {
+Projection FacetedGeometry::project(FaceId id, Vec3 point, Vec2 guess) const {
   const FacetedFace& face = _faces[id];
   const Foot local = descend(locate(id, guess).triangle, point);
   Foot nearest = local;

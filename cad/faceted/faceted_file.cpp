@@ -17,12 +17,12 @@ namespace {
 
 Domain prepare_triangles(const DomainOptions& options, CrossingFacets crossing) {
   Changes changes;
-  tell_step("reading the triangles");
+  report_step("reading the triangles");
   FacetSoup soup = read_facets(options.file);
-  tell_step("repairing the triangles");
+  report_step("repairing the triangles");
   const FacetComplex complex =
       make_facet_complex(std::move(soup), options.feature_angle * geometry::degree, changes, crossing);
-  tell_step("making faces of the triangles");
+  report_step("making faces of the triangles");
   Domain domain = make_faceted_domain(options, complex, std::move(changes));
   // What crosses is united as bodies; a fluid is what is left between them, and is for the user to make.
   if (complex.united && domain.report.kind == DomainKind::fluid)
@@ -35,8 +35,7 @@ FacetSoup soup_of(const FacetComplex& walls, const std::string& file) {
   FacetSoup soup;
   soup.file = file;
   soup.points = walls.points;
-  for (const FacetComplex::Face& face : walls.faces)
-    soup.groups.push_back({face.name, face.part, face.patch, face.layer, face.colour, face.number});
+  soup.groups.assign(walls.faces.begin(), walls.faces.end());
   soup.group_of.assign(walls.face_of.begin(), walls.face_of.end());
   for (const auto& [a, b, c] : walls.triangles) soup.triangles.push_back({a, c, b});
   return soup;
@@ -68,9 +67,8 @@ FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& chan
     change.what = fmt::format("part '{}': {}", part.name, change.what);
     changes.push_back(std::move(change));
   }
-  const bool several =
-      std::any_of(soup.groups.begin(), soup.groups.end(),
-                  [&](const FacetSoup::Group& group) { return group.name != soup.groups.front().name; });
+  const bool several = std::ranges::any_of(
+      soup.groups, [&](const FacetSoup::Group& group) { return group.name != soup.groups.front().name; });
   for (FacetSoup::Group& group : soup.groups) {
     const bool named = several && !group.name.empty();
     group.name = named ? part.name + "_" + group.name : part.name;
@@ -100,9 +98,7 @@ CadFacts look_at_faceted_file(const std::string& file) {
   CadFacts facts;
   facts.format = found.format;
   facts.bounds = found.bounds;
-  facts.facets = FacetCounts{
-      found.points,         found.triangles,         found.components, found.without_area, found.open_sides,
-      found.junction_sides, found.misoriented_sides, found.area,       found.volume};
+  facts.facets = found;
   for (const FacetGroupFacts& group : found.groups) {
     if (!group.name.empty()) facts.face_names.push_back({group.name, group.triangles});
     if (!group.part.empty()) facts.parts.push_back({group.part, group.triangles});

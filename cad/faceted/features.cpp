@@ -36,9 +36,9 @@ enum SideState : char { smooth_side = 0, sharp_side = 1, forced_side = 2 };
 
 class FeatureFinder {
 public:
-  FeatureFinder(const FacetSoup& soup, const std::vector<FacetSkin>& skins, const SideTable& table,
+  FeatureFinder(const FacetSoup& soup, const std::vector<FacetRegions>& regions, const SideTable& table,
                 double angle)
-      : _soup(soup), _skins(skins), _table(table), _angle(angle), _turns(measure_turns(soup, table)) {}
+      : _soup(soup), _regions(regions), _table(table), _angle(angle), _turns(measure_turns(soup, table)) {}
 
   FacetFeatures find() {
     list_sides_at_points();
@@ -90,7 +90,7 @@ private:
       const SideRecord& side = _table.sides[s];
       const std::int32_t a = facet_of(_table.passes[side.begin].half_edge);
       const std::int32_t b = facet_of(_table.passes[side.end - 1].half_edge);
-      if (side.passes() != 2 || _skins[a] != _skins[b] || _soup.group_of[a] != _soup.group_of[b]) {
+      if (side.passes() != 2 || _regions[a] != _regions[b] || _soup.group_of[a] != _soup.group_of[b]) {
         _state[s] = forced_side;
       } else if (_turns[s] > _angle) {
         _state[s] = sharp_side;
@@ -353,7 +353,7 @@ private:
   }
 
   const FacetSoup& _soup;
-  const std::vector<FacetSkin>& _skins;
+  const std::vector<FacetRegions>& _regions;
   const SideTable& _table;
   double _angle;
   std::vector<double> _turns;
@@ -364,9 +364,9 @@ private:
 
 }  // namespace
 
-FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetSkin>& skins,
+FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetRegions>& regions,
                             const SideTable& table, double angle) {
-  return FeatureFinder(soup, skins, table, angle).find();
+  return FeatureFinder(soup, regions, table, angle).find();
 }
 
 }  // namespace aeroloom::cad

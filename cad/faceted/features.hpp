@@ -1,33 +1,30 @@
-/// The sides along which a faceted surface is cut into faces, and the points where curves of them end.
+/// Finds feature sides of a faceted surface and divides it into faces along them. Internal to cad/faceted/.
 #pragma once
 
-#include "cad/faceted/facet_soup.hpp"
-#include "cad/faceted/facet_turns.hpp"
-#include "cad/model/model.hpp"
+#include "cad/faceted/facet_complex.hpp"
+#include "cad/faceted/facet_sides.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace aeroloom::cad {
 
-/// What a triangle lies between: regions, and whether the space beyond it is an enclosed void.
-struct FacetSkin {
-  RegionId front = no_entity, back = no_entity;
-  bool cavity = false;
-  friend bool operator==(const FacetSkin&, const FacetSkin&) = default;
-};
-
 struct FacetFeatures {
   std::vector<char> is_feature;        ///< per side of the table
-  std::vector<std::int32_t> vertices;  ///< points, ascending
+  std::vector<std::int32_t> vertices;  ///< numbers of points, ascending
 };
 
-/// Features are sides where more than two triangles, different regions or different groups meet, and sides at
-/// which the surface turns by more than `angle` (radians). Of the latter, open chains that are short and
-/// hardly sharper count as noise; those that stay go on over blunter sides where these lead to another
-/// feature. Vertices are where other than two features meet and where a chain turns by more than `angle`;
-/// every closed chain has one. Triangles are oriented: normals point out of `front`.
-FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetSkin>& skins,
+/// Feature sides are those with more than two triangles, those between regions or groups, and those at which
+/// the surface turns by more than `angle` (radians). Among the last, short open chains that are hardly
+/// sharper count as noise. The others are continued over less sharp sides if these lead to another feature.
+/// Vertices are points where other than two feature sides meet, or where a chain turns by more than `angle`.
+/// Every closed chain has a vertex. Normals of triangles must point out of `front`.
+FacetFeatures find_features(const FacetSoup& soup, const std::vector<FacetRegions>& regions,
                             const SideTable& table, double angle);
+
+/// Divides a soup into faces, curves and vertices. Normals of triangles must point out of `front`. The caller
+/// names the regions.
+FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetRegions>& regions,
+                          double feature_angle);
 
 }  // namespace aeroloom::cad

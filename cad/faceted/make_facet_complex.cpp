@@ -3,10 +3,8 @@
 #include "cad/faceted/chambers.hpp"
 #include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
-#include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/split_facets.hpp"
+#include "cad/faceted/features.hpp"
 #include "cad/faceted/unite_components.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 
@@ -53,8 +51,8 @@ std::vector<char> enclosed_voids(const Chambers& chambers) {
 
 /// Leaves out triangles between two spaces that are no material, and turns the others so that their normals
 /// point out of `front`.
-std::vector<FacetSkin> orient_facets(FacetSoup& soup, const Chambers& chambers, Changes& changes) {
-  std::vector<FacetSkin> skins;
+std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chambers, Changes& changes) {
+  std::vector<FacetRegions> regions;
   const std::vector<char> enclosed = enclosed_voids(chambers);
   std::size_t count = 0, dropped = 0, turned = 0;
   Vec3 dropped_at;
@@ -75,21 +73,21 @@ std::vector<FacetSkin> orient_facets(FacetSoup& soup, const Chambers& chambers, 
     }
     const bool turn =
         region_behind == no_entity || (region_ahead != no_entity && region_ahead < region_behind);
-    FacetSkin skin{turn ? region_ahead : region_behind, turn ? region_behind : region_ahead, false};
-    skin.cavity = skin.back == no_entity && enclosed[turn ? behind : ahead] != 0;
+    FacetRegions sides{turn ? region_ahead : region_behind, turn ? region_behind : region_ahead, false};
+    sides.cavity = sides.back == no_entity && enclosed[turn ? behind : ahead] != 0;
     auto corners = soup.triangles[t];
     if (turn) std::swap(corners[1], corners[2]);
     turned += turn;
     soup.triangles[count] = corners;
     soup.group_of[count++] = soup.group_of[t];
-    skins.push_back(skin);
+    regions.push_back(sides);
   }
   soup.triangles.resize(count), soup.group_of.resize(count);
   if (dropped > 0)
     changes.push_back(
         {fmt::format("{} triangles between two empty spaces are left out", dropped), dropped_at});
   if (turned > 0 && turned < count) changes.push_back({fmt::format("{} triangles are turned round", turned)});
-  return skins;
+  return regions;
 }
 
 std::vector<std::string> name_regions(const Chambers& chambers) {
@@ -117,12 +115,13 @@ FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& c
   if (united) close();
   refuse_contacts(soup);
   const Chambers chambers = find_chambers(soup, changes);
-  const std::vector<FacetSkin> skins = orient_facets(soup, chambers, changes);
-  if (skins.empty()) throw CadError(fmt::format("{} encloses no volume; export a closed surface", soup.file));
+  const std::vector<FacetRegions> regions = orient_facets(soup, chambers, changes);
+  if (regions.empty())
+    throw CadError(fmt::format("{} encloses no volume; export a closed surface", soup.file));
   std::vector<std::int32_t> same(soup.points.size());
   std::iota(same.begin(), same.end(), 0);
   replace_points(soup, same);  // those of triangles left out go
-  FacetComplex complex = split_facets(soup, skins, feature_angle);
+  FacetComplex complex = split_facets(soup, regions, feature_angle);
   complex.regions = name_regions(chambers);
   complex.united = united;
   return complex;

@@ -5,7 +5,6 @@
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -79,8 +78,8 @@ private:
     const auto high = [&](std::int32_t s) {
       return std::max(_places[_sides[s][0]].x, _places[_sides[s][1]].x);
     };
-    std::sort(order.begin(), order.end(),
-              [&](std::int32_t a, std::int32_t b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
+    std::ranges::sort(
+        order, [&](std::int32_t a, std::int32_t b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
     for (std::size_t i = 0; i < order.size(); ++i) {
       for (std::size_t j = i + 1; j < order.size() && low(order[j]) <= high(order[i]); ++j) {
         if (sides_conflict(_places, _sides[order[i]], _sides[order[j]])) return true;
@@ -107,13 +106,11 @@ private:
       if (parts.root(used[i]) == parts.root(used[0])) continue;
       std::vector<std::int32_t> before(used.begin(), used.begin() + static_cast<std::ptrdiff_t>(i));
       const Vec2 here = _places[used[i]];
-      std::stable_sort(before.begin(), before.end(), [&](std::int32_t a, std::int32_t b) {
+      std::ranges::stable_sort(before, [&](std::int32_t a, std::int32_t b) {
         return distance(_places[a], here) < distance(_places[b], here);
       });
-      const auto seen = std::find_if(before.begin(), before.end(), [&](std::int32_t b) {
-        return std::none_of(_sides.begin(), _sides.end(), [&](Side s) {
-          return sides_conflict(_places, s, {b, used[i]});
-        });
+      const auto seen = std::ranges::find_if(before, [&](std::int32_t b) {
+        return std::ranges::none_of(_sides, [&](Side s) { return sides_conflict(_places, s, {b, used[i]}); });
       });
       if (seen == before.end()) return false;
       _sides.push_back({*seen, used[i]});
@@ -133,7 +130,7 @@ private:
     for (std::int32_t h = 0; h < static_cast<std::int32_t>(2 * _sides.size()); ++h)
       _leaving[origin(h)].push_back(h);
     for (std::vector<std::int32_t>& around : _leaving) {
-      std::sort(around.begin(), around.end(), [&](std::int32_t g, std::int32_t h) {
+      std::ranges::sort(around, [&](std::int32_t g, std::int32_t h) {
         const Vec2 center = _places[origin(g)], a = _places[target(g)], b = _places[target(h)];
         const bool a_is_left = lies_before(a, center), b_is_left = lies_before(b, center);
         if (a_is_left != b_is_left) return b_is_left;

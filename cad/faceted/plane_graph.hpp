@@ -1,8 +1,8 @@
-/// Polygons, and plane graphs of straight sides, cut into triangles without new points.
+/// Triangulates polygons and planar graphs of straight sides, without new points.
 ///
-/// Ears are cut off as in Meisters (Amer. Math. Monthly 82, 1975, doi:10.2307/2319703), where an ear has no
-/// other corner on it, so that corners on straight sides leave no triangle without area. Parts of a graph
-/// that hang together nowhere are first joined by bridges. All signs are exact.
+/// Ears are clipped (Meisters, Amer. Math. Monthly 82, 1975, doi:10.2307/2319703). An ear may have no other
+/// corner on it, so that no triangle is flat. Components of a graph are first connected by bridges. All signs
+/// are exact.
 #pragma once
 
 #include "geometry/half_edges.hpp"
@@ -16,7 +16,7 @@
 
 namespace aeroloom::cad {
 
-/// The coordinate plane that a normal is steepest to: looked at with the normal towards the viewer.
+/// Projection to the coordinate plane most nearly normal to a direction. The direction points to the viewer.
 class CoordinatePlane {
 public:
   explicit CoordinatePlane(geometry::Vec3 normal);
@@ -32,12 +32,12 @@ private:
 /// Twice the area vector of a closed polygon (Newell).
 geometry::Vec3 polygon_area_vector(std::span<const geometry::Vec3> corners);
 
-/// A polygon whose inside is on its left, cut into triangles; it may touch itself. Nothing where it crosses
-/// itself. Corners are told by their numbers in `loop`, places by `places[number]`.
+/// Triangulates a polygon whose inside is on its left. It may touch itself. `loop` holds numbers of corners,
+/// which are indices into `places`. Empty if the polygon crosses itself.
 std::optional<std::vector<geometry::TriangleCorners>> cut_ears(std::vector<std::int32_t> loop,
                                                                std::span<const geometry::Vec2> places);
 
-/// What of a plane graph is filled: every space that is enclosed, or every second one from outside inwards.
+/// Which spaces of a graph are filled: all enclosed ones, or every second one from outside inward.
 enum class PlaneFilling { all, alternating };
 
 struct PlaneGraph {
@@ -47,7 +47,7 @@ struct PlaneGraph {
   PlaneFilling filling = PlaneFilling::all;
 };
 
-/// Triangles, counter-clockwise. Nothing where sides cross, overlap, or run through a place of another one.
+/// Counter-clockwise triangles. Empty if sides cross, overlap or pass through a place.
 std::optional<std::vector<geometry::TriangleCorners>> fill_plane_graph(const PlaneGraph& graph);
 
 }  // namespace aeroloom::cad

@@ -56,8 +56,7 @@ std::vector<geometry::TriangleCorners> cut_polygon(std::span<const geometry::Vec
 FacetFile load_facet_file(const std::string& name) {
   std::ifstream stream(name, std::ios::binary);
   if (!stream) throw std::ios_base::failure(fmt::format("cannot open {}", name));
-  FacetFile file{name, {std::istreambuf_iterator<char>(stream), {}}};
-  return file;
+  return {name, {std::istreambuf_iterator<char>(stream), {}}};
 }
 
 std::int32_t find_group(FacetSoup& soup, const FacetSoup::Group& group) {

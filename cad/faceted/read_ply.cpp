@@ -3,7 +3,6 @@
 #include "cad/model/model.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>

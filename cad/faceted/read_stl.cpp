@@ -18,10 +18,6 @@ std::uint32_t little_word(const char* bytes) {
   return value;
 }
 
-void add_corner(FacetSoup& soup, geometry::Vec3 point) {
-  soup.points.push_back(point);
-}
-
 void close_triangles(FacetSoup& soup, std::int32_t group) {
   const auto count = static_cast<std::int32_t>(soup.points.size() / 3);
   for (auto t = static_cast<std::int32_t>(soup.triangles.size()); t < count; ++t) {
@@ -50,7 +46,7 @@ FacetSoup read_binary_stl(const FacetFile& file) {
           refuse_facets(file.name, fmt::format("byte {}", at), "a coordinate is no finite number");
         return static_cast<double>(value);
       };
-      add_corner(soup, {coordinate(0), coordinate(1), coordinate(2)});
+      soup.points.push_back({coordinate(0), coordinate(1), coordinate(2)});
     }
   }
   close_triangles(soup, 0);
@@ -100,7 +96,7 @@ private:
   void read_corner() {
     expect("vertex", _text.any_word("'vertex'"));
     const double x = _text.any_number("a coordinate"), y = _text.any_number("a coordinate");
-    add_corner(_soup, {x, y, _text.any_number("a coordinate")});
+    _soup.points.push_back({x, y, _text.any_number("a coordinate")});
   }
 
   FacetText _text;

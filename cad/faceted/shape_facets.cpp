@@ -1,13 +1,13 @@
 #include "cad/faceted/shape_facets.hpp"
 
 #include "cad/domain/domain_kind.hpp"
+#include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
-#include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
@@ -24,10 +24,8 @@
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
 
@@ -46,8 +44,7 @@ class ShapeTriangles {
 public:
   /// `copy` is triangulated already.
   explicit ShapeTriangles(const TopoDS_Shape& copy) {
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(copy, TopAbs_FACE, faces);
+    const TopTools_IndexedMapOfShape faces = map_of(copy, TopAbs_FACE);
     for (int i = 1; i <= faces.Extent(); ++i) add_face(TopoDS::Face(faces(i)), i - 1);
   }
 
@@ -167,7 +164,7 @@ void name_groups(const TopoDS_Solid& solid, const FaceLabels& labels, FacetSoup&
 }  // namespace
 
 ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const FacetLimits& limits) {
-  tell_step("triangulating a body");
+  report_step("triangulating a body");
   for (const double fraction : {1.0, 0.25, 0.06, 0.015}) {
     BRepBuilderAPI_Copy copy(solid, false, false);
     IMeshTools_Parameters parameters;
@@ -183,11 +180,10 @@ ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const
     name_groups(solid, labels, facets.soup);
     return facets;
   }
-  const Vec3 at = tight_box(solid).center();
   throw CadError(
       fmt::format("the body around {} cannot be cut into triangles that close without crossing each other. "
                   "Remedy: repair the body in the CAD program",
-                  geometry::place_text(at)));
+                  geometry::place_text(tight_box(solid).center())));
 }
 
 }  // namespace aeroloom::cad

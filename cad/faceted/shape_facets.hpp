@@ -1,4 +1,4 @@
-/// Solids of the CAD library as closed triangles. Seen by cad/ only.
+/// Triangulates CAD solids into closed soups. Internal to cad/.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -9,17 +9,17 @@
 namespace aeroloom::cad {
 
 struct FacetLimits {
-  double deflection = 0;  ///< of a triangle from its face
+  double deflection = 0;  ///< distance from triangle to face
   double angle = 0;       ///< between neighbouring triangles, radians
 };
 
 struct ShapeFacets {
-  FacetSoup soup;  ///< closed: neighbouring faces share the points of their edges; a group for each face
-  double deviation = 0;  ///< the farthest that the middle of a triangle is off its face
+  FacetSoup soup;        ///< closed: neighbouring faces share points; one group per face
+  double deviation = 0;  ///< largest distance from the middle of a triangle to its face
 };
 
-/// Finer than the limits where triangles would cross. Points of the soup that are equal are one. Throws
-/// CadError where no triangulation closes without crossings.
+/// Triangulates finer than the limits where triangles would cross. Equal points are one. Throws CadError if
+/// no triangulation is closed and free of crossings.
 ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const FacetLimits& limits);
 
 }  // namespace aeroloom::cad

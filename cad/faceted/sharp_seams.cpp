@@ -1,13 +1,11 @@
-#include "cad/faceted/sharp_seams.hpp"
-
 #include "cad/faceted/facet_links.hpp"
+#include "cad/faceted/facet_sheets.hpp"
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 #include <queue>
-#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -191,8 +189,8 @@ private:
 void sort_triangles_by_face(FacetComplex& complex) {
   std::vector<std::int32_t> order(complex.triangles.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return complex.face_of[a] < complex.face_of[b]; });
+  std::ranges::stable_sort(
+      order, [&](std::int32_t a, std::int32_t b) { return complex.face_of[a] < complex.face_of[b]; });
   auto triangles = complex.triangles;
   auto face_of = complex.face_of;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -212,11 +210,11 @@ void divide_at_sharp_seams(FacetComplex& complex) {
     if (passes.empty()) break;
     if (round == most_rounds) {
       const auto& [face, curve] = passes.begin()->first;
-      const Vec3 at = complex.points[complex.curves[curve].points.front()];
       throw CadError(
           fmt::format("a sharp edge from {} has face '{}' on both sides, which cannot be divided. Remedy: "
                       "another geometry.feature_angle, or finer triangles there",
-                      geometry::place_text(at), complex.faces[face].name));
+                      geometry::place_text(complex.points[complex.curves[curve].points.front()]),
+                      complex.faces[face].name));
     }
     std::vector<std::int32_t> label = label_by_side(complex, links, passes);
     straighten_borders(complex, links, passes, label);

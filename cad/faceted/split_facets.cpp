@@ -1,10 +1,5 @@
-#include "cad/faceted/split_facets.hpp"
-
+#include "cad/faceted/features.hpp"
 #include "geometry/disjoint_sets.hpp"
-
-#include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace aeroloom::cad {
 namespace {
@@ -72,19 +67,17 @@ std::vector<FaceId> gather_faces(const FacetSoup& soup, const SideTable& table, 
 
 }  // namespace
 
-FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetSkin>& skins, double feature_angle) {
+FacetComplex split_facets(const FacetSoup& soup, const std::vector<FacetRegions>& regions,
+                          double feature_angle) {
   const SideTable table = make_side_table(soup.triangles);
-  const FacetFeatures features = find_features(soup, skins, table, feature_angle);
+  const FacetFeatures features = find_features(soup, regions, table, feature_angle);
   FacetComplex complex;
   complex.points = soup.points;
   complex.triangles = soup.triangles;
   std::vector<std::int32_t> first_of_face;
   complex.face_of = gather_faces(soup, table, features, first_of_face);
-  for (const std::int32_t t : first_of_face) {
-    const FacetSoup::Group& group = soup.groups[soup.group_of[t]];
-    complex.faces.push_back({group.name, group.part, skins[t].front, skins[t].back, skins[t].cavity,
-                             group.patch, group.layer, group.colour, group.number});
-  }
+  for (const std::int32_t t : first_of_face)
+    complex.faces.push_back({soup.groups[soup.group_of[t]], regions[t]});
   complex.curves = CurveTracer(table, features, soup.points.size()).curves;
   complex.vertices = features.vertices;
   return complex;

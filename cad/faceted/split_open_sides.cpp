@@ -1,7 +1,6 @@
 #include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/plane_graph.hpp"
-#include "cad/faceted/weld_facets.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/sort_unique.hpp"
 

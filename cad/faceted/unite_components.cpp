@@ -162,7 +162,7 @@ private:
     surfaces.reserve(group.size());
     for (const std::int32_t component : group)
       surfaces.push_back(component_surface(_soup, _members[component]));
-    tell_step(fmt::format("uniting {} and {} others", name(group.front()), group.size() - 1));
+    report_step(fmt::format("uniting {} and {} others", name(group.front()), group.size() - 1));
     try {
       return geometry::unite_surfaces(surfaces, tolerances::exact_volume);
     } catch (const geometry::UnionError& error) {

@@ -1,4 +1,4 @@
-/// Closed components of a soup that cross or touch others, united. Seen by this folder only.
+/// Unites closed components of a soup that cross or touch. Internal to cad/faceted/.
 #pragma once
 
 #include "cad/faceted/facet_soup.hpp"
@@ -6,11 +6,12 @@
 
 namespace aeroloom::cad {
 
-/// Unites components that meet others (geometry/unite_surfaces.hpp), each as the body that it encloses;
-/// cavities of bodies that meet others are filled. Triangles keep their groups; those of united components
-/// come last. Points with equal coordinates must be one, no side open. The result is rounded: what crosses
-/// then is for the caller to find. False where nothing meets, or a component meets itself. Lists every union.
-/// Throws CadError naming two components and a place.
+/// Unites components that meet others, each as the solid body it encloses (geometry/unite_surfaces.hpp).
+/// Cavities of such bodies are filled. Triangles keep their groups; those of united components come last.
+/// Points with equal coordinates must be one, and no side may be open. Coordinates of the result are rounded,
+/// so the caller must check for new contacts.
+/// False if no two components meet. Every union is listed. Throws CadError that names two components and a
+/// place.
 bool unite_components(FacetSoup& soup, Changes& changes);
 
 }  // namespace aeroloom::cad

@@ -1,5 +1,4 @@
-#include "cad/faceted/weld_facets.hpp"
-
+#include "cad/faceted/close_facets.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -12,11 +11,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-Vec3 centre_of(const FacetSoup& soup, std::size_t t) {
-  const auto& [a, b, c] = soup.triangles[t];
-  return (soup.points[a] + soup.points[b] + soup.points[c]) / 3.0;
-}
 
 /// Keeps the triangles that are marked.
 void keep_triangles(FacetSoup& soup, const std::vector<char>& kept) {
@@ -74,7 +68,7 @@ void weld_equal_points(FacetSoup& soup) {
   for (Vec3& p : soup.points) p += zero;  // -0 becomes 0
   std::vector<std::int32_t> order(soup.points.size()), representative(soup.points.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+  std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
     const Vec3 &p = soup.points[a], &q = soup.points[b];
     return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
   });
@@ -97,12 +91,12 @@ void drop_void_triangles(FacetSoup& soup, Changes& changes) {
   std::size_t repeated = 0, thin = 0;
   Vec3 repeated_at, thin_at;
   for (std::size_t t = 0; t < kept.size(); ++t) {
-    const auto& [a, b, c] = soup.triangles[t];
-    if (on_one_line(soup.points[a], soup.points[b], soup.points[c])) {
+    const auto [a, b, c] = corners_of(soup, t);
+    if (on_one_line(a, b, c)) {
       kept[t] = 0;
-      if (thin++ == 0) thin_at = centre_of(soup, t);
+      if (thin++ == 0) thin_at = middle_of(soup, t);
     } else if (kept[t] == 0 && repeated++ == 0) {
-      repeated_at = centre_of(soup, t);
+      repeated_at = middle_of(soup, t);
     }
   }
   keep_triangles(soup, kept);

@@ -3,8 +3,9 @@
 #include "cad/model/model_bytes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
-#include "cad/model/topology/closed_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "geometry/place_text.hpp"
 
@@ -13,11 +14,7 @@
 #include <sstream>
 
 #include <BRepTools.hxx>
-#include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -30,7 +27,7 @@ struct Bounds {
   Box all, body;
 };
 
-Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedPart* faceted,
+Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedGeometry* faceted,
                  const std::vector<FaceTag>& tags) {
   std::vector<TopoDS_Shape> body, far_field;
   for (int i = 1; i <= faces.Extent(); ++i) (tags[i - 1].far_field ? far_field : body).push_back(faces(i));
@@ -44,9 +41,8 @@ Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedPart* fac
 
 /// A region is called as the solid of its faces; a face between two regions may carry the other one's label.
 std::vector<std::string> region_names(const NamedShape& named) {
-  TopTools_IndexedMapOfShape solids, faces;
-  TopExp::MapShapes(named.shape, TopAbs_SOLID, solids);
-  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape solids = map_of(named.shape, TopAbs_SOLID);
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
   const std::vector<std::vector<int>> around = solids_around_faces(named.shape);
   std::vector<std::string> names(solids.Extent());
   for (const std::size_t most : {1, 2}) {
@@ -64,7 +60,7 @@ std::vector<std::string> region_names(const NamedShape& named) {
   return names;
 }
 
-void put_labels(const NamedShape& named, const FacetedPart* faceted, const std::vector<FaceTag>& tags,
+void put_labels(const NamedShape& named, const FacetedGeometry* faceted, const std::vector<FaceTag>& tags,
                 ByteWriter& writer) {
   writer.put_text(named.unit_name);
   writer.put(named.unit_in_metres);
@@ -72,8 +68,7 @@ void put_labels(const NamedShape& named, const FacetedPart* faceted, const std::
   std::vector<std::string> regions = region_names(named);
   if (faceted)
     regions.insert(regions.end(), faceted->complex().regions.begin(), faceted->complex().regions.end());
-  writer.put<std::uint64_t>(regions.size());
-  for (const std::string& name : regions) writer.put_text(name);
+  writer.put_texts(regions);
   writer.put<std::uint64_t>(tags.size());
   for (const FaceTag& tag : tags) {
     writer.put_text(tag.name);
@@ -88,8 +83,7 @@ std::vector<FaceTag> get_labels(ByteReader& reader, Model::Data& data) {
   data.unit_name = reader.get_text();
   data.unit_in_metres = reader.get<double>();
   data.gap = reader.get<double>();
-  data.region_names.resize(reader.get<std::uint64_t>());
-  for (std::string& name : data.region_names) name = reader.get_text();
+  data.region_names = reader.get_texts();
   std::vector<FaceTag> tags(reader.get<std::uint64_t>());
   for (FaceTag& tag : tags) {
     tag.name = reader.get_text();
@@ -108,10 +102,7 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
     face.name = tags[i].name.empty() ? fmt::format("face_{}", i) : tags[i].name;
     face.part = tags[i].part, face.layer = tags[i].layer, face.colour = tags[i].colour;
     face.number = tags[i].number;
-    const std::string& patch = tags[i].patch.empty() ? face.name : tags[i].patch;
-    const auto found = std::find(data.patches.begin(), data.patches.end(), patch);
-    face.patch = static_cast<std::int32_t>(found - data.patches.begin());
-    if (found == data.patches.end()) data.patches.push_back(patch);
+    face.patch = patch_number(data.patches, tags[i].patch.empty() ? face.name : tags[i].patch);
     data.far_field.push_back(tags[i].far_field);
   }
 }
@@ -119,20 +110,18 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
 }  // namespace
 
 std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape solids, faces;
-  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape solids = map_of(shape, TopAbs_SOLID);
+  const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
   std::vector<std::vector<int>> around(faces.Extent());
   for (int i = 1; i <= solids.Extent(); ++i) {
-    TopTools_IndexedMapOfShape own;
-    TopExp::MapShapes(solids(i), TopAbs_FACE, own);
+    const TopTools_IndexedMapOfShape own = map_of(solids(i), TopAbs_FACE);
     for (int f = 1; f <= own.Extent(); ++f) around[faces.FindIndex(own(f)) - 1].push_back(i - 1);
   }
   return around;
 }
 
-Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags, const FacetedPart* faceted) {
-  tell_step("building the model");
+Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags, const FacetedGeometry* faceted) {
+  report_step("building the model");
   return guarded("building the model", [&] {
     TopTools_IndexedMapOfShape faces;
     std::ostringstream stream;
@@ -200,8 +189,8 @@ Model Model::from_bytes(std::span<const std::byte> bytes) {
 
 std::string Model::Data::describe_face(FaceId id) const {
   Vec3 at;
-  if (const FacetedPart* part = faceted_face(id)) {
-    at = part->complex().points[part->faces()[id - first_faceted_face].points.front()];
+  if (const FacetedGeometry* faceted = faceted_face(id)) {
+    at = faceted->complex().points[faceted->faces()[id - first_faceted_face].points.front()];
   } else {
     const FaceEvaluator& face = face_evaluators.at(id);
     at = face.surface.point(0.5 * (face.uv_low + face.uv_high));

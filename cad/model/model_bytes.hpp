@@ -1,4 +1,4 @@
-/// Numbers and texts as bytes, for ranks that run the same program. Seen by cad/ only.
+/// Writes numbers and texts to bytes and reads them, between ranks of the same program. Internal to cad/.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -26,6 +26,10 @@ public:
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
     bytes.insert(bytes.end(), begin, begin + text.size());
   }
+  void put_texts(const std::vector<std::string>& texts) {
+    put<std::uint64_t>(texts.size());
+    for (const std::string& text : texts) put_text(text);
+  }
   template <class T>
   void put_all(const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -49,6 +53,11 @@ public:
   std::string get_text() {
     const auto size = get<std::uint64_t>();
     return {reinterpret_cast<const char*>(take(size)), static_cast<std::size_t>(size)};
+  }
+  std::vector<std::string> get_texts() {
+    std::vector<std::string> texts;
+    for (auto left = get<std::uint64_t>(); left > 0; --left) texts.push_back(get_text());
+    return texts;
   }
   template <class T>
   std::vector<T> get_all() {

@@ -1,4 +1,4 @@
-/// What is behind a Model: shapes of the CAD library and evaluators. Seen by this folder only.
+/// Implementation of Model: CAD shapes and evaluators. Internal to cad/.
 #pragma once
 
 #include "cad/model/evaluation/surface_evaluator.hpp"
@@ -6,7 +6,6 @@
 #include "cad/model/named_shape.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -21,7 +20,7 @@
 
 namespace aeroloom::cad {
 
-/// What a face is called in the model.
+/// Names of a face in the model.
 struct FaceTag {
   std::string name;
   std::string patch;
@@ -30,37 +29,39 @@ struct FaceTag {
   std::int32_t number = -1;  ///< in the file
 };
 
-/// The solids of a shape around each of its faces, both by TopExp's order; one, or two for inner faces.
+/// The solids on the sides of each face, one or two, in the order of TopExp.
 std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);
 
-class FacetedPart;
+class FacetedGeometry;
 
-/// Builds the model of a shape whose faces all belong to solids, and of facets: of one of the two, or both.
-/// `tags` follow TopExp's order of faces, then that of the faces of facets. Throws CadError.
+/// Builds a model from a shape whose faces all belong to solids, from faceted geometry, or from both. `tags`
+/// follow the faces of the shape in the order of TopExp, then the faceted ones. Throws CadError.
 Model build_model(const NamedShape& named, const std::vector<FaceTag>& tags,
-                  const FacetedPart* faceted = nullptr);
+                  const FacetedGeometry* faceted = nullptr);
 
-/// The bytes of a model with these strips closed (closed_edges.hpp), from those of the model before.
+/// The bytes of a model with these strips closed (blunt_edges.hpp), from the bytes of the model before.
 std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes, const std::vector<FaceId>& strips);
 
-/// The box of a shape's geometry, without the gaps that tolerances and control points would add.
+/// The number of a patch. Its name is appended if it is new.
+std::int32_t patch_number(std::vector<std::string>& patches, const std::string& name);
+
+/// The tight box of a shape, without tolerances and control points.
 Box tight_box(const TopoDS_Shape& shape);
-/// The box of several shapes' geometry: faces within the box of the others' edges and faces cost next to
-/// nothing.
+/// The tight box of several shapes. Faces inside the box of the other faces and edges cost almost nothing.
 Box tight_box(const std::vector<TopoDS_Shape>& shapes);
 
-/// Relative error of areas in FacePlace and in the diagnosis; Model::face_area is more precise. Without one
-/// the CAD library takes the most points its rules have in every span of a spline, ten times as long.
+/// Relative error of areas in FacePlace and in the diagnosis; Model::face_area is more accurate. Without a
+/// given error the CAD library uses its largest rules on every span, ten times as slow.
 inline constexpr double area_precision = 1e-3;
 
-/// Area and centre of a face to `area_precision`, and the box of its geometry.
+/// Area and centre of a face, to `area_precision`, and its tight box.
 FacePlace place_of(const TopoDS_Face& face);
 
-/// The parameter curve of one coedge along an edge.
+/// The curve of one coedge in the parameter plane of its face.
 struct UseCurve {
   Coedge use;
   Geom2dAdaptor_Curve curve;
-  double first = 0, last = 0;  ///< parameters of the curve at the ends of the edge's interval
+  double first = 0, last = 0;  ///< parameters of the curve at the ends of the edge
 };
 
 struct EdgeEvaluator {
@@ -68,39 +69,35 @@ struct EdgeEvaluator {
   GeomAdaptor_Curve curve;  ///< not set on degenerate edges
 };
 
-/// One parameter direction of a surface.
+/// The range of one parameter of a surface.
 struct ParameterRange {
   double low = 0,
-         high = 0;      ///< natural range; of a periodic direction, one period from where the face begins
-  double period = 0;    ///< 0 where it is not periodic
-  bool closed = false;  ///< both ends are the same curve, without being periodic
+         high = 0;      ///< range of the surface; if periodic, one period from the lower end of the face
+  double period = 0;    ///< 0 if not periodic
+  bool closed = false;  ///< both ends are the same curve, but the surface is not periodic
 
-  /// The length after which points repeat; 0 where they do not.
+  /// The period, also of closed surfaces; 0 if there is none.
   double repeats_after() const { return period > 0 ? period : closed ? high - low : 0; }
   /// The parameter of the same point inside the range.
-  double wrap(double parameter) const {
-    const double length = repeats_after();
-    if (length == 0 || (parameter >= low && parameter <= high)) return parameter;
-    return parameter - length * std::floor((parameter - low) / length);
-  }
+  double wrap(double parameter) const { return wrap_parameter(parameter, low, high, repeats_after()); }
 };
 
 struct FaceEvaluator {
   TopoDS_Face shape;      ///< oriented forward
-  bool reversed = false;  ///< the normal out of the front region is opposite to du x dv
+  bool reversed = false;  ///< the normal out of `front` is opposite to du x dv
   bool planar = false;
   SurfaceEvaluator surface;
   ParameterRange u, v;
-  Vec2 uv_low, uv_high;        ///< the box of the face's loops in parameters
-  std::vector<UseCurve> uses;  ///< by (edge, use)
+  Vec2 uv_low, uv_high;        ///< box of the loops in parameters
+  std::vector<UseCurve> uses;  ///< sorted by (edge, use)
 
   const UseCurve& use(const Coedge& wanted) const;
 };
 
-/// Parameters of a point that lies on the face, from parameters near it.
+/// Parameters of a point that lies on the face near `guess`.
 Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double tolerance);
 
-/// Coordinates that are known exactly, from axis-aligned planes (plane_snap.hpp).
+/// Coordinates that are known exactly from axis-aligned planes (plane_snap.hpp).
 struct Snap {
   std::array<bool, 3> fixed{};
   Vec3 value;
@@ -124,7 +121,7 @@ struct FaceIntegrals;
 struct JoinedModel;
 
 struct Model::Data {
-  /// Over a face, seen from the middle of the model; its area is positive.
+  /// Integrals over a face, relative to the middle of the model. The area is positive.
   const FaceIntegrals& integrals(FaceId id) const;
   bool is_reversed(FaceId id) const;  ///< as FaceEvaluator::reversed
 
@@ -143,21 +140,23 @@ struct Model::Data {
   std::string unit_name;
   double unit_in_metres = 1;
   double gap = 0;
-  std::shared_ptr<FaceCache> cache;           ///< of what is computed on demand; none where faces are joined
-  std::shared_ptr<const ClosedEdges> closed;  ///< where strips are closed: edges that the shape does not have
-  std::shared_ptr<const JoinedModel> joined;  ///< where faces are joined: evaluators and snaps are its base's
+  std::shared_ptr<FaceCache> cache;  ///< null if faces are joined
+  std::shared_ptr<const ClosedEdges>
+      closed;  ///< for models with closed strips; their edges are not in the shape
+  std::shared_ptr<const JoinedModel>
+      joined;  ///< for models with joined faces; evaluators and snaps are in the base model
 
-  /// Entities of facets: numbered after those of the shape, from these numbers on. They have no evaluators.
-  std::shared_ptr<const FacetedPart> faceted;
+  /// Faceted entities are numbered after those of the shape, beginning here. They have no evaluators.
+  std::shared_ptr<const FacetedGeometry> faceted;
   VertexId first_faceted_vertex = 0;
   EdgeId first_faceted_edge = 0;
   FaceId first_faceted_face = 0;
 
-  /// The part that the face or edge belongs to; null where it is of the shape.
-  const FacetedPart* faceted_face(FaceId id) const {
+  /// The faceted geometry of a face or edge; null if it belongs to the shape.
+  const FacetedGeometry* faceted_face(FaceId id) const {
     return faceted && id >= first_faceted_face ? faceted.get() : nullptr;
   }
-  const FacetedPart* faceted_edge(EdgeId id) const {
+  const FacetedGeometry* faceted_edge(EdgeId id) const {
     return faceted && id >= first_faceted_edge ? faceted.get() : nullptr;
   }
 

@@ -1,5 +1,4 @@
-/// The border to the CAD library: its exceptions become ours, its chatter stays inside. Seen by this folder
-/// only.
+/// Converts exceptions of the CAD library and stops its output. Internal to cad/.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -11,13 +10,13 @@
 
 namespace aeroloom::cad {
 
-/// Stops the CAD library from printing; cheap to call again.
+/// Stops the CAD library from printing. May be called often.
 void silence_cad_library();
 
-/// The CAD library's exception as a CadError saying what was being done.
+/// Throws a CadError that says what was being done and what the CAD library reports.
 [[noreturn]] void throw_cad_error(const std::string& doing, const Standard_Failure& failure);
 
-/// Runs `action`; what the CAD library throws (it does not derive from std::exception) becomes a CadError.
+/// Runs `action`. Exceptions of the CAD library, which do not derive from std::exception, become CadError.
 template <class Action>
 decltype(auto) guarded(const std::string& doing, Action&& action) {
   silence_cad_library();

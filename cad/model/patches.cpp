@@ -58,16 +58,20 @@ bool matches_pattern(const std::string& name, const std::string& pattern) {
   return NamePattern(pattern).matches(name);
 }
 
+std::int32_t patch_number(std::vector<std::string>& patches, const std::string& name) {
+  const auto found = std::find(patches.begin(), patches.end(), name);
+  const auto number = static_cast<std::int32_t>(found - patches.begin());
+  if (found == patches.end()) patches.push_back(name);
+  return number;
+}
+
 Model with_patches(const Model& model, const std::vector<std::string>& patch_of_face) {
   auto data = std::make_shared<Model::Data>(model.data());
   if (patch_of_face.size() != data->faces.size())
     throw std::logic_error("patches and faces differ in number");
   data->patches.clear();
-  for (std::size_t f = 0; f < patch_of_face.size(); ++f) {
-    const auto found = std::find(data->patches.begin(), data->patches.end(), patch_of_face[f]);
-    data->faces[f].patch = static_cast<std::int32_t>(found - data->patches.begin());
-    if (found == data->patches.end()) data->patches.push_back(patch_of_face[f]);
-  }
+  for (std::size_t f = 0; f < patch_of_face.size(); ++f)
+    data->faces[f].patch = patch_number(data->patches, patch_of_face[f]);
   return Model(std::move(data));
 }
 

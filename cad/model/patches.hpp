@@ -1,4 +1,4 @@
-/// Patches of a model by name.
+/// Name patterns, and patches of a model by name.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -10,11 +10,11 @@
 
 namespace aeroloom::cad {
 
-/// What names may be like: a name, in which * stands for any characters and ? for one, or behind "re:" a
-/// regular expression (ECMAScript) that is found anywhere in the name unless ^ and $ tie it to the ends.
+/// A pattern for names. * stands for any characters, ? for one. After "re:" follows a regular expression
+/// (ECMAScript), which may match anywhere in the name.
 class NamePattern {
 public:
-  /// Throws std::invalid_argument where what follows "re:" is no regular expression.
+  /// Throws std::invalid_argument if the text after "re:" is not a valid expression.
   explicit NamePattern(const std::string& text);
   bool matches(const std::string& name) const;
 
@@ -23,11 +23,11 @@ private:
   std::optional<std::regex> _expression;
 };
 
-/// Whether a name is like a pattern.
+/// Whether a name matches a pattern.
 bool matches_pattern(const std::string& name, const std::string& pattern);
 
-/// The model with other patches: one name for each face, patches in the order of the faces that bring them.
-/// What serialise() writes keeps the patches it had.
+/// The model with other patches. One name per face; patches are numbered in the order of faces. serialise()
+/// still writes the old patches.
 Model with_patches(const Model& model, const std::vector<std::string>& patch_of_face);
 
 }  // namespace aeroloom::cad

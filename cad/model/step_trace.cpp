@@ -11,7 +11,7 @@ void listen_to_steps(StepListener listener) {
   current = listener;
 }
 
-void tell_step(const std::string& step) {
+void report_step(const std::string& step) {
   if (current != nullptr) current(step);
 }
 

@@ -1,4 +1,4 @@
-/// Points and vectors of OpenCASCADE as ours.
+/// Converts points and vectors from and to OpenCASCADE.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -16,6 +16,9 @@ inline geometry::Vec3 to_vec(const gp_Pnt& p) {
 }
 inline geometry::Vec3 to_vec(const gp_Vec& p) {
   return to_vec(p.XYZ());
+}
+inline gp_Pnt to_gp(geometry::Vec3 p) {
+  return {p.x, p.y, p.z};
 }
 
 }  // namespace aeroloom::cad

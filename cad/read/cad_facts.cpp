@@ -2,15 +2,13 @@
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
-#include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/read/cad_reader.hpp"
 
 #include <map>
 
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 
 namespace aeroloom::cad {
@@ -27,8 +25,7 @@ std::vector<NamedFaces> listed(const Counts& counts) {
 }
 
 void list_labels(const NamedShape& named, CadFacts& facts) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
   Counts parts, names, layers, colours;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const FaceLabel* label = named.labels.Seek(faces(i));
@@ -57,10 +54,10 @@ CadFacts look_at_cad_file(const std::string& file) {
     facts.unit_name = named.unit_name;
     facts.unit_in_metres = named.unit_in_metres;
     facts.bounds = tight_box(named.shape);
-    facts.solids = count(named.shape, TopAbs_SOLID);
-    facts.shells = count(named.shape, TopAbs_SHELL);
-    facts.faces = count(named.shape, TopAbs_FACE);
-    facts.edges = count(named.shape, TopAbs_EDGE);
+    facts.solids = map_of(named.shape, TopAbs_SOLID).Extent();
+    facts.shells = map_of(named.shape, TopAbs_SHELL).Extent();
+    facts.faces = map_of(named.shape, TopAbs_FACE).Extent();
+    facts.edges = map_of(named.shape, TopAbs_EDGE).Extent();
     list_labels(named, facts);
   });
   return facts;

@@ -1,6 +1,7 @@
 #include "cad/read/cad_reader.hpp"
 
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 
 #include <algorithm>
@@ -9,15 +10,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <vector>
 
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
 
@@ -74,8 +72,8 @@ std::string trimmed(std::string text) {
 std::string excerpt(const std::string& head) {
   constexpr std::size_t shown = 40;  // characters, in one line of a message
   std::string text = trimmed(head).substr(0, shown);
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return !std::isprint(c); }, '.');
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return !std::isprint(c); }, '.');
   return text;
 }
 
@@ -116,8 +114,7 @@ private:
 
 /// Half of the vertices are exact to this.
 double median_tolerance(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape vertices;
-  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  const TopTools_IndexedMapOfShape vertices = map_of(shape, TopAbs_VERTEX);
   std::vector<double> tolerances;
   for (int i = 1; i <= vertices.Extent(); ++i)
     tolerances.push_back(BRep_Tool::Tolerance(TopoDS::Vertex(vertices(i))));
@@ -201,8 +198,7 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
 
 /// In the order of the file, which no repair, cut or far field changes.
 void number_faces(NamedShape& named) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i) {
     if (!named.labels.IsBound(faces(i))) named.labels.Bind(faces(i), FaceLabel{});
     named.labels.ChangeFind(faces(i)).number = i - 1;
@@ -229,7 +225,7 @@ std::string format_of_cad_file(const std::string& file) {
 NamedShape read_cad_file(const std::string& file) {
   const Ends ends = read_ends(file);
   require(!trimmed(ends.head).empty(), file, "the file is empty");
-  tell_step("reading the file");
+  report_step("reading the file");
   return guarded(fmt::format("reading '{}'", file), [&] {
     NamedShape named = read_by_content(file, ends);
     number_faces(named);

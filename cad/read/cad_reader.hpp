@@ -1,4 +1,4 @@
-/// Reading of CAD files with what they say about names, layers, colours and units. Seen by this folder only.
+/// Reads CAD files with their names, layers, colours and units. Internal to cad/.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
@@ -7,13 +7,13 @@
 
 namespace aeroloom::cad {
 
-/// The shape of a STEP, IGES or BREP file (by content; the extension is only mentioned in messages), in the
-/// file's declared unit. Throws CadError for files that are none of these, damaged or empty,
-/// std::ios_base::failure when the file cannot be opened.
+/// The shape of a STEP, IGES or BREP file, in the unit that the file declares. The content decides about the
+/// format, not the extension. Throws CadError for files that are damaged, empty or of another format, and
+/// std::ios_base::failure if the file cannot be opened.
 NamedShape read_cad_file(const std::string& file);
 
-/// "STEP", "IGES" or "BREP", by content; empty for others. Throws std::ios_base::failure when the file
-/// cannot be opened.
+/// "STEP", "IGES" or "BREP", recognised by content; empty for other files. Throws std::ios_base::failure if
+/// the file cannot be opened.
 std::string format_of_cad_file(const std::string& file);
 
 NamedShape read_step(const std::string& file);

@@ -1,4 +1,4 @@
-/// Writing of shapes. Seen by this folder only.
+/// Writes shapes to files. Internal to cad/.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
@@ -7,8 +7,8 @@
 
 namespace aeroloom::cad {
 
-/// Writes a STEP file in the shape's unit, with the names of solids and faces. Throws CadError, or
-/// std::ios_base::failure when the file cannot be written.
+/// Writes a STEP file in the shape's unit, with the names of solids and faces. Throws CadError, and
+/// std::ios_base::failure if the file cannot be written.
 void write_step(const NamedShape& named, const std::string& file);
 
 }  // namespace aeroloom::cad

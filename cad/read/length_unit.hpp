@@ -1,4 +1,4 @@
-/// Units of length as CAD files declare them. Seen by this folder only.
+/// Units of length that CAD files declare. Internal to cad/.
 #pragma once
 
 #include <string>
@@ -8,16 +8,18 @@ namespace aeroloom::cad {
 struct LengthUnit {
   const char* name;  ///< as users write it
   double metres;
-  const char* cad_name;  ///< as the CAD library's settings call it
-  int iges_flag;         ///< in the global section of an IGES file
+  const char* cad_name;  ///< name in the settings of the CAD library
+  int iges_flag;         ///< number in the global section of an IGES file
 };
 
 const LengthUnit& millimetre();
-/// By any usual name ("metre", "INCH", "ft"), in either case; nullptr when unknown.
+/// Finds a unit by its name ("metre", "INCH", "ft"), in upper or lower case, or by its IGES number. nullptr
+/// if it is unknown.
 const LengthUnit* find_length_unit(std::string name);
 const LengthUnit* find_length_unit(int iges_flag);
 
-/// Makes the CAD library read and write lengths in this unit, unconverted when the file declares the same.
+/// Makes the CAD library read and write lengths in this unit. Lengths of files in the same unit are not
+/// converted.
 void set_cad_library_unit(const LengthUnit& unit);
 
 }  // namespace aeroloom::cad

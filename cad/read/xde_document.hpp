@@ -1,5 +1,5 @@
-/// Parts, names, colours and layers of a file's shapes, as the exchange framework keeps them. Seen by this
-/// folder only.
+/// Reads parts, names, colours and layers from a document of the CAD library's exchange framework (XDE).
+/// Internal to cad/.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
@@ -12,16 +12,16 @@
 
 namespace aeroloom::cad {
 
-/// Names that the file gives to faces, shells and solids themselves; keys have no location.
+/// Names that the file gives to faces, shells and solids. Keys have no location.
 using EntityNames = NCollection_DataMap<TopoDS_Shape, std::string, TopTools_ShapeMapHasher>;
 
 Handle(TDocStd_Document) make_document();
 
-/// All parts of the document in place, with labels on their faces. `names` of the file's own entities go
-/// first.
+/// All parts of the document at their positions, with labels on their faces. `names` takes precedence over
+/// names in the document.
 NamedShape collect_parts(const Handle(TDocStd_Document) & document, const EntityNames& names);
 
-/// Whether a name was made up by an exporter and says nothing.
+/// Whether an exporter made the name up, such as "NONE" or "SOLID".
 bool is_placeholder(const std::string& name);
 
 }  // namespace aeroloom::cad

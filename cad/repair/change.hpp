@@ -1,4 +1,4 @@
-/// Changes to a model on its way from the file to the domain. Nothing moves silently.
+/// The list of changes that were made to a geometry between the file and the domain. Every change is listed.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -12,12 +12,12 @@ namespace aeroloom::cad {
 
 using geometry::Vec3;
 
-/// One change of the geometry that was read.
+/// One change to the geometry that was read.
 struct Change {
-  std::string what;                ///< one sentence: entity and deed
+  std::string what;                ///< one sentence: which entity, and what was done
   std::optional<Vec3> where = {};  ///< a place to look at
-  double how_much = 0;             ///< largest distance anything moved, in the model's unit; 0: nothing moved
-  bool is_warning = false;         ///< the user may not want it
+  double how_much = 0;  ///< largest distance by which anything moved, in the model's unit; 0: nothing moved
+  bool is_warning = false;  ///< the user may not want this change
 
   static constexpr auto fields() {
     return std::tuple(&Change::what, &Change::where, &Change::how_much, &Change::is_warning);

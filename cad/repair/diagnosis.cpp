@@ -2,26 +2,21 @@
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
-#include "cad/model/count_shapes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/repair/noise_faces.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/tolerances.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
 
@@ -51,8 +46,7 @@ void find_open_edges(const TopoDS_Shape& shape, Diagnosis& diagnosis) {
 }
 
 void find_short_edges(const TopoDS_Shape& shape, double diagonal, Diagnosis& diagnosis) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape edges = map_of(shape, TopAbs_EDGE);
   for (int i = 1; i <= edges.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(edges(i));
     double first, last;
@@ -70,8 +64,7 @@ std::string shown_or_numbered(const NamedShape& named, const TopoDS_Shape& face,
 }
 
 void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(named.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i) {
     GProp_GProps surface, rim;
     BRepGProp::SurfaceProperties(faces(i), surface, area_precision);
@@ -93,10 +86,10 @@ void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis
 void examine(const NamedShape& named, Diagnosis& diagnosis) {
   diagnosis.unit_name = named.unit_name;
   diagnosis.bounds = tight_box(named.shape);
-  diagnosis.counts.solids = count(named.shape, TopAbs_SOLID);
-  diagnosis.counts.shells = count(named.shape, TopAbs_SHELL);
-  diagnosis.counts.faces = count(named.shape, TopAbs_FACE);
-  diagnosis.counts.edges = count(named.shape, TopAbs_EDGE);
+  diagnosis.counts.solids = map_of(named.shape, TopAbs_SOLID).Extent();
+  diagnosis.counts.shells = map_of(named.shape, TopAbs_SHELL).Extent();
+  diagnosis.counts.faces = map_of(named.shape, TopAbs_FACE).Extent();
+  diagnosis.counts.edges = map_of(named.shape, TopAbs_EDGE).Extent();
   const double diagonal = diagnosis.bounds.diagonal();
   find_open_edges(named.shape, diagnosis);
   find_short_edges(named.shape, diagonal, diagnosis);

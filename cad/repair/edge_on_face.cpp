@@ -14,12 +14,12 @@
 
 namespace aeroloom::cad {
 
-Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
+Handle(Geom2d_Curve) image_beside(const EdgeInterval& edge, const EdgeInterval& other,
                                   const Handle(Geom2d_Curve) & image, bool against, double tolerance) {
   constexpr int fewest = 16, most = 1024;  // points; doubled until `interpolated`, chosen, not measured
   const SampledEdge own(edge.edge), beside(other.edge);
-  const auto along = [](const EdgePart& part, double fraction) {
-    return part.first + fraction * (part.last - part.first);
+  const auto along = [](const EdgeInterval& interval, double fraction) {
+    return interval.first + fraction * (interval.last - interval.first);
   };
   // Where on the other: ends belong to ends.
   const auto foot = [&](double fraction) {

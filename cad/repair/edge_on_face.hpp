@@ -1,4 +1,5 @@
-/// Parameter curves for edges that take the place of others. Seen by this folder only.
+/// Parameter curves (curves in the parameters of a face) for edges that replace other edges. Internal to
+/// cad/repair/.
 #pragma once
 
 #include "cad/repair/sampled_edge.hpp"
@@ -9,20 +10,20 @@
 
 namespace aeroloom::cad {
 
-/// A stretch of an edge.
-struct EdgePart {
+/// An interval of an edge.
+struct EdgeInterval {
   TopoDS_Edge edge;
-  double first = 0, last = 1;  ///< ascending
+  double first = 0, last = 1;  ///< ascending parameters
 };
 
-/// The image of `edge`, in its parameter, on a face that `other` bounds, which runs beside it: where the
-/// nearest places of the other are. `image` is the other's, in its parameter. `against`: the other runs
-/// against it.
-Handle(Geom2d_Curve) image_beside(const EdgePart& edge, const EdgePart& other,
+/// The parameter curve of `edge` on a face that `other` bounds; the two edges run side by side. `image` is
+/// the parameter curve of `other`. Each point of `edge` gets the parameters of the nearest point of `other`.
+/// `against` is true if the edges run in opposite directions.
+Handle(Geom2d_Curve) image_beside(const EdgeInterval& edge, const EdgeInterval& other,
                                   const Handle(Geom2d_Curve) & image, bool against, double tolerance);
 
-/// Gives the edge an image on a face, for its coedge forward or reversed; where the face sees it already it
-/// becomes a seam.
+/// Gives the edge a parameter curve on a face, for its forward or reversed coedge. If the face has the edge
+/// already, the edge becomes a seam.
 void add_image(const TopoDS_Edge& edge, const Handle(Geom2d_Curve) & image, const TopoDS_Face& face,
                bool forward, double tolerance);
 

@@ -1,6 +1,7 @@
 #include "cad/repair/edge_substitution.hpp"
 
 #include "cad/model/model.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/repair/shells.hpp"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <TopExp.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Iterator.hxx>
@@ -63,18 +63,12 @@ private:
     if (_what.removed_faces.Contains(shape)) return {};
     if (const auto* known = find(shape)) return known->Oriented(shape.Orientation());
     const TopoDS_Face forward = TopoDS::Face(shape.Oriented(TopAbs_FORWARD));
-    TopTools_IndexedMapOfShape edges;
-    TopExp::MapShapes(forward, TopAbs_EDGE, edges);
+    const TopTools_IndexedMapOfShape edges = map_of(forward, TopAbs_EDGE);
     const bool touched = std::any_of(edges.cbegin(), edges.cend(),
                                      [&](const TopoDS_Shape& edge) { return _what.edges.Contains(edge); });
     TopoDS_Shape result = touched ? with_new_wires(forward) : TopoDS_Shape(forward);
     remember(shape, result);
-    if (touched) {
-      if (const FaceLabel* label = _labels.Seek(shape)) {
-        const FaceLabel kept = *label;
-        _labels.Bind(result, kept);
-      }
-    }
+    if (touched) copy_label(_labels, shape, result);
     return result.Oriented(shape.Orientation());
   }
 

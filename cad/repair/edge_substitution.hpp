@@ -1,9 +1,8 @@
-/// A shape rebuilt with other edges. Seen by this folder only.
+/// Rebuilds a shape with other edges. Internal to cad/repair/.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
 
-#include <map>
 #include <vector>
 
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -11,19 +10,19 @@
 
 namespace aeroloom::cad {
 
-/// The edges that take an edge's place in every wire: in its direction, forward ones or reversed; nothing
-/// where the edge became a vertex.
+/// The edges that replace an edge in every wire, in the direction of that edge. Empty if the edge becomes a
+/// vertex.
 using EdgeChain = std::vector<TopoDS_Edge>;
 
 struct Substitution {
-  TopTools_IndexedMapOfShape edges;  ///< those to replace
-  std::vector<EdgeChain> chains;     ///< of edges(i + 1), which is taken forward
+  TopTools_IndexedMapOfShape edges;  ///< edges to replace
+  std::vector<EdgeChain> chains;     ///< chains[i] replaces edges(i + 1), taken forward
   TopTools_IndexedMapOfShape removed_faces;
 };
 
-/// The shape with the substitution made. A coedge to and fro along one new edge vanishes, and so does a
-/// loop of nothing inside a face. Labels follow. Throws CadError where a face or a shell would vanish that is
-/// not to be removed, or a closed shell would open.
+/// Rebuilds the shape with the substitution. Two coedges that run along the same new edge and back are
+/// removed. Inner loops without edges are removed too. Labels follow. Throws CadError if a face or a shell
+/// would vanish that is not to be removed, or if a closed shell would open.
 TopoDS_Shape substitute(const TopoDS_Shape& shape, const Substitution& substitution, FaceLabels& labels);
 
 }  // namespace aeroloom::cad

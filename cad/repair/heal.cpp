@@ -1,6 +1,7 @@
 #include "cad/repair/heal.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/repair_edges.hpp"
@@ -15,14 +16,9 @@
 #include <utility>
 
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -46,8 +42,8 @@ std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
 
 Parts take_apart(const TopoDS_Shape& shape, Changes& changes) {
   Parts parts;
-  TopTools_IndexedMapOfShape solids, shells, faces;
-  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  const TopTools_IndexedMapOfShape solids = map_of(shape, TopAbs_SOLID);
+  TopTools_IndexedMapOfShape shells;
   for (int i = 1; i <= solids.Extent(); ++i) {
     const std::vector<TopoDS_Shell> bounds = shells_of(solids(i));
     const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed);
@@ -108,9 +104,8 @@ void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
   for (const TopoDS_Solid& solid : solids) TopExp::MapShapes(solid, TopAbs_FACE, used);
   for (int i = 1; i <= faces.Extent(); ++i) {
     if (used.Contains(faces(i))) continue;
-    const Vec3 center = tight_box(faces(i)).center();
-    changes.push_back(
-        {fmt::format("a loose face around {} belongs to no solid: dropped", geometry::place_text(center))});
+    changes.push_back({fmt::format("a loose face around {} belongs to no solid: dropped",
+                                   geometry::place_text(tight_box(faces(i)).center()))});
   }
 }
 
@@ -121,19 +116,17 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
     const Box& box = boxes[i];
     const double volume = volumes.of(solids[i]);
     if (volume > tolerances::no_volume * std::pow(box.diagonal(), 3)) continue;
-    const Vec3 at = box.center();
     throw CadError(
         fmt::format("solid {} around {} encloses next to no volume ({:.3g} in a box of diagonal {:.6g}): "
                     "what is as thin as that, a sheet or a wire, cannot be meshed as a body",
-                    i, geometry::place_text(at), volume, box.diagonal()));
+                    i, geometry::place_text(box.center()), volume, box.diagonal()));
   }
 }
 
 }  // namespace
 
 std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape map;
-  TopExp::MapShapes(shape, TopAbs_SOLID, map);
+  const TopTools_IndexedMapOfShape map = map_of(shape, TopAbs_SOLID);
   std::vector<TopoDS_Solid> solids;
   for (int i = 1; i <= map.Extent(); ++i) solids.push_back(TopoDS::Solid(map(i)));
   return solids;
@@ -148,7 +141,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 }
 
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
-  tell_step("healing the shape");
+  report_step("healing the shape");
   Parts parts = take_apart(named.shape, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)

@@ -1,6 +1,7 @@
 #include "cad/repair/noise.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/noise_closing.hpp"
 #include "cad/repair/noise_faces.hpp"
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include <BRep_Tool.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <fmt/format.h>
@@ -37,9 +37,9 @@ struct NoiseItem {
 
 std::vector<NoiseItem> find_items(const TopoDS_Shape& shape, const FaceLabels& labels, double tolerance) {
   std::vector<NoiseItem> items;
-  TopTools_IndexedMapOfShape faces, edges, of_noise;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
+  const TopTools_IndexedMapOfShape edges = map_of(shape, TopAbs_EDGE);
+  TopTools_IndexedMapOfShape of_noise;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(faces(i));
     const auto noise = examine_noise(face, tolerance);
@@ -83,7 +83,7 @@ NamedShape close_items(NamedShape named, const std::vector<NoiseItem>& some, dou
   return named;
 }
 
-void tell_closed(const std::vector<NoiseItem>& closed, double tolerance, Changes& changes) {
+void report_closed(const std::vector<NoiseItem>& closed, double tolerance, Changes& changes) {
   std::size_t edges = 0;
   for (const NoiseItem& item : closed) {
     if (item.face) {
@@ -104,7 +104,7 @@ void tell_closed(const std::vector<NoiseItem>& closed, double tolerance, Changes
   }
 }
 
-void tell_left(const NoiseItem& item, double tolerance, const char* reason, Changes& changes) {
+void report_left(const NoiseItem& item, double tolerance, const char* reason, Changes& changes) {
   const std::string what = item.face ? fmt::format("strip '{}', at most {:.4g} wide", item.name, item.width)
                                      : fmt::format("an edge of length {:.4g}", item.width);
   changes.push_back(
@@ -112,9 +112,8 @@ void tell_left(const NoiseItem& item, double tolerance, const char* reason, Chan
 }
 
 bool is_among(const std::vector<NoiseItem>& items, const NoiseItem& wanted) {
-  return std::any_of(items.begin(), items.end(), [&](const NoiseItem& item) {
-    return item.face == wanted.face && item.place == wanted.place;
-  });
+  return std::ranges::any_of(
+      items, [&](const NoiseItem& item) { return item.face == wanted.face && item.place == wanted.place; });
 }
 
 /// Closes what closes, one after the other.
@@ -122,18 +121,18 @@ NamedShape close_singly(NamedShape named, double tolerance, Changes& changes) {
   std::vector<NoiseItem> refused, closed;
   for (int attempt = 0; attempt < most_single_attempts; ++attempt) {
     const std::vector<NoiseItem> items = find_items(named.shape, named.labels, tolerance);
-    const auto next = std::find_if(items.begin(), items.end(),
-                                   [&](const NoiseItem& item) { return !is_among(refused, item); });
+    const auto next =
+        std::ranges::find_if(items, [&](const NoiseItem& item) { return !is_among(refused, item); });
     if (next == items.end()) break;
     try {
       named = close_items(named, {*next}, tolerance);
       closed.push_back(*next);
     } catch (const CadError& error) {
       refused.push_back(*next);
-      tell_left(*next, tolerance, error.what(), changes);
+      report_left(*next, tolerance, error.what(), changes);
     }
   }
-  tell_closed(closed, tolerance, changes);
+  report_closed(closed, tolerance, changes);
   return named;
 }
 
@@ -150,10 +149,10 @@ NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes)
   const double tolerance = noise_tolerance(tight_box(named.shape).diagonal(), named.precision, smallest_size);
   const std::vector<NoiseItem> items = find_items(named.shape, named.labels, tolerance);
   if (items.empty()) return named;
-  tell_step("closing noise");
+  report_step("closing noise");
   try {
     NamedShape closed = close_items(named, items, tolerance);
-    tell_closed(items, tolerance, changes);
+    report_closed(items, tolerance, changes);
     return closed;
   } catch (const CadError&) {
     return close_singly(std::move(named), tolerance, changes);

@@ -1,5 +1,4 @@
-/// Noise is no feature: what is smaller than one stated tolerance is closed before anything is meshed. Seen
-/// by this folder and by domain/.
+/// Closes noise: details below a stated tolerance, which would only make bad elements. Internal to cad/.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
@@ -7,16 +6,15 @@
 
 namespace aeroloom::cad {
 
-/// The length below which details are noise, in the shape's unit: two millionths of the diagonal, or twice
-/// the file's own precision where that is more, at most a hundred thousandth of the diagonal and a tenth of
-/// the smallest size asked for (0: none asked for).
+/// The length below which details are noise, in the shape's unit. It is 2e-6 of the diagonal, or twice the
+/// precision of the file if that is more. It is at most 1e-5 of the diagonal and a tenth of the smallest
+/// size; 0: no size is known.
 double noise_tolerance(double diagonal, double precision, double smallest_size);
 
-/// The shape without faces narrower than the tolerance and edges shorter than that. The sides of such a face
-/// become one edge, the ends of such an edge one vertex half-way; surfaces stay as they are. Shells that
-/// were closed are so still. `smallest_size`: the smallest size asked for, 0 where none is. What
-/// cannot be closed stays. All of it is appended to
-/// `changes`.
+/// Removes faces narrower than the tolerance and edges shorter than it. The two sides of such a face become
+/// one edge; the ends of such an edge become one vertex in their middle. Surfaces do not change, and closed
+/// shells stay closed. Details that cannot be closed stay. Every change is appended to `changes`.
+/// `smallest_size` is 0 if no size is known.
 NamedShape close_noise(NamedShape named, double smallest_size, Changes& changes);
 
 }  // namespace aeroloom::cad

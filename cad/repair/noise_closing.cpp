@@ -1,10 +1,11 @@
 #include "cad/repair/noise_closing.hpp"
 
 #include "cad/model/model.hpp"
+#include "cad/model/shape_map.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/repair/edge_on_face.hpp"
 #include "cad/repair/edge_pieces.hpp"
 #include "cad/repair/sampled_edge.hpp"
-#include "cad/repair/united_vertices.hpp"
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
@@ -18,10 +19,8 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -77,7 +76,8 @@ private:
   void number_vertices() {
     _samples.resize(_edges.Extent());
     _cuts.resize(_edges.Extent());
-    for (int v = 1; v <= _vertices.Extent(); ++v) _united.add(place_of_vertex(TopoDS::Vertex(_vertices(v))));
+    for (int v = 1; v <= _vertices.Extent(); ++v)
+      _united.add(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(_vertices(v)))));
     for (int e = 0; e < _edges.Extent(); ++e) {
       TopoDS_Vertex first, last;
       TopExp::Vertices(edge(e), first, last);
@@ -89,15 +89,14 @@ private:
   void collapse_edges() {
     std::vector<int> shorts;
     for (int i = 1; i <= _items.edges.Extent(); ++i) shorts.push_back(_edges.FindIndex(_items.edges(i)) - 1);
-    std::sort(shorts.begin(), shorts.end(), [&](int a, int b) {
+    std::ranges::sort(shorts, [&](int a, int b) {
       return std::pair(samples(a).length(), a) < std::pair(samples(b).length(), b);
     });
     for (const int e : shorts) _united.unite(_ends[e].first, _ends[e].second, widest_union * _tolerance);
   }
 
   std::vector<int> edges_of(const TopoDS_Shape& face) const {
-    TopTools_IndexedMapOfShape own;
-    TopExp::MapShapes(face, TopAbs_EDGE, own);
+    const TopTools_IndexedMapOfShape own = map_of(face, TopAbs_EDGE);
     std::vector<int> edges;
     for (int i = 1; i <= own.Extent(); ++i) {
       const int e = _edges.FindIndex(own(i)) - 1;
@@ -108,8 +107,8 @@ private:
 
   bool is_at(int e, int root) const {
     if (_united.root(_ends[e].first) == root || _united.root(_ends[e].second) == root) return true;
-    return std::any_of(_cuts[e].begin(), _cuts[e].end(),
-                       [&](const EdgeCut& cut) { return _united.root(cut.vertex) == root; });
+    return std::ranges::any_of(_cuts[e],
+                               [&](const EdgeCut& cut) { return _united.root(cut.vertex) == root; });
   }
 
   /// Every vertex of a noise face is joined with what is opposite.
@@ -131,7 +130,7 @@ private:
         // Other noise faces along that edge have to follow.
         for (int other = 0; other < _items.faces.Extent(); ++other) {
           const auto& edges = _noise_edges[other];
-          if (other != f && std::find(edges.begin(), edges.end(), e) != edges.end())
+          if (other != f && std::ranges::find(edges, e) != edges.end())
             wanted.emplace_back(other, _cuts[e].back().vertex);
         }
       }
@@ -169,8 +168,7 @@ private:
         continue;
       }
       auto& cuts = _cuts[e];
-      std::sort(cuts.begin(), cuts.end(),
-                [](const EdgeCut& a, const EdgeCut& b) { return a.parameter < b.parameter; });
+      std::ranges::sort(cuts, [](const EdgeCut& a, const EdgeCut& b) { return a.parameter < b.parameter; });
       if (!cuts.empty()) BRepLib::SameRange(edge(e));
       double first, last;
       BRep_Tool::Range(edge(e), first, last);
@@ -338,7 +336,7 @@ private:
   /// The faces that lose a piece see the one that takes its place.
   void give_images(const EdgePiece& lost, EdgePiece& taken) {
     BRep_Builder builder;
-    const EdgePart own{edge(taken.edge), taken.first, taken.last},
+    const EdgeInterval own{edge(taken.edge), taken.first, taken.last},
         other{edge(lost.edge), lost.first, lost.last};
     for (const TopoDS_Shape& user : _users.FindFromKey(_edges(lost.edge + 1))) {
       if (_items.faces.Contains(user)) continue;

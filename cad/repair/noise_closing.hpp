@@ -1,22 +1,20 @@
-/// How faces and edges that are noise close: vertices become one, edges are cut and laid on one another. Seen
-/// by this folder only.
+/// Plans how noise faces and noise edges are closed. Internal to cad/repair/.
 #pragma once
 
 #include "cad/repair/edge_substitution.hpp"
 
 namespace aeroloom::cad {
 
-/// Faces and edges that are to be closed.
+/// Faces and edges to close.
 struct NoiseItems {
   TopTools_IndexedMapOfShape faces;  ///< narrower than the tolerance
   TopTools_IndexedMapOfShape edges;  ///< shorter than the tolerance
 };
 
-/// The substitution that closes them. Vertices of a noise face that are nearer than `tolerance` to another
-/// part of its border are united with it, which cuts edges where they have no vertex; edges that run from the
-/// same vertex to the same vertex, that near all along, become one, which has a parameter curve on each of
-/// their faces. Vertices unite only as far as three tolerances. Throws CadError naming the place where that
-/// is not enough.
+/// Plans the substitution that closes the items. A vertex of a noise face is united with the opposite side of
+/// the face if it is nearer than `tolerance`. That side is cut there if it has no vertex. Edges that then run
+/// side by side between the same vertices become one, with a parameter curve on each of their faces. United
+/// vertices lie within three tolerances. Throws CadError that names the place if that is not enough.
 Substitution plan_closing(const TopoDS_Shape& shape, const NoiseItems& items, double tolerance);
 
 }  // namespace aeroloom::cad

@@ -1,6 +1,7 @@
 #include "cad/repair/noise_faces.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -10,8 +11,6 @@
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 
 namespace aeroloom::cad {
@@ -19,8 +18,7 @@ namespace {
 
 /// Edges of a face that have a length.
 std::vector<SampledEdge> sample_border(const TopoDS_Face& face) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape edges = map_of(face, TopAbs_EDGE);
   std::vector<SampledEdge> border;
   for (int i = 1; i <= edges.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(edges(i).Oriented(TopAbs_FORWARD));
@@ -51,8 +49,8 @@ std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance
   if (border.size() < 2) return std::nullopt;
   std::vector<std::size_t> order(border.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return border[a].length() > border[b].length(); });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return border[a].length() > border[b].length(); });
   NoiseFace noise;
   noise.place = border[order.front()].point(border[order.front()].parameter(0.5));
   for (const std::size_t own : order) {

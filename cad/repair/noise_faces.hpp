@@ -1,5 +1,4 @@
-/// Faces and edges too small to be features: what a CAD program's rounding leaves behind. Seen by this folder
-/// only.
+/// Finds faces that are too narrow to be features, as rounding in CAD programs leaves them. Internal to cad/.
 #pragma once
 
 #include "cad/repair/sampled_edge.hpp"
@@ -10,15 +9,15 @@
 
 namespace aeroloom::cad {
 
-/// A face all of whose border is within the tolerance of another part of it.
+/// A face whose border is everywhere within the tolerance of another part of the border.
 struct NoiseFace {
-  double widest = 0;  ///< largest distance from one part of the border to the nearest other one
-  double length = 0;  ///< half its border
-  Vec3 place;         ///< on its border
+  double widest = 0;  ///< largest distance from one part of the border to the nearest other part
+  double length = 0;  ///< half the length of the border
+  Vec3 place;         ///< a point on the border
 };
 
-/// Nothing where the face is none. Concave and smooth-sided strips, rings and spots count alike; the face
-/// must also have no more area than such a border can enclose.
+/// Examines one face; empty if it is no noise. Strips, rings and spots all count. The area must also be small
+/// for the length of the border.
 std::optional<NoiseFace> examine_noise(const TopoDS_Face& face, double tolerance);
 
 }  // namespace aeroloom::cad

@@ -1,5 +1,6 @@
 #include "cad/repair/plane_loops.hpp"
 
+#include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
@@ -9,10 +10,12 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepClass_FaceClassifier.hxx>
+#include <BRepGProp.hxx>
 #include <BRepLib_FindSurface.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ElSLib.hxx>
+#include <GProp_GProps.hxx>
 #include <Geom_Plane.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -174,6 +177,23 @@ TopoDS_Face make_plane_face(const std::vector<PlaneLoop>& loops, std::size_t ind
   std::vector<TopoDS_Wire> holes;
   for (const int child : loops[index].children) holes.push_back(loops[child].wire);
   return make_plane_face(loops[index].plane, loops[index].wire, holes);
+}
+
+std::vector<Cap> cap_openings(const std::vector<TopoDS_Edge>& open, double tolerance) {
+  const auto loops = find_plane_loops(open, tolerance);
+  if (!loops) return {};
+  std::vector<Cap> caps;
+  for (std::size_t i = 0; i < loops->size(); ++i) {
+    if ((*loops)[i].depth % 2 != 0) continue;
+    Cap& cap = caps.emplace_back();
+    cap.face = make_plane_face(*loops, i);
+    cap.deviation = (*loops)[i].deviation;
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(cap.face, properties);
+    cap.center = to_vec(properties.CentreOfMass());
+    cap.area = std::abs(properties.Mass());
+  }
+  return caps;
 }
 
 }  // namespace aeroloom::cad

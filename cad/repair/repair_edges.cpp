@@ -1,6 +1,7 @@
 #include "cad/repair/repair_edges.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/model/topology/model_topology.hpp"
 #include "cad/tolerances.hpp"
 
@@ -47,10 +48,7 @@ public:
         _image(BRep_Tool::CurveOnSurface(edge, face.shape, _low, _high)) {}
 
   double parameter(int i) const { return i == samples ? _last : sample_parameter(_first, _last, i); }
-  Vec3 point(int i) const {
-    const gp_Pnt place = _curve->Value(parameter(i));
-    return {place.X(), place.Y(), place.Z()};
-  }
+  Vec3 point(int i) const { return to_vec(_curve->Value(parameter(i))); }
   Vec2 image(int i) const {
     const gp_Pnt2d uv = _image->Value(_low + (parameter(i) - _first) / (_last - _first) * (_high - _low));
     return {uv.X(), uv.Y()};

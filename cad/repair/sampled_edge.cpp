@@ -1,5 +1,7 @@
 #include "cad/repair/sampled_edge.hpp"
 
+#include "cad/model/to_vec.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,10 +15,6 @@ constexpr int edge_intervals = 32;
 /// Steps along tangents to a foot, and halvings of one that leads away; chosen, not measured.
 constexpr int rounds = 20, halvings_of_foot = 5;
 
-Vec3 vec_of(const gp_XYZ& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
-
 }  // namespace
 
 SampledEdge::SampledEdge(const TopoDS_Edge& edge) : _curve(edge) {
@@ -27,14 +25,14 @@ SampledEdge::SampledEdge(const TopoDS_Edge& edge) : _curve(edge) {
 }
 
 Vec3 SampledEdge::point(double parameter) const {
-  return vec_of(_curve.Value(parameter).XYZ());
+  return to_vec(_curve.Value(parameter));
 }
 
 Vec3 SampledEdge::tangent(double parameter) const {
   gp_Pnt p;
   gp_Vec along;
   _curve.D1(parameter, p, along);
-  return vec_of(along.XYZ());
+  return to_vec(along);
 }
 
 SampledEdge::Foot SampledEdge::nearest_around(Vec3 p, double parameter) const {

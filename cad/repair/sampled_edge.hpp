@@ -1,4 +1,4 @@
-/// Edges of the CAD library with points along them, to measure how near they are. Seen by this folder only.
+/// Edges with sample points, for distances between edges. Internal to cad/repair/.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -24,13 +24,13 @@ public:
   double first() const { return _curve.FirstParameter(); }
   double last() const { return _curve.LastParameter(); }
   double length() const { return _length; }
-  /// At a fraction of the parameter's range.
+  /// The parameter at a fraction of the range.
   double parameter(double fraction) const { return first() + fraction * (last() - first()); }
   Vec3 point(double parameter) const;
   Vec3 tangent(double parameter) const;
-  /// The nearest place; `away` may be too large where it is more than `bound`.
+  /// The nearest point. If it is farther than `bound`, `away` may be too large.
   Foot nearest(Vec3 point, double bound) const;
-  /// The nearest place around a parameter.
+  /// The nearest point around a parameter.
   Foot nearest_around(Vec3 point, double parameter) const;
 
 private:

@@ -1,12 +1,13 @@
 #include "cad/repair/sewing.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/model/topology/model_topology.hpp"
-#include "cad/repair/caps.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"
+#include "cad/repair/plane_loops.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
@@ -27,7 +28,6 @@
 #include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
@@ -53,17 +53,13 @@ struct Sewn {
 void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_Sewing& sewing,
                  FaceLabels& labels) {
   for (int i = 1; i <= faces.Extent(); ++i) {
-    const FaceLabel* label = labels.Seek(faces(i));
-    if (!label) continue;
-    const FaceLabel kept = *label;
-    for (TopExp_Explorer sewn(sewing.ModifiedSubShape(faces(i)), TopAbs_FACE); sewn.More(); sewn.Next()) {
-      labels.Bind(sewn.Current(), kept);
-    }
+    for (TopExp_Explorer sewn(sewing.ModifiedSubShape(faces(i)), TopAbs_FACE); sewn.More(); sewn.Next())
+      copy_label(labels, faces(i), sewn.Current());
   }
 }
 
 Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, const FaceLabels& labels) {
-  tell_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), tolerance));
+  report_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), tolerance));
   BRepBuilderAPI_Sewing sewing(tolerance);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();
@@ -108,9 +104,8 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
       if (image.IsNull() || BRep_Tool::Surface(face).IsNull()) continue;
       const FaceEvaluator evaluator = make_evaluator(face, 0);
       for (int k = 0; k <= samples; ++k) {
-        const gp_Pnt on_curve = curve->Value(first + (last - first) * k / samples);
+        const Vec3 point = to_vec(curve->Value(first + (last - first) * k / samples));
         const gp_Pnt2d guess = image->Value(low + (high - low) * k / samples);
-        const Vec3 point{on_curve.X(), on_curve.Y(), on_curve.Z()};
         const Vec2 uv = find_parameters(evaluator, point, {guess.X(), guess.Y()}, tolerance);
         const double width = distance(point, evaluator.surface.point(uv));
         if (width > gap.width) gap = {width, point};
@@ -121,7 +116,7 @@ Gap largest_gap(const TopoDS_Shape& shape, double tolerance) {
 }
 
 /// Returns the widest gap.
-double tell_sewn(const Sewn& sewn, int face_count, Changes& changes) {
+double report_sewn(const Sewn& sewn, int face_count, Changes& changes) {
   const Gap gap = largest_gap(sewn.shape, tolerances::foot_that_measures * sewn.tolerance);
   const char* caution =
       sewn.fraction > tolerances::cautioned_sewing ? "; such gaps are wide: look at the mesh there" : "";
@@ -176,8 +171,7 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
     if (cap.area < tolerances::narrowest_opening * diagonal * length_of(cap.face)) return {};
   }
   if (!close_bodies(sewn.shape, caps)) return {};
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
+  TopTools_IndexedMapOfShape faces = map_of(sewn.shape, TopAbs_FACE);
   FaceLabels labels = sewn.labels;
   for (std::size_t i = 0; i < caps.size(); ++i) {
     FaceLabel label;
@@ -270,8 +264,8 @@ std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
   std::vector<TopoDS_Edge> open;
   for (int i = 1; i <= users.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
-    const bool inside_a_face = edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED;
-    if (users(i).Extent() == 1 && !inside_a_face && !BRep_Tool::Degenerated(edge)) open.push_back(edge);
+    if (users(i).Extent() == 1 && bounds_material(edge) && !BRep_Tool::Degenerated(edge))
+      open.push_back(edge);
   }
   return open;
 }
@@ -296,7 +290,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
                        shown_name(labels, faces(index)), noise.length, noise.widest),
            noise.place, noise.widest});
     }
-    const double gap = tell_sewn(sewn, attempt.faces.Extent(), changes);
+    const double gap = report_sewn(sewn, attempt.faces.Extent(), changes);
     labels = sewn.labels;
     return {sewn.closed, gap};
   }
@@ -306,16 +300,15 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     Sewn capped = cap_and_sew(open, diagonal, caps_made);
     if (!capped.complete) continue;
     changes.insert(changes.end(), caps_made.begin(), caps_made.end());
-    const double gap = tell_sewn(capped, faces.Extent(), changes);
+    const double gap = report_sewn(capped, faces.Extent(), changes);
     labels = capped.labels;
     return {capped.closed, gap};
   }
   const Sewn& last = tried.back();
   if (faces.Extent() == 1) {
-    const Vec3 at = box.center();
     throw CadError(fmt::format(
         "a single face, around {}, bounds no volume: {}. Add the faces that close it in the CAD program",
-        geometry::place_text(at), list_open_edges(faces(1), labels)));
+        geometry::place_text(box.center()), list_open_edges(faces(1), labels)));
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "

@@ -1,4 +1,4 @@
-/// From faces with gaps to closed shells. Seen by this folder only.
+/// Sews faces with gaps into closed shells. Internal to cad/.
 #pragma once
 
 #include "cad/model/named_shape.hpp"
@@ -12,19 +12,18 @@
 
 namespace aeroloom::cad {
 
-/// Edges of one face only, seams and poles left out, in order.
+/// Edges of one face only, without seams and poles, in order.
 std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape);
 
 struct SewnShells {
   std::vector<TopoDS_Shell> shells;
-  double gap = 0;  ///< the widest one that was closed
+  double gap = 0;  ///< width of the widest gap that was closed
 };
 
-/// Sews faces with tolerances from 1e-7 to 1e-4 of their diagonal, none above `largest_tolerance`, until all
-/// of them form closed shells; where strips are noise (noise.hpp), with less before, and without the strips.
-/// Where none does it, planar openings are capped (caps.hpp) at the smallest tolerance that leaves no others.
-/// Labels follow; what was sewn, how far it moved and every cap are appended to `changes`. Throws CadError
-/// listing the open edges.
+/// Sews faces until all of them form closed shells. Tolerances grow from 1e-7 to 1e-4 of the diagonal, up to
+/// `largest_tolerance`. If some faces are noise (noise.hpp), smaller tolerances are tried too, and sewing
+/// without these faces. If no tolerance succeeds, planar openings are capped (plane_loops.hpp). Labels
+/// follow. Tolerance, gaps and caps are appended to `changes`. Throws CadError that lists the open edges.
 SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
                Changes& changes);
 

@@ -1,6 +1,7 @@
 #include "cad/repair/shells.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
@@ -11,14 +12,10 @@
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepClass3d.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
-#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <gp_Pnt.hxx>
 
@@ -31,15 +28,10 @@ struct Body {
   Box box;
 };
 
-bool box_inside(const Box& inner, const Box& outer) {
-  return outer.contains(inner.low) && outer.contains(inner.high);
-}
-
 /// Points of a shape's edges, evenly among them: their ends and three between.
 std::vector<gp_Pnt> points_on_edges(const TopoDS_Shape& shape) {
   constexpr int most_edges = 40, steps = 4;  // some 200 points where few decide; chosen, not measured
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  const TopTools_IndexedMapOfShape edges = map_of(shape, TopAbs_EDGE);
   const int stride = std::max(1, edges.Extent() / most_edges);
   std::vector<gp_Pnt> points;
   for (int i = 1; i <= edges.Extent(); i += stride) {
@@ -70,7 +62,7 @@ Place place_of(const TopoDS_Shape& body, const TopoDS_Solid& solid, double toler
 }
 
 bool lies_inside(const Body& inner, const Body& outer, double tolerance) {
-  return box_inside(inner.box, outer.box) && place_of(inner.solid, outer.solid, tolerance) == Place::inside;
+  return outer.box.contains(inner.box) && place_of(inner.solid, outer.solid, tolerance) == Place::inside;
 }
 
 TopoDS_Shell shell_of(const TopoDS_Solid& solid) {
@@ -84,9 +76,8 @@ bool is_closed(const TopoDS_Shell& shell) {
   TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, users);
   for (int i = 1; i <= users.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
-    const bool inside_a_face = edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED;
     // A face is listed once per coedge, so a seam counts twice.
-    if (!BRep_Tool::Degenerated(edge) && !inside_a_face && users(i).Extent() < 2) return false;
+    if (!BRep_Tool::Degenerated(edge) && bounds_material(edge) && users(i).Extent() < 2) return false;
   }
   return !users.IsEmpty();
 }

@@ -1,4 +1,4 @@
-/// Closed shells and which of them lies in which. Seen by this folder only.
+/// Closed shells, and solids made from nested shells. Internal to cad/.
 #pragma once
 
 #include "cad/repair/volumes.hpp"
@@ -10,18 +10,17 @@
 
 namespace aeroloom::cad {
 
-/// Whether every proper edge of the shell is shared, so that it encloses space.
+/// Whether every edge has two faces, so that the shell encloses space. Degenerate edges do not count.
 bool is_closed(const TopoDS_Shell& shell);
 
-/// A solid of one closed shell, oriented outward.
+/// The solid of one closed shell, oriented outward.
 TopoDS_Solid solid_of(const TopoDS_Shell& shell, Volumes& volumes);
 
-/// Solids from closed shells: each shell at even nesting depth becomes a solid, the shells directly inside it
-/// become its voids.
+/// Makes solids from closed shells. Each shell at even nesting depth becomes a solid; the shells directly
+/// inside it become its voids.
 std::vector<TopoDS_Solid> nest_shells(const std::vector<TopoDS_Shell>& shells, Volumes& volumes);
 
-/// How many of the solids lie within another's outer shell but not in its material: in a cavity, whether they
-/// fill it or not.
+/// The number of solids that lie in a cavity of another solid, whether they fill it or not.
 int count_in_cavities(const std::vector<TopoDS_Solid>& solids, Volumes& volumes);
 
 }  // namespace aeroloom::cad

@@ -2,6 +2,7 @@
 
 #include "cad/model/evaluation/face_integrals.hpp"
 #include "cad/model/model.hpp"
+#include "cad/model/shape_map.hpp"
 
 #include <BRep_Tool.hxx>
 #include <TopExp_Explorer.hxx>
@@ -23,7 +24,7 @@ double Volumes::of(const TopoDS_Shape& shape) {
   double volume = 0;
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
     const TopoDS_Face& face = TopoDS::Face(faces.Current());
-    if (face.Orientation() != TopAbs_FORWARD && face.Orientation() != TopAbs_REVERSED) continue;
+    if (!bounds_material(face)) continue;
     if (_fluxes.IsEmpty()) {
       const TopExp_Explorer vertices(face, TopAbs_VERTEX);
       if (vertices.More()) _reference = BRep_Tool::Pnt(TopoDS::Vertex(vertices.Current()));

@@ -1,4 +1,4 @@
-/// Volumes of solids, each face integrated once. Seen by this folder only.
+/// Volumes of solids. Each face is integrated once. Internal to cad/.
 #pragma once
 
 #include <NCollection_DataMap.hxx>
@@ -8,16 +8,16 @@
 
 namespace aeroloom::cad {
 
-/// Volumes by the divergence theorem. Integrals over spline faces are what reading costs most, and the same
-/// faces come back in shells, solids and unions: they are kept.
+/// Volumes by the divergence theorem. The integral over each face is kept, since the same faces come back in
+/// shells, solids and unions.
 class Volumes {
 public:
-  /// Of a shape bounded by closed shells; negative when they are turned inside out. Each
-  /// face counts to four digits or more (face_integrals.hpp).
+  /// Volume inside closed shells; negative if they are oriented inward. Each face is accurate to four digits
+  /// or more (face_integrals.hpp).
   double of(const TopoDS_Shape& shape);
 
 private:
-  gp_Pnt _reference;  // near the shapes: far from them large numbers would cancel
+  gp_Pnt _reference;  // near the shapes, to avoid cancellation
   NCollection_DataMap<TopoDS_Shape, double, TopTools_ShapeMapHasher> _fluxes;  // of faces oriented forward
 };
 

@@ -27,9 +27,10 @@ std::optional<SharpCurves::Nearest> SharpCurves::nearest(mesh::RegionId region, 
   const auto tree = _trees.find({region, low, high});
   if (tree == _trees.end()) return std::nullopt;
   std::int32_t last = 0;  // of those that were the nearest so far
-  const double away = tree->second.nearest(point, std::numeric_limits<double>::infinity(),
-                                           [&](std::int32_t segment) { return last = segment, true; });
-  return Nearest{away, _segments[last].angle, 0.5 * (_segments[last].a + _segments[last].b)};
+  const sizing::SegmentTree::Hit hit =
+      tree->second.nearest_hit(point, std::numeric_limits<double>::infinity(),
+                               [&](std::int32_t segment) { return last = segment, true; });
+  return Nearest{hit.away, _segments[last].angle, 0.5 * (_segments[last].a + _segments[last].b)};
 }
 
 }  // namespace aeroloom::attribution

@@ -1,4 +1,4 @@
-/// Names as CGNS can hold them.
+/// Names that CGNS allows.
 #pragma once
 
 #include "io/distinct_names.hpp"
@@ -10,23 +10,23 @@ namespace aeroloom::io::cgns {
 
 inline constexpr std::size_t longest_name = 32;
 
-/// Gives names to the nodes of one or several parents, no two alike.
+/// Gives names to the nodes of one or several parents, all different.
 class NodeNames {
 public:
-  /// Keeps a name for a node that has it already.
+  /// Reserves a name that a node has already.
   void reserve(const std::string& name) { _taken.reserve(name); }
 
-  /// The name itself where it is fit and free. Otherwise: slashes, control characters and blanks at either
-  /// end become `_`, as do names of dots alone; what is longer than 32 bytes is cut between two characters
-  /// of UTF-8; what is taken gets the first free of _2, _3, ... after it. Empty names become `stand_in`.
-  /// `ending` stays whole at the end of the name.
+  /// A name close to `wanted`. `ending` stays whole at its end.
+  /// - Slashes, control characters and blanks at either end become `_`; so do names of dots alone.
+  /// - Names above 32 bytes are cut between two characters of UTF-8. Empty names become `stand_in`.
+  /// - Where the name is taken, the first free one of NAME_2, NAME_3, ... is given.
   std::string take(const std::string& wanted, const std::string& stand_in, const std::string& ending = "");
 
 private:
   TakenNames _taken;
 };
 
-/// Whether take() could leave the name alone.
+/// Whether CGNS allows the name as it is.
 bool is_fit(const std::string& name);
 
 }  // namespace aeroloom::io::cgns

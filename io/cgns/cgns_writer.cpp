@@ -1,25 +1,25 @@
 #include "io/cgns/cgns_writer.hpp"
 
 #include "io/cgns/cgns_layout.hpp"
+#include "io/streams/range_writer.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 namespace aeroloom::io {
 
-using hdf5::ItemStream;
 using parallel::SharedFile;
 
 namespace {
 
-void write_coordinates(SharedFile& file, const cgns::Plan& plan, const FilePart& part) {
+void write_coordinates(SharedFile& file, const cgns::Plan& plan, const MeshPart& part) {
   const std::int64_t before = part.first_owned * static_cast<std::int64_t>(sizeof(double));
-  ItemStream<double> x(file, plan.coordinates[0] + before), y(file, plan.coordinates[1] + before),
+  RangeWriter x(file, plan.coordinates[0] + before), y(file, plan.coordinates[1] + before),
       z(file, plan.coordinates[2] + before);
   for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) {
     if (part.owned[static_cast<std::size_t>(v)] == 0) continue;
     const geometry::Vec3 p = part.point(v);
-    x.add(p.x);
-    y.add(p.y);
-    z.add(p.z);
+    x.put(p.x);
+    y.put(p.y);
+    z.put(p.z);
   }
   x.flush();
   y.flush();
@@ -28,18 +28,18 @@ void write_coordinates(SharedFile& file, const cgns::Plan& plan, const FilePart&
 
 /// The elements of a run, by the numbers of their vertices from 1.
 template <class Index>
-void write_elements(SharedFile& file, const cgns::Section& section, const FilePart& part, const Block& block,
+void write_elements(SharedFile& file, const cgns::Section& section, const MeshPart& part, const Block& block,
                     const Run& run) {
-  ItemStream<Index> stream(
-      file, section.offset + run.before * block.corners * static_cast<std::int64_t>(sizeof(Index)));
+  RangeWriter writer(file,
+                     section.offset + run.before * block.corners * static_cast<std::int64_t>(sizeof(Index)));
   for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
     for (int k = 0; k < block.corners; ++k)
-      stream.add(static_cast<Index>(part.numbers[static_cast<std::size_t>(block.item(i)[k])] + 1));
+      writer.put(static_cast<Index>(part.numbers[static_cast<std::size_t>(block.item(i)[k])] + 1));
   }
-  stream.flush();
+  writer.flush();
 }
 
-void write_block(SharedFile& file, const cgns::Plan& plan, const FilePart& part, const Block& block,
+void write_block(SharedFile& file, const cgns::Plan& plan, const MeshPart& part, const Block& block,
                  std::size_t shape, const auto& section_of) {
   for (const Run& run : block.runs) {
     const std::int32_t place = section_of[static_cast<std::size_t>(run.id)][shape];
@@ -56,16 +56,15 @@ void write_block(SharedFile& file, const cgns::Plan& plan, const FilePart& part,
 }  // namespace
 
 void write_cgns(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   cgns::Plan plan;
   std::vector<hdf5::Extent> structure;
-  parallel::agree(communicator, [&] {
+  parallel::agree(mesh.communicator(), [&] {
     plan =
         cgns::plan_file({mesh.vertex_count, mesh.patches, mesh.regions, mesh.region_cells, mesh.patch_faces});
     structure = cgns::lay_out(plan);
   });
-  hdf5::write_laid_out(communicator, path, structure, [&](SharedFile& file) {
-    for (const FilePart& part : mesh.parts) {
+  hdf5::write_laid_out({mesh.communicator(), path}, structure, [&](SharedFile& file) {
+    for (const MeshPart& part : mesh.parts) {
       write_coordinates(file, plan, part);
       for (std::size_t s = 0; s < part.cells.size(); ++s)
         write_block(file, plan, part, part.cells[s], s, plan.section_of_region);

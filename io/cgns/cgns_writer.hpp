@@ -1,6 +1,7 @@
-/// CGNS in HDF5, as most solvers and committees of the field read it.
+/// Writes CGNS files in HDF5, which most solvers of the field read.
 ///
-/// Follows the SIDS 3.4 and its file mapping (cgns.github.io): nodes as its library stores them in HDF5.
+/// The file follows SIDS 3.4 and its HDF5 mapping (cgns.github.io), with the nodes as the CGNS library makes
+/// them.
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -9,18 +10,19 @@
 
 namespace aeroloom::io {
 
-/// Writes `path` (MESH.cgns): one base, one unstructured zone, vertices in the order of the mesh in double
-/// precision. A section of TETRA_4, PYRA_5 or PENTA_6 per region and shape, called as the region (with the
-/// shape after it, REGION_TETRA_4, where there are several); after them a section of TRI_3 or QUAD_4 per
-/// patch and shape, counter-clockwise seen from outside, called as the patch (PATCH_TRI_3 and PATCH_QUAD_4
-/// where it has both); for each patch a BC_t FamilySpecified over its elements and a family with the
-/// condition: wall BCWallViscous, slip BCWallInviscid, symmetry BCSymmetryPlane, farfield BCFarfield, inlet
-/// BCInflow, outlet BCOutflow. Names that CGNS cannot hold change as NodeNames says (cgns_names.hpp); a
-/// Descriptor_t FullName keeps the whole. Indices have 32 bits where all fit, otherwise 64, in all nodes.
+/// Writes `path` (MESH.cgns): one base and one unstructured zone. Vertices keep the order of the mesh, in
+/// double precision. Each region has a section of TETRA_4, PYRA_5 or PENTA_6 for each of its shapes. The
+/// section has the name of the region, or REGION_TETRA_4 and so on where the region has several shapes.
+/// Sections TRI_3 or QUAD_4 of the patches follow (PATCH_TRI_3 and PATCH_QUAD_4 where a patch has both).
+/// Their faces are counter-clockwise seen from outside. Each patch has a BC_t FamilySpecified over its
+/// elements, and a family with the condition: wall BCWallViscous, slip BCWallInviscid, symmetry
+/// BCSymmetryPlane, farfield BCFarfield, inlet BCInflow, outlet BCOutflow. NodeNames (cgns_names.hpp)
+/// shortens names; a Descriptor_t FullName keeps the whole name. All indices have 32 bits, or all 64 where
+/// needed.
 ///
-/// Left out: parts, faces between regions (one zone has no place for them), patches without faces, the unit
-/// of length (it says UserDefined). Collective; throws CollectiveError (files) where it cannot be written.
-/// The bytes depend on the parts alone.
+/// Left out: parts, faces between regions (they have no place in one zone), empty patches, and the unit of
+/// length (the file says UserDefined). Collective. Throws CollectiveError (files) where the file cannot be
+/// written. The bytes depend on the parts of the mesh alone.
 void write_cgns(const FileMesh& mesh, const std::string& path);
 
 }  // namespace aeroloom::io

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -33,19 +32,19 @@ struct Group {
   auto operator<=>(const Group&) const = default;
 };
 
-/// A file that this rank has to read, or a share of it.
+/// A file that this rank reads, alone or as one of several readers.
 struct Source {
   MshScanner scanner;
   MshTables tables;
-  int share = 0, shares = 1;
+  int reader = 0, readers = 1;
 };
 
-/// Items begin ... end of a block with `count` items, the first of which is number `before` of `total`, that
-/// belong to a share.
-Share share_of(const Source& source, std::int64_t before, std::int64_t count, std::int64_t total) {
-  const Share share = Share::of(total, source.share, source.shares);
-  return {std::clamp(share.begin - before, std::int64_t{0}, count),
-          std::clamp(share.end - before, std::int64_t{0}, count)};
+/// The items of a block that this reader reads. The block has `count` of `total` items; `before` of them lie
+/// in front of it.
+LocalRange range_of(const Source& source, std::int64_t before, std::int64_t count, std::int64_t total) {
+  const LocalRange range = LocalRange::of(total, source.reader, source.readers);
+  return {std::clamp(range.begin - before, std::int64_t{0}, count),
+          std::clamp(range.end - before, std::int64_t{0}, count)};
 }
 
 std::string part_path(const std::string& stem, std::int64_t part) {
@@ -82,15 +81,14 @@ std::int64_t count_parts(const std::string& path) {
   return parts;
 }
 
-std::vector<Source> open_sources(const parallel::Communicator& communicator, const std::string& path,
-                                 std::int64_t parts) {
+std::vector<Source> open_sources(const SharedPath& file, std::int64_t parts) {
   std::vector<Source> sources;
-  const std::int64_t rank = communicator.rank(), ranks = communicator.size();
+  const int rank = file.communicator.rank(), ranks = file.communicator.size();
   if (parts == 0) {
-    Source source{MshScanner(path), {}, communicator.rank(), communicator.size()};
+    Source source{MshScanner(file.path), {}, rank, ranks};
     source.tables = read_msh_tables(source.scanner, 0, MshExtent::before_nodes);
     if (!source.scanner.binary && rank > 0) return sources;
-    if (!source.scanner.binary) source.share = 0, source.shares = 1;
+    if (!source.scanner.binary) source.reader = 0, source.readers = 1;
     source.scanner.seek(0);
     source.scanner.binary = false;
     source.tables = read_msh_tables(source.scanner, 0, MshExtent::all);
@@ -98,7 +96,7 @@ std::vector<Source> open_sources(const parallel::Communicator& communicator, con
     return sources;
   }
   for (std::int64_t part = parts * rank / ranks; part < parts * (rank + 1) / ranks; ++part) {
-    Source source{MshScanner(part_path(stem_of(path), part + 1)), {}, 0, 1};
+    Source source{MshScanner(part_path(stem_of(file.path), part + 1)), {}, 0, 1};
     source.tables = read_msh_tables(source.scanner, part + 1, MshExtent::all);
     sources.push_back(std::move(source));
   }
@@ -115,7 +113,7 @@ Group group_of(const MshTables& tables, const MshElementBlock& block) {
   if (entity.partitioned && entity.parent_dimension != block.dimension) return {0, 0, 0};
   for (const std::int32_t tag : entity.physical) {
     const auto name = tables.physical_names.find({block.dimension, tag});
-    // What Gmsh calls the shares of a group when it partitions a mesh.
+    // The name that Gmsh gives the subgroups of a group when it partitions a mesh.
     if (name != tables.physical_names.end() && name->second.starts_with("_part{")) continue;
     return {block.dimension, 0, tag};
   }
@@ -169,7 +167,7 @@ std::vector<NamedGroup> agree_on_groups(const parallel::Communicator& communicat
 }
 
 /// Groups of one name stay distinct.
-void rename_twins(RawMesh& raw) {
+void make_names_distinct(RawMesh& raw) {
   constexpr std::size_t longest = std::size_t{1} << 16;
   const auto same = [](const std::string& name) { return name; };
   std::vector<std::string> names;
@@ -188,7 +186,7 @@ void read_nodes(Source& source, RawMesh& raw) {
   std::int64_t total = 0, before = 0;
   for (const MshNodeBlock& block : source.tables.nodes) total += block.count;
   for (const MshNodeBlock& block : source.tables.nodes) {
-    const auto [begin, end] = share_of(source, before, block.count, total);
+    const auto [begin, end] = range_of(source, before, block.count, total);
     before += block.count;
     if (begin == end) continue;
     MshScanner& scanner = source.scanner;
@@ -212,15 +210,15 @@ void read_nodes(Source& source, RawMesh& raw) {
   }
 }
 
-/// Appends a share of a block's elements, without ghosts, to corners and ids.
-void read_block(Source& source, const MshElementBlock& block, const Share& share, std::int32_t id,
+/// Appends a range of a block's elements, without ghosts, to corners and ids.
+void read_block(Source& source, const MshElementBlock& block, const LocalRange& range, std::int32_t id,
                 std::vector<mesh::GlobalIndex>& corners, std::vector<std::int32_t>& ids) {
   const std::int64_t width = 1 + block.corners, step = integers_at_once / width;
   const std::vector<std::int64_t>& ghosts = source.tables.ghosts;
   std::vector<std::int64_t> records;
-  source.scanner.seek(block.place + 8 * width * share.begin);
-  for (std::int64_t i = share.begin; i < share.end; i += step) {
-    const std::int64_t taken = std::min(step, share.end - i);
+  source.scanner.seek(block.place + 8 * width * range.begin);
+  for (std::int64_t i = range.begin; i < range.end; i += step) {
+    const std::int64_t taken = std::min(step, range.end - i);
     records.resize(static_cast<std::size_t>(taken * width));
     source.scanner.int64s(records.data(), taken * width);
     for (auto record = records.begin(); record != records.end(); record += width) {
@@ -244,11 +242,11 @@ void read_elements(Source& source, const GroupIds& groups, RawMesh& raw) {
     for (const MshElementBlock& block : source.tables.elements) total += block.type == type ? block.count : 0;
     for (const MshElementBlock& block : source.tables.elements) {
       if (block.type != type) continue;
-      const Share share = share_of(source, before, block.count, total);
+      const LocalRange range = range_of(source, before, block.count, total);
       before += block.count;
       const auto group = groups.find(group_of(source.tables, block));
-      if (share.begin < share.end && group != groups.end())
-        read_block(source, block, share, group->second, corners, ids);
+      if (range.begin < range.end && group != groups.end())
+        read_block(source, block, range, group->second, corners, ids);
     }
   };
   for (std::size_t s = 0; s < cell_shape_count; ++s)
@@ -259,13 +257,14 @@ void read_elements(Source& source, const GroupIds& groups, RawMesh& raw) {
 
 }  // namespace
 
-RawMesh read_msh(const parallel::Communicator& communicator, const std::string& path) {
+RawMesh read_msh(const SharedPath& file) {
+  const parallel::Communicator& communicator = file.communicator;
   std::int64_t parts = 0;
-  parallel::on_root(communicator, [&] { parts = count_parts(path); });
+  parallel::on_root(communicator, [&] { parts = count_parts(file.path); });
   parts = communicator.sum(parts);
   std::vector<Source> sources;
-  parallel::agree(communicator, [&] { sources = open_sources(communicator, path, parts); });
-  RawMesh raw;
+  parallel::agree(communicator, [&] { sources = open_sources(file, parts); });
+  RawMesh raw(file);
   GroupIds ids;
   for (const NamedGroup& named : agree_on_groups(communicator, sources)) {
     const bool is_patch = named.group.dimension == 2;
@@ -276,7 +275,7 @@ RawMesh read_msh(const parallel::Communicator& communicator, const std::string& 
       raw.regions.push_back(named.name);
     }
   }
-  rename_twins(raw);
+  make_names_distinct(raw);
   if (raw.regions.empty()) raw.regions.emplace_back("volume");
   parallel::agree(communicator, [&] {
     for (Source& source : sources) {

@@ -1,22 +1,20 @@
-/// Reads Gmsh's MSH 4.1, ASCII and binary (little-endian, 64-bit tags), of any origin.
+/// Reads Gmsh's MSH 4.1 files of any origin: ASCII, and binary with little-endian 64-bit tags.
 ///
-/// Regions are physical volumes, patches physical surfaces, of several the first; entities without a group
-/// count for themselves (`volume_TAG`, `surface_TAG`). Types of patches come from $Comments as write_msh()
-/// leaves them, else from a name that is a type's (`symmetry`), else they are walls. Points, lines, ghost
-/// elements and faces between partitions are left out. Other sections are passed over.
+/// Regions are the physical volumes, patches the physical surfaces. Of several groups of an entity the first
+/// one counts. An entity without a group is a region `volume_TAG` or a patch `surface_TAG`. The condition of
+/// a patch comes from $Comments (see write_msh), or else from its name (`symmetry`); all others are walls.
+/// Points, lines, ghost elements and faces between partitions are left out. Other sections are skipped.
 #pragma once
 
 #include "io/raw_mesh.hpp"
 
-#include <string>
-
 namespace aeroloom::io {
 
-/// `path`: a file; or the first of a partitioned mesh, STEM_1.msh, or STEM_*.msh: all files STEM_1.msh ...
-/// STEM_N.msh are read, each by one rank. Of one binary file every rank reads a share; an ASCII file is read
-/// by rank 0. Throws CollectiveError (input) with the file, the place and what is wrong there, also for
-/// higher-order elements, hexahedra and other versions of the format; (files) where it cannot be opened.
-/// Collective.
-RawMesh read_msh(const parallel::Communicator& communicator, const std::string& path);
+/// The path is that of a file. For a partitioned mesh it is the first file STEM_1.msh, or the pattern
+/// STEM_*.msh. Then all files STEM_1.msh ... STEM_N.msh are read, each by one rank. Of a single binary file
+/// every rank reads a range; rank 0 reads an ASCII file. Collective. Throws CollectiveError with the file and
+/// the place: (input) for damage, elements of higher order, hexahedra and other versions of the format;
+/// (files) where a file cannot be opened.
+RawMesh read_msh(const SharedPath& file);
 
 }  // namespace aeroloom::io

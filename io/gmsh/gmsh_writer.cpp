@@ -3,6 +3,7 @@
 #include "io/gmsh/msh_head.hpp"
 #include "io/gmsh/msh_layout.hpp"
 #include "io/local_file.hpp"
+#include "io/streams/byte_order.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/storage/shared_file.hpp"
 
@@ -24,14 +25,6 @@ using mesh::LocalIndex;
 
 /// Items that are put into their binary form at a time.
 constexpr std::size_t batch = std::size_t{1} << 16;
-
-template <class T>
-void append_bytes(std::string& text, T value) {
-  text.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
-void append_sizes(std::string& text, std::initializer_list<std::int64_t> values) {
-  for (const std::int64_t value : values) append_bytes(text, value);
-}
 
 std::string nodes_begin(std::int64_t count, std::int64_t least, std::int64_t largest, std::int32_t entity) {
   std::string text = msh_nodes_begin;
@@ -56,7 +49,7 @@ std::string head_of(const MshBlock& block) {
 
 /// Calls `write` with the records of a run, a chunk at a time; `first_tag` is the tag of its first element.
 template <class Write>
-void put_run(const FilePart& part, const Block& block, const Run& run, std::int64_t first_tag,
+void put_run(const MeshPart& part, const Block& block, const Run& run, std::int64_t first_tag,
              const Write& write) {
   std::vector<std::int64_t> records;
   records.reserve(batch + 8);
@@ -72,7 +65,7 @@ void put_run(const FilePart& part, const Block& block, const Run& run, std::int6
 
 /// Calls `visit(block of the part, run, block of the file)` for all runs of a part in the order of the file.
 template <class Visit>
-void for_runs(const FilePart& part, const MshBlocks& blocks, const Visit& visit) {
+void for_runs(const MeshPart& part, const MshBlocks& blocks, const Visit& visit) {
   for (std::size_t s = 0; s < face_shape_count; ++s) {
     for (const Run& run : part.faces[s].runs) visit(part.faces[s], run, blocks.faces[run.id][s]);
   }
@@ -81,7 +74,7 @@ void for_runs(const FilePart& part, const MshBlocks& blocks, const Visit& visit)
   }
 }
 
-void write_owned(parallel::SharedFile& file, const FilePart& part, const MshLayout& layout) {
+void write_owned(parallel::SharedFile& file, const MeshPart& part, const MshLayout& layout) {
   std::vector<std::int64_t> tags;
   std::vector<double> points;
   tags.reserve(batch);
@@ -104,7 +97,7 @@ void write_owned(parallel::SharedFile& file, const FilePart& part, const MshLayo
   flush();
 }
 
-void write_part(parallel::SharedFile& file, const FilePart& part, const MshBlocks& blocks,
+void write_part(parallel::SharedFile& file, const MeshPart& part, const MshBlocks& blocks,
                 const MshLayout& layout) {
   write_owned(file, part, layout);
   for_runs(part, blocks, [&](const Block& block, const Run& run, const MshBlock& of_file) {
@@ -146,8 +139,8 @@ struct PartNames {
   std::string unfinished(std::int32_t part) const { return path(part) + ".unfinished"; }
 };
 
-void write_part_file(const FileMesh& mesh, const FilePart& part, const MshBlocks& blocks,
-                     const std::vector<MshBox>& boxes, const std::string& path) {
+void write_part_file(const FileMesh& mesh, const MeshPart& part, const MshBlocks& blocks,
+                     const std::vector<geometry::Box>& boxes, const std::string& path) {
   std::set<std::int32_t> patches, regions;
   std::int64_t written = 0, elements = 0;
   for_runs(part, blocks, [&](const Block&, const Run& run, const MshBlock& of_file) {
@@ -198,20 +191,19 @@ void require_small_tags(const FileMesh& mesh) {
 }  // namespace
 
 void write_msh(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const std::string head = msh_head(mesh, boxes_of_entities(mesh), nullptr);
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   const MshLayout layout = lay_out_file(static_cast<std::int64_t>(head.size()), mesh.vertex_count, blocks);
-  parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
-    if (communicator.is_root()) write_frame(file, head, mesh.vertex_count, blocks, layout);
-    for (const FilePart& part : mesh.parts) write_part(file, part, blocks, layout);
+  parallel::write_shared_file(mesh.communicator(), path, [&](parallel::SharedFile& file) {
+    if (mesh.communicator().is_root()) write_frame(file, head, mesh.vertex_count, blocks, layout);
+    for (const MeshPart& part : mesh.parts) write_part(file, part, blocks, layout);
   });
 }
 
 void write_msh_parts(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
-  const std::vector<MshBox> boxes = boxes_of_entities(mesh);
+  const std::vector<geometry::Box> boxes = boxes_of_entities(mesh);
   const MshBlocks blocks = lay_out_elements(mesh.patch_faces, mesh.region_cells);
   parallel::agree(communicator, [&] {
     require_small_tags(mesh);
@@ -219,24 +211,24 @@ void write_msh_parts(const FileMesh& mesh, const std::string& path) {
   });
   try {
     parallel::agree(communicator, [&] {
-      for (const FilePart& part : mesh.parts)
+      for (const MeshPart& part : mesh.parts)
         write_part_file(mesh, part, blocks, boxes, names.unfinished(part.id));
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;
-    for (const FilePart& part : mesh.parts) fs::remove(names.unfinished(part.id), ignored);
+    for (const MeshPart& part : mesh.parts) fs::remove(names.unfinished(part.id), ignored);
     throw;
   }
   parallel::agree(communicator, [&] {
-    for (const FilePart& part : mesh.parts) fs::rename(names.unfinished(part.id), names.path(part.id));
+    for (const MeshPart& part : mesh.parts) fs::rename(names.unfinished(part.id), names.path(part.id));
   });
-  remove_later_msh_parts(communicator, path, mesh.part_count);
+  remove_later_msh_parts({communicator, path}, mesh.part_count);
 }
 
-void remove_later_msh_parts(const parallel::Communicator& communicator, const std::string& path,
-                            std::int32_t parts) {
-  const PartNames names{fs::path(path).parent_path(), fs::path(path).stem().string()};
-  parallel::on_root(communicator, [&] {
+void remove_later_msh_parts(const SharedPath& file, std::int32_t parts) {
+  const fs::path path = file.path;
+  const PartNames names{path.parent_path(), path.stem().string()};
+  parallel::on_root(file.communicator, [&] {
     for (std::int32_t part = parts; fs::remove(names.path(part));) ++part;
   });
 }

@@ -1,35 +1,29 @@
-/// The sections of an MSH file before the nodes, and what names become there.
+/// The sections of an MSH file before the nodes.
 #pragma once
 
+#include "geometry/vec.hpp"
 #include "io/file_mesh.hpp"
 
-#include <array>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
 
-/// Least and largest coordinates; of nothing: infinite, the wrong way round.
-struct MshBox {
-  std::array<double, 3> least, largest;
+/// The boxes of all patches, then of all regions, of the whole mesh. Collective.
+std::vector<geometry::Box> boxes_of_entities(const FileMesh& mesh);
 
-  static constexpr auto fields() { return std::tuple(&MshBox::least, &MshBox::largest); }
-};
-/// By patch, then by region, of the whole mesh. Collective.
-std::vector<MshBox> boxes_of_entities(const FileMesh& mesh);
-
-/// The entities that lie in part `part` (from 1), which part files have in addition.
+/// A part, and the entities that have elements in it. Only part files have this section.
 struct MshPartition {
-  std::int32_t part = 1;
+  std::int32_t part = 1;  ///< counted from 1
   std::vector<std::int32_t> patches, regions;
 };
-/// The tag of the part's share of an entity; `entities`: how many of this dimension the mesh has.
+/// The tag of entity `entity` in part `part`. `entities`: the number of entities of this dimension.
 inline std::int64_t partitioned_tag(std::int64_t entities, std::int64_t part, std::int64_t entity) {
   return part * entities + entity + 1;
 }
 
-/// $MeshFormat, $Comments, $PhysicalNames, $Entities, and $PartitionedEntities where there is a partition.
-std::string msh_head(const FileMesh& mesh, const std::vector<MshBox>& boxes, const MshPartition* partition);
+/// $MeshFormat, $Comments, $PhysicalNames and $Entities; $PartitionedEntities unless `partition` is null.
+std::string msh_head(const FileMesh& mesh, const std::vector<geometry::Box>& boxes,
+                     const MshPartition* partition);
 
 }  // namespace aeroloom::io

@@ -111,7 +111,7 @@ double MshScanner::real() {
   }
   const std::string_view text = token();
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  // Below the least number that is no zero it is zero, above the largest infinite: assemble() judges that.
+  // A number too small for a double becomes zero, one too large infinite; assemble() refuses the latter.
   if (error == std::errc::result_out_of_range) value = std::strtod(std::string(text).c_str(), nullptr);
   if ((error != std::errc() && error != std::errc::result_out_of_range) || end != text.data() + text.size())
     fail(fmt::format("'{}' where a number was expected", text));

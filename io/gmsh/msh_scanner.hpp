@@ -1,4 +1,4 @@
-/// Reads values of an MSH file one after another, text or binary.
+/// Reads the values of an MSH file one after another, from text or binary.
 #pragma once
 
 #include "io/streams/range_reader.hpp"
@@ -14,25 +14,25 @@ namespace aeroloom::io {
 
 class MshScanner {
 public:
-  /// Throws std::filesystem::filesystem_error where there is no plain file that can be read.
+  /// Throws std::filesystem::filesystem_error where the path is no plain file, or cannot be read.
   explicit MshScanner(std::string path);
 
-  bool binary = false;  ///< how int32, int64 and real read
+  bool binary = false;  ///< the encoding of int32(), int64() and real()
 
   std::int32_t int32();
   std::int64_t int64();
   double real();
-  /// A count of things of at least `item_bytes` each (in text: two bytes). Fails where the rest of the file
-  /// cannot hold as many.
+  /// A number of items that follow, each of at least `item_bytes` bytes (two in text). Fails where the rest
+  /// of the file is too short for so many items.
   std::int64_t count(std::int64_t item_bytes);
   /// `n` values, of 8 bytes each in binary.
   void int64s(std::int64_t* to, std::int64_t n);
   void reals(double* to, std::int64_t n);
   void skip_values(std::int64_t n);
 
-  /// The rest of this line, without its end.
+  /// The rest of this line, without the line break.
   std::string line();
-  /// Passes a line of any length; whether it is `text`.
+  /// Skips a line of any length; true if it is `text`.
   bool line_is(std::string_view text);
   /// The next line that is not blank; empty at the end of the file.
   std::string next_line();
@@ -49,8 +49,8 @@ private:
   void raw(void* to, std::int64_t bytes);
   std::string_view token();
 
-  std::unique_ptr<RangeReader> _file;  ///< never null; scanners move
-  std::int64_t _begin = 0;             ///< of the buffer in the file
+  std::unique_ptr<RangeReader> _file;  ///< never null; a pointer, so that scanners can move
+  std::int64_t _begin = 0;             ///< offset of the buffer in the file
   std::vector<char> _buffer;
   std::size_t _next = 0, _end = 0;
   std::string _token;

@@ -166,14 +166,13 @@ std::vector<Extent> FileLayout::finish() {
   return structure;
 }
 
-void write_laid_out(const parallel::Communicator& communicator, const std::string& path,
-                    const std::vector<Extent>& structure,
+void write_laid_out(const SharedPath& file, const std::vector<Extent>& structure,
                     const std::function<void(parallel::SharedFile&)>& work) {
-  parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
-    if (communicator.is_root()) {
-      for (const Extent& extent : structure) file.write(extent.offset, extent.content);
+  parallel::write_shared_file(file.communicator, file.path, [&](parallel::SharedFile& opened) {
+    if (file.communicator.is_root()) {
+      for (const Extent& extent : structure) opened.write(extent.offset, extent.content);
     }
-    work(file);
+    work(opened);
   });
 }
 

@@ -1,12 +1,13 @@
-/// An HDF5 file laid out in memory: every rank lays out the same one, so that each knows where its share of
-/// every array goes and writes it there as plain bytes.
+/// Writes HDF5 files in parallel without the parallel HDF5 library. Every rank lays out the same file in
+/// memory. So each rank knows the offset of its items in every array, and writes them there as plain bytes.
 ///
-/// The library itself never touches the file, so whatever the file system does to one rank is an error of
-/// that write, and the bytes are those of the layout whatever the number of ranks. (Its own way over MPI ends
-/// in a crash where a file cannot be closed, as on a full disk: H5F__close_cb, tried with 1.10.8.)
+/// The library never opens the file itself. A failure of the file system is an error of one write, and the
+/// bytes do not depend on the number of ranks. (HDF5 over MPI crashes where a file cannot be closed, as on a
+/// full disk: H5F__close_cb, tried with 1.10.8.)
 #pragma once
 
 #include "io/hdf5/memory_image.hpp"
+#include "io/shared_path.hpp"
 #include "parallel/storage/shared_file.hpp"
 
 #include <cstdint>
@@ -18,7 +19,7 @@
 
 namespace aeroloom::io::hdf5 {
 
-/// Items in files: all of little-endian machines.
+/// Types of items in files, all little-endian.
 enum class ItemType { int8, uint8, int32, int64, float32, float64 };
 inline constexpr std::array<int, 6> item_type_bytes = {1, 1, 4, 8, 4, 8};
 inline constexpr int bytes_of(ItemType type) {
@@ -33,29 +34,29 @@ inline constexpr ItemType item_type<std::int8_t> = ItemType::int8;
 template <>
 inline constexpr ItemType item_type<std::uint8_t> = ItemType::uint8;
 
-/// Whether groups remember the order in which their members came.
+/// The order of the members of a group: by name, or as they were created.
 enum class MemberOrder { by_name, as_made };
 
-/// How the bytes of a text without an end mark are filled up.
+/// How a text ends that is shorter than its room.
 enum class TextKind { null_terminated, null_padded };
 
-/// Paths are absolute. All throw std::runtime_error with the library's reason.
+/// The layout of a file. Paths are absolute. All throw std::runtime_error with the reason of the library.
 class FileLayout {
 public:
   explicit FileLayout(MemberOrder order = MemberOrder::by_name);
   FileLayout(FileLayout&&) noexcept;
   ~FileLayout();
 
-  /// The group it lies in must be there.
+  /// The parent group must exist.
   void add_group(const std::string& path);
-  /// Of a group or an array: `bytes` of room, 0: as many as it needs.
+  /// Sets a text attribute of a group or an array, with room for `bytes` bytes; 0: as many as the text has.
   void set_text(const std::string& path, const std::string& attribute, const std::string& text,
                 std::size_t bytes = 0, TextKind kind = TextKind::null_terminated);
-  /// An attribute of one dimension.
+  /// Sets an attribute of one dimension.
   void set_integers(const std::string& path, const std::string& attribute,
                     std::span<const std::int32_t> values);
 
-  /// An array whose items are known now, of dimensions whose last one runs fastest.
+  /// Adds an array with its items. The last dimension runs fastest.
   void store_bytes(const std::string& path, ItemType type, std::span<const std::int64_t> dimensions,
                    std::span<const std::byte> items);
   template <class T>
@@ -63,17 +64,17 @@ public:
     const std::array dimensions = {static_cast<std::int64_t>(items.size())};
     store_bytes(path, item_type<T>, dimensions, std::as_bytes(items));
   }
-  /// Texts of any length, in the library's own heap. Their bytes are UTF-8, their type says ASCII: VTK 9.1
-  /// reads no others. No texts: no array.
+  /// Adds an array of texts of any length. The bytes are UTF-8 and the type says ASCII, because VTK 9.1 reads
+  /// no other type. Without texts there is no array.
   void store_texts(const std::string& path, std::span<const std::string> texts);
 
-  /// An array that ranks fill later; the offset of its first item in the file. Takes no memory.
+  /// Adds an array that ranks fill later. Returns the offset of its first item in the file. Takes no memory.
   std::int64_t reserve(const std::string& path, ItemType type, std::span<const std::int64_t> dimensions);
   std::int64_t reserve(const std::string& path, ItemType type, std::int64_t count) {
     return reserve(path, type, std::array{count});
   }
 
-  /// All bytes of the file but those of arrays that were reserved. Nothing can be added afterwards.
+  /// All bytes of the file without the reserved arrays. Nothing can be added afterwards.
   std::vector<Extent> finish();
 
 private:
@@ -81,36 +82,9 @@ private:
   std::unique_ptr<State> _state;
 };
 
-/// Writes a file (parallel::write_shared_file): rank 0 the structure, every rank by `work` its share of what
-/// was reserved. Collective.
-void write_laid_out(const parallel::Communicator& communicator, const std::string& path,
-                    const std::vector<Extent>& structure,
+/// Writes a file (parallel::write_shared_file). Rank 0 writes the structure; `work` writes the items of this
+/// rank in the reserved arrays. Collective.
+void write_laid_out(const SharedPath& file, const std::vector<Extent>& structure,
                     const std::function<void(parallel::SharedFile&)>& work);
-
-/// Items that come one by one, written in large portions from `offset` bytes on.
-template <class T>
-class ItemStream {
-public:
-  ItemStream(parallel::SharedFile& file, std::int64_t offset) : _file(file), _offset(offset) {
-    _items.reserve(portion);
-  }
-  void add(T item) {
-    _items.push_back(item);
-    if (_items.size() == portion) flush();
-  }
-  /// Writes what is left. To be called at the end.
-  void flush() {
-    if (_items.empty()) return;
-    _file.write_items(_offset, std::span<const T>(_items));
-    _offset += static_cast<std::int64_t>(_items.size() * sizeof(T));
-    _items.clear();
-  }
-
-private:
-  static constexpr std::size_t portion = (std::size_t{1} << 20) / sizeof(T);
-  parallel::SharedFile& _file;
-  std::int64_t _offset;
-  std::vector<T> _items;
-};
 
 }  // namespace aeroloom::io::hdf5

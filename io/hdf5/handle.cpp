@@ -1,7 +1,5 @@
 #include "io/hdf5/handle.hpp"
 
-#include <stdexcept>
-
 namespace aeroloom::io::hdf5 {
 
 namespace {

@@ -1,5 +1,5 @@
-/// Handles of HDF5 that close themselves, and its errors as exceptions. Included by io/hdf5/*.cpp alone: it
-/// names HDF5.
+/// HDF5 handles that close themselves, and HDF5 errors as exceptions. Only io/hdf5/*.cpp include this header,
+/// because it includes HDF5's own.
 #pragma once
 
 #include <stdexcept>
@@ -10,26 +10,25 @@
 
 namespace aeroloom::io::hdf5 {
 
-/// The message of HDF5 about its last failure in this thread: the innermost reason, and what it was about to
-/// do.
+/// HDF5's message about its last failure in this thread: the innermost one.
 std::string last_reason();
 
-/// Throws std::runtime_error "WHAT: the library's reason" where a call has returned a negative number.
+/// Throws std::runtime_error "WHAT: REASON OF HDF5" where `result` is negative, which means failure.
 template <class Result>
 Result require(Result result, const std::string& what) {
   if (result < 0) throw std::runtime_error(what + ": " + last_reason());
   return result;
 }
 
-/// Keeps the library from printing its errors; the first call opens it.
+/// Opens the library at the first call, and keeps it from printing its errors.
 void open_library();
 
-/// Closes what it holds.
+/// Owns an HDF5 identifier and closes it.
 class Handle {
 public:
   using Close = herr_t (*)(hid_t);
   Handle() = default;
-  /// Throws as require() where `id` is none.
+  /// Throws as require() where `id` is negative.
   Handle(hid_t id, Close close, const std::string& what) : _id(require(id, what)), _close(close) {}
   Handle(Handle&& other) noexcept : _id(std::exchange(other._id, -1)), _close(other._close) {}
   Handle& operator=(Handle&& other) noexcept {

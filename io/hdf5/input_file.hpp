@@ -1,11 +1,10 @@
 /// Reading HDF5 files of any origin.
 ///
-/// The library may crash, loop or ask for absurd memory on a damaged file, so it reads in sandboxed children
-/// (parallel/sandbox/sandbox.hpp): what it does there becomes an exception here.
+/// On a damaged file the library may crash, hang or use far too much memory. So it reads in child processes
+/// (parallel/sandbox/sandbox.hpp), and such a failure becomes an exception.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,31 +13,31 @@ namespace aeroloom::io::hdf5 {
 
 enum class ItemKind : std::uint8_t { missing, integer, real, text, other };
 
-/// Facts about an array that are known without reading it.
+/// Type and dimensions of an array, known without reading its items.
 struct ArrayFacts {
-  ItemKind kind = ItemKind::missing;  ///< `other`: a group, or items of another kind
+  ItemKind kind = ItemKind::missing;  ///< `other`: a group, or items of another type
   std::vector<std::int64_t> dimensions;
 
   static constexpr auto fields() { return std::tuple(&ArrayFacts::kind, &ArrayFacts::dimensions); }
   bool exists() const { return kind != ItemKind::missing; }
-  /// Of the first dimension.
+  /// The length of the first dimension.
   std::int64_t rows() const { return dimensions.empty() ? 0 : dimensions[0]; }
 };
 
-/// An attribute to look up: texts come as they are, the first of integers as digits.
+/// An attribute to look up. Its value comes as text; of several integers the first one counts.
 struct AttributeName {
   std::string object, attribute;
 
   static constexpr auto fields() { return std::tuple(&AttributeName::object, &AttributeName::attribute); }
 };
 
-/// Names to be looked up by one child, so that the file is opened once.
+/// Names to look up in one child process, which opens the file once.
 struct SurveyRequest {
   std::vector<std::string> arrays;
   std::vector<AttributeName> attributes;
-  /// A member of `group` whose attribute has this value is wanted (the first by name).
+  /// Asks for the first member (by name) of `group` whose attribute mark.attribute has the value mark.object.
   std::string group;
-  AttributeName mark;  ///< `object`: the value
+  AttributeName mark;
 
   static constexpr auto fields() {
     return std::tuple(&SurveyRequest::arrays, &SurveyRequest::attributes, &SurveyRequest::group,
@@ -47,23 +46,23 @@ struct SurveyRequest {
 };
 struct Survey {
   std::vector<ArrayFacts> arrays;       ///< in the order of the request
-  std::vector<std::string> attributes;  ///< in the order of the request; empty where there is none
-  std::string marked;                   ///< name of the member of the group; empty where there is none
+  std::vector<std::string> attributes;  ///< in the order of the request; empty where missing
+  std::string marked;                   ///< name of the member of the group; empty where missing
 
   static constexpr auto fields() { return std::tuple(&Survey::arrays, &Survey::attributes, &Survey::marked); }
 };
 
-/// An HDF5 file to read. All throw std::runtime_error that names the file and what cannot be read;
-/// the constructor std::filesystem::filesystem_error where the file cannot be opened. Not collective.
+/// An HDF5 file to read. The functions throw std::runtime_error with the file and the object. The constructor
+/// throws std::filesystem::filesystem_error where the file cannot be opened. Not collective.
 class InputFile {
 public:
   explicit InputFile(std::string path);
 
-  /// Arrays that claim more than the file can hold (a deflated one at most 1,100 times what it stores), that
-  /// lie in other files or have more than two dimensions throw.
+  /// Throws for an array that claims more than the file can hold (if compressed, 1,100 times the stored
+  /// bytes), lies in another file, or has more than two dimensions.
   Survey survey(const SurveyRequest& request) const;
 
-  /// Rows begin .. begin + count - 1, all columns of a row together.
+  /// Rows begin ... begin + count - 1, row by row.
   std::vector<std::int64_t> integers(const std::string& array, std::int64_t begin, std::int64_t count) const;
   std::vector<double> reals(const std::string& array, std::int64_t begin, std::int64_t count) const;
   /// All texts of an array.

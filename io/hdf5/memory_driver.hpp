@@ -1,4 +1,4 @@
-/// A driver of HDF5 whose files are MemoryImages. Included by io/hdf5/*.cpp alone: it names HDF5.
+/// An HDF5 file driver that keeps files in memory, as MemoryImage. Only io/hdf5/*.cpp include this header.
 #pragma once
 
 #include "io/hdf5/handle.hpp"
@@ -6,7 +6,7 @@
 
 namespace aeroloom::io::hdf5 {
 
-/// Files made with these access properties go to `image`, which must outlive them. Throws as require().
+/// Files created with these access properties go to `image`, which must outlive them. Throws as require().
 void use_memory_driver(hid_t access, MemoryImage& image);
 
 }  // namespace aeroloom::io::hdf5

@@ -1,4 +1,4 @@
-/// The bytes that HDF5 writes of a file that is laid out in memory.
+/// A file in memory: the bytes that HDF5 writes when it lays out a file.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -12,23 +12,23 @@
 
 namespace aeroloom::io::hdf5 {
 
-/// Bytes of a file at an offset.
+/// Some bytes of a file, and their offset.
 struct Extent {
   std::int64_t offset = 0;
   parallel::Bytes content;
 };
 
-/// A file of any length of which few bytes are written: those are kept, the others read as zero.
+/// A file of any length in which few bytes are written. Only those take memory; all others read as zero.
 class MemoryImage {
 public:
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
-  /// After the last byte written.
+  /// The offset after the last byte that was written.
   std::uint64_t end() const;
-  /// Of the file, as its owner says; no byte of it need be written.
+  /// The length of the file, which may be larger than end().
   void set_length(std::uint64_t length) { _length = length; }
   std::uint64_t length() const { return _length; }
-  /// The extents that have been written, and nothing between: ascending, neither overlapping nor touching.
+  /// The written bytes as extents: ascending, without overlap, with gaps between them.
   std::vector<Extent> extents() const;
 
 private:
@@ -36,8 +36,8 @@ private:
   static constexpr std::size_t page_bytes = 4096;
   using Page = std::array<std::byte, page_bytes>;
 
-  std::map<std::uint64_t, Page> _pages;             ///< by number
-  std::map<std::uint64_t, std::uint64_t> _written;  ///< beginning and end of runs of bytes
+  std::map<std::uint64_t, Page> _pages;             ///< by number of the page
+  std::map<std::uint64_t, std::uint64_t> _written;  ///< first offset and end of each extent
 };
 
 }  // namespace aeroloom::io::hdf5

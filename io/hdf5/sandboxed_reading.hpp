@@ -1,4 +1,4 @@
-/// The side of InputFile that runs in a child and sees HDF5. Internal to io/hdf5/.
+/// The part of InputFile that runs in a child process and calls HDF5. Internal to io/hdf5/.
 #pragma once
 
 #include "parallel/communication/packer.hpp"
@@ -12,18 +12,18 @@ namespace aeroloom::io::hdf5 {
 
 enum class Operation : std::uint8_t { survey, integers, reals, texts };
 
-/// The question to the child.
+/// A request to the child process.
 struct ReadingRequest {
   Operation operation = Operation::survey;
   std::string path;
-  parallel::Bytes details;  ///< a SurveyRequest, a RowRange, or the name of an array of texts
+  parallel::Bytes details;  ///< packed: a SurveyRequest, a RowRange, or the name of an array of texts
 
   static constexpr auto fields() {
     return std::tuple(&ReadingRequest::operation, &ReadingRequest::path, &ReadingRequest::details);
   }
 };
 
-/// Rows of an array.
+/// Consecutive rows of an array.
 struct RowRange {
   std::string array;
   std::int64_t begin = 0, count = 0;
@@ -31,7 +31,7 @@ struct RowRange {
   static constexpr auto fields() { return std::tuple(&RowRange::array, &RowRange::begin, &RowRange::count); }
 };
 
-/// From a ReadingRequest to the bytes of what was read.
+/// Turns a packed ReadingRequest into the packed result.
 extern const parallel::NamedTask reading_task;
 
 }  // namespace aeroloom::io::hdf5

@@ -9,7 +9,6 @@
 #include "parallel/observation/log.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -69,15 +68,14 @@ mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& pat
   return result;
 }
 
-mesh::DistributedMesh import_mesh(const parallel::Communicator& communicator, const std::string& path,
-                                  std::optional<std::int64_t> piece_tets) {
-  io::Assembled file = io::read_mesh(communicator, path, 0);
-  if (communicator.is_root()) {
+mesh::DistributedMesh import_mesh(const io::SharedPath& file, std::optional<std::int64_t> piece_tets) {
+  const io::Assembled read = io::read_mesh(file, 0);
+  if (file.communicator.is_root()) {
     parallel::log_info(fmt::format("input: {} tetrahedra, {} points, {} region(s), {} patch(es); {}",
-                                   file.mesh.cell_count(), file.mesh.vertex_count, file.mesh.regions.size(),
-                                   file.mesh.patches.size(), io::describe(file)));
+                                   read.mesh.cell_count(), read.mesh.vertex_count, read.mesh.regions.size(),
+                                   read.mesh.patches.size(), io::describe(read)));
   }
-  return pieces_of(file.mesh, path, piece_tets);
+  return pieces_of(read.mesh, file.path, piece_tets);
 }
 
 }  // namespace aeroloom::imported

@@ -1,4 +1,4 @@
-#include "io/medit/medit_share.hpp"
+#include "io/medit/local_medit_mesh.hpp"
 #include "io/streams/range_reader.hpp"
 #include "parallel/communication/collective_error.hpp"
 
@@ -130,31 +130,28 @@ private:
   RangeReader& _file;
 };
 
-/// Reads the share of a rank.
-class ShareReader {
+/// Reads the items of this rank.
+class LocalMeditReader {
 public:
-  ShareReader(const std::string& path, Widths widths, parallel::Rank rank, int ranks)
-      : _file(path), _widths(widths), _rank(rank), _ranks(ranks) {
+  LocalMeditReader(const SharedPath& file, Widths widths) : _shared(file), _file(file.path), _widths(widths) {
     _file.set_order(widths.order);
   }
 
-  MeditShare share;
+  LocalMeditMesh local;
 
   void read(const Section& section) {
     if (section.keyword == static_cast<std::int32_t>(MeditKeyword::vertices)) {
       read_vertices(section);
     } else {
-      read_items(section, *share.items(section.keyword), medit_corners(section.keyword));
+      read_items(section, *local.items(section.keyword), medit_corners(section.keyword));
     }
   }
 
 private:
-  Share share_of(const Section& section) const { return Share::of(section.count, _rank, _ranks); }
-
   /// Calls `visit(line)` for the lines of this rank.
   template <class Visit>
   void for_each_line(const Section& section, std::int64_t line_bytes, const Visit& visit) {
-    const auto [begin, end] = share_of(section);
+    const auto [begin, end] = _shared.local_range(section.count);
     const std::int64_t in_chunk = std::max<std::int64_t>(1, chunk_bytes / line_bytes);
     for (std::int64_t first = begin; first < end; first += in_chunk) {
       const std::int64_t lines = std::min(in_chunk, end - first);
@@ -165,21 +162,22 @@ private:
   }
 
   void read_vertices(const Section& section) {
-    share.first_point = share_of(section).begin;
-    share.coordinates.reserve(3 * static_cast<std::size_t>(share_of(section).count()));
+    const LocalRange range = _shared.local_range(section.count);
+    local.first_point = range.begin;
+    local.coordinates.reserve(3 * static_cast<std::size_t>(range.count()));
     const int width = _widths.real();
     for_each_line(section, 3 * width + _widths.integer(), [&](const std::byte* line) {
       for (int axis = 0; axis < 3; ++axis)
-        share.coordinates.push_back(decode_real(_file, line + axis * width, width));
+        local.coordinates.push_back(decode_real(_file, line + axis * width, width));
     });
   }
 
   void read_items(const Section& section, MeditItems& items, int corners) {
-    items.corners.reserve(static_cast<std::size_t>(corners) *
-                          static_cast<std::size_t>(share_of(section).count()));
-    items.references.reserve(static_cast<std::size_t>(share_of(section).count()));
+    const LocalRange range = _shared.local_range(section.count);
+    items.corners.reserve(static_cast<std::size_t>(corners * range.count()));
+    items.references.reserve(static_cast<std::size_t>(range.count()));
     const int width = _widths.integer();
-    std::int64_t at = section.lines + share_of(section).begin * (corners + 1) * width;
+    std::int64_t at = section.lines + range.begin * (corners + 1) * width;
     for_each_line(section, std::int64_t{corners + 1} * width, [&](const std::byte* line) {
       for (int k = 0; k < corners; ++k) {
         const std::int64_t corner = decode_integer(_file, line + k * width, width);
@@ -191,33 +189,34 @@ private:
     });
   }
 
+  const SharedPath& _shared;
   RangeReader _file;
   Widths _widths;
-  int _rank, _ranks;
   std::vector<std::byte> _buffer;
 };
 
 }  // namespace
 
-MeditShare read_medit_binary(const parallel::Communicator& communicator, const std::string& path) {
+LocalMeditMesh read_medit_binary(const SharedPath& file) {
+  const parallel::Communicator& communicator = file.communicator;
   std::vector<Widths> widths;
   std::vector<Section> sections;
   parallel::on_root(communicator, [&] {
-    RangeReader file(path);
-    SectionChain chain(file);
+    RangeReader reader(file.path);
+    SectionChain chain(reader);
     chain.follow();
     widths = {chain.widths};
     sections = std::move(chain.sections);
   });
   communicator.broadcast_items(widths);
   communicator.broadcast_items(sections);
-  MeditShare share;
+  LocalMeditMesh local;
   parallel::agree(communicator, [&] {
-    ShareReader reader(path, widths.front(), communicator.rank(), communicator.size());
+    LocalMeditReader reader(file, widths.front());
     for (const Section& section : sections) reader.read(section);
-    share = std::move(reader.share);
+    local = std::move(reader.local);
   });
-  return share;
+  return local;
 }
 
 }  // namespace aeroloom::io

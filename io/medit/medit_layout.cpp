@@ -1,9 +1,11 @@
 #include "io/medit/medit_layout.hpp"
 
+#include "io/streams/byte_order.hpp"
+
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -16,13 +18,6 @@ using mesh::GlobalIndex;
 /// A coordinate of a text file, "-1.2345678901234567e-100", with a blank after it.
 constexpr int text_coordinate = 25;
 
-template <class Number>
-void append_number(std::string& bytes, Number number) {
-  char raw[sizeof(Number)];
-  std::memcpy(raw, &number, sizeof(Number));
-  bytes.append(raw, sizeof(Number));
-}
-
 GlobalIndex largest_number(const MeditCounts& counts) {
   GlobalIndex largest = std::max(counts.vertices, counts.largest_reference);
   for (const GlobalIndex count : counts.faces) largest = std::max(largest, count);
@@ -32,11 +27,11 @@ GlobalIndex largest_number(const MeditCounts& counts) {
 
 std::string binary_header(const MeditLayout& layout) {
   std::string bytes;
-  append_number<std::int32_t>(bytes, 1);
-  append_number<std::int32_t>(bytes, layout.version);
-  append_number<std::int32_t>(bytes, static_cast<std::int32_t>(MeditKeyword::dimension));
-  append_number<std::int64_t>(bytes, 24);
-  append_number<std::int32_t>(bytes, 3);
+  append_bytes<std::int32_t>(bytes, 1);
+  append_bytes<std::int32_t>(bytes, layout.version);
+  append_bytes<std::int32_t>(bytes, static_cast<std::int32_t>(MeditKeyword::dimension));
+  append_bytes<std::int64_t>(bytes, 24);
+  append_bytes<std::int32_t>(bytes, 3);
   return bytes;
 }
 
@@ -44,13 +39,13 @@ std::string section_header(const MeditLayout& layout, const MeditSection& sectio
   if (layout.encoding == MeditEncoding::text)
     return fmt::format("\n{}\n{}\n", name_of(section.keyword), section.count);
   std::string bytes;
-  append_number(bytes, static_cast<std::int32_t>(section.keyword));
+  append_bytes(bytes, static_cast<std::int32_t>(section.keyword));
   const std::int64_t header_bytes = 4 + 8 + layout.integer_width;
-  append_number<std::int64_t>(bytes, section.begin + header_bytes + section.count * section.line_bytes);
+  append_bytes<std::int64_t>(bytes, section.begin + header_bytes + section.count * section.line_bytes);
   if (layout.version < 4) {
-    append_number(bytes, static_cast<std::int32_t>(section.count));
+    append_bytes(bytes, static_cast<std::int32_t>(section.count));
   } else {
-    append_number<std::int64_t>(bytes, section.count);
+    append_bytes<std::int64_t>(bytes, section.count);
   }
   return bytes;
 }
@@ -75,24 +70,17 @@ void add_section(MeditLayout& layout, MeditKeyword keyword, int corners, GlobalI
 }  // namespace
 
 std::string_view name_of(MeditKeyword keyword) {
-  switch (keyword) {
-    case MeditKeyword::dimension:
-      return "Dimension";
-    case MeditKeyword::vertices:
-      return "Vertices";
-    case MeditKeyword::triangles:
-      return "Triangles";
-    case MeditKeyword::quadrilaterals:
-      return "Quadrilaterals";
-    case MeditKeyword::tetrahedra:
-      return "Tetrahedra";
-    case MeditKeyword::prisms:
-      return "Prisms";
-    case MeditKeyword::pyramids:
-      return "Pyramids";
-    case MeditKeyword::end:
-      return "End";
-  }
+  constexpr std::array<std::pair<MeditKeyword, std::string_view>, 8> names = {
+      {{MeditKeyword::dimension, "Dimension"},
+       {MeditKeyword::vertices, "Vertices"},
+       {MeditKeyword::triangles, "Triangles"},
+       {MeditKeyword::quadrilaterals, "Quadrilaterals"},
+       {MeditKeyword::tetrahedra, "Tetrahedra"},
+       {MeditKeyword::prisms, "Prisms"},
+       {MeditKeyword::pyramids, "Pyramids"},
+       {MeditKeyword::end, "End"}}};
+  for (const auto& [of_name, name] : names)
+    if (of_name == keyword) return name;
   throw std::logic_error("no such keyword");
 }
 
@@ -116,8 +104,8 @@ MeditLayout medit_layout(const MeditCounts& counts, MeditEncoding encoding, bool
     layout.version = wide || largest > std::numeric_limits<std::int32_t>::max() ? 4 : 3;
     layout.integer_width = layout.version < 4 ? 4 : 8;
     layout.header = binary_header(layout);
-    append_number(layout.footer, static_cast<std::int32_t>(MeditKeyword::end));
-    append_number<std::int64_t>(layout.footer, 0);
+    append_bytes(layout.footer, static_cast<std::int32_t>(MeditKeyword::end));
+    append_bytes<std::int64_t>(layout.footer, 0);
   }
   layout.size = static_cast<std::int64_t>(layout.header.size());
   add_section(layout, MeditKeyword::vertices, 3, counts.vertices);

@@ -1,4 +1,4 @@
-/// Medit's mesh format (GMF): keywords, and where the sections of a file lie.
+/// Medit's mesh format (GMF): keywords, and the places of the sections in a file.
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -11,7 +11,7 @@
 
 namespace aeroloom::io {
 
-/// Keywords of the format that a mesh of ours needs (libMeshb 7, "Meshb format").
+/// The keywords of the format that are used here (libMeshb 7, "Meshb format").
 enum class MeditKeyword : std::int32_t {
   dimension = 3,
   vertices = 4,
@@ -26,24 +26,24 @@ inline constexpr std::array<MeditKeyword, cell_shape_count> medit_cells = {
     MeditKeyword::tetrahedra, MeditKeyword::pyramids, MeditKeyword::prisms};
 inline constexpr std::array<MeditKeyword, face_shape_count> medit_faces = {MeditKeyword::triangles,
                                                                            MeditKeyword::quadrilaterals};
-/// The keyword as text files have it.
+/// The spelling of a keyword in text files.
 std::string_view name_of(MeditKeyword keyword);
 
-/// `binary` (.meshb) is version 3, with 32-bit numbers, or 4, with 64-bit numbers, where they do not suffice.
+/// `binary` (.meshb): version 3 with 32-bit numbers, or version 4 with 64-bit numbers where needed.
 enum class MeditEncoding : std::uint8_t { binary, text };
 
 struct MeditCounts : ShapeCounts {
   mesh::GlobalIndex largest_reference = 1;
 };
 
-/// Lines of one kind: vertices, or cells or faces of one shape. All lines have the same number of bytes, in
-/// text files too.
+/// The vertices, or the cells or faces of one shape. Each item is a line. All lines of a section have the
+/// same number of bytes, also in text files.
 struct MeditSection {
   MeditKeyword keyword = MeditKeyword::end;
-  int numbers = 0;         ///< in a line, with the reference
-  std::string header;      ///< in front of the lines
-  std::int64_t begin = 0;  ///< of the header, in bytes
-  std::int64_t lines = 0;  ///< where the first line begins
+  int numbers = 0;         ///< numbers in a line, with the reference
+  std::string header;      ///< text before the lines
+  std::int64_t begin = 0;  ///< offset of the header in bytes
+  std::int64_t lines = 0;  ///< offset of the first line in bytes
   std::int64_t line_bytes = 0;
   mesh::GlobalIndex count = 0;
   std::int64_t end() const { return lines + count * line_bytes; }
@@ -52,19 +52,19 @@ struct MeditSection {
 struct MeditLayout {
   MeditEncoding encoding = MeditEncoding::binary;
   int version = 3;
-  int integer_width = 4;               ///< bytes of a number; in text files characters
+  int integer_width = 4;               ///< bytes (in text files characters) of a number
   std::string header;                  ///< of the file
-  std::vector<MeditSection> sections;  ///< vertices, then faces, then cells, those that there are
+  std::vector<MeditSection> sections;  ///< vertices, faces, cells; without empty ones
   std::string footer;
   std::int64_t footer_begin = 0;
   std::int64_t size = 0;  ///< of the file
 
-  /// Null where there are none.
+  /// Null where the file has no such section.
   const MeditSection* find(MeditKeyword keyword) const;
 };
 
-/// Where everything goes, from counts alone.
-/// `wide`: 64-bit numbers in binary files even where 32 bits suffice.
+/// The places of all sections, from counts alone. `wide`: binary files get 64-bit numbers even where 32 bits
+/// suffice.
 MeditLayout medit_layout(const MeditCounts& counts, MeditEncoding encoding, bool wide = false);
 
 }  // namespace aeroloom::io

@@ -2,8 +2,8 @@
 
 #include "geometry/sort_unique.hpp"
 #include "io/distinct_numbers.hpp"
+#include "io/medit/local_medit_mesh.hpp"
 #include "io/medit/medit_names.hpp"
-#include "io/medit/medit_share.hpp"
 #include "io/streams/range_reader.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
@@ -28,14 +28,13 @@ constexpr std::int64_t largest_names_file = std::int64_t{64} << 20;
 
 /// The different references of items over all ranks, ascending. Collective.
 template <class Shapes>
-std::vector<std::int64_t> all_references(const parallel::Communicator& communicator, const std::string& path,
-                                         const Shapes& shapes) {
+std::vector<std::int64_t> all_references(const SharedPath& file, const Shapes& shapes) {
   std::vector<std::span<const std::int64_t>> lists;
   lists.reserve(shapes.size());
   for (const MeditItems& items : shapes) lists.emplace_back(items.references);
   return distinct_numbers(
-      communicator, lists, most_references,
-      fmt::format("'{}': there are more than {} different references", path, most_references));
+      file.communicator, lists, most_references,
+      fmt::format("'{}': there are more than {} different references", file.path, most_references));
 }
 
 /// The first reference in use that has no name, though others have; nothing where there is none.
@@ -75,55 +74,53 @@ std::string read_names_file(const std::string& path) {
 }
 
 /// Reads the names on one rank for all. Collective.
-MeditNames read_names(const parallel::Communicator& communicator, const std::string& mesh_path) {
-  const std::string path = medit_names_path(mesh_path);
+MeditNames read_names(const SharedPath& file) {
+  const std::string path = medit_names_path(file.path);
   std::string text;
-  parallel::on_root(communicator, [&] { text = read_names_file(path); });
-  std::vector<char> bytes(text.begin(), text.end());
-  communicator.broadcast_items(bytes);
+  parallel::on_root(file.communicator, [&] { text = read_names_file(path); });
+  file.communicator.broadcast_value(text);
   MeditNames names;
-  parallel::agree(communicator,
-                  [&] { names = parse_medit_names(std::string(bytes.begin(), bytes.end()), path); });
+  parallel::agree(file.communicator, [&] { names = parse_medit_names(text, path); });
   return names;
 }
 
 /// Whether the file is text. Collective.
-bool is_text(const parallel::Communicator& communicator, const std::string& path) {
+bool is_text(const SharedPath& file) {
   std::int64_t text = 0;
-  parallel::on_root(communicator, [&] {
-    RangeReader file(path);
+  parallel::on_root(file.communicator, [&] {
+    RangeReader reader(file.path);
     // A binary file begins with the bytes 0 or 1.
-    text = file.size() > 0 && file.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
+    text = reader.size() > 0 && reader.value<std::uint8_t>(0) >= '\t' ? 1 : 0;
   });
-  return communicator.sum(text) > 0;
+  return file.communicator.sum(text) > 0;
 }
 
-MeditShare read_share(const parallel::Communicator& communicator, const std::string& path) {
-  if (!is_text(communicator, path)) return read_medit_binary(communicator, path);
-  MeditShare share;
-  parallel::on_root(communicator, [&] { share = read_medit_text(path); });
-  return share;
+LocalMeditMesh read_local_mesh(const SharedPath& file) {
+  if (!is_text(file)) return read_medit_binary(file);
+  LocalMeditMesh local;
+  parallel::on_root(file.communicator, [&] { local = read_medit_text(file.path); });
+  return local;
 }
 
 }  // namespace
 
-RawMesh read_medit(const parallel::Communicator& communicator, const std::string& path) {
-  MeditShare share = read_share(communicator, path);
-  MeditNames names = read_names(communicator, path);
-  std::vector<std::int64_t> regions = all_references(communicator, path, share.cells),
-                            patches = all_references(communicator, path, share.faces);
+RawMesh read_medit(const SharedPath& file) {
+  LocalMeditMesh local = read_local_mesh(file);
+  MeditNames names = read_names(file);
+  std::vector<std::int64_t> regions = all_references(file, local.cells),
+                            patches = all_references(file, local.faces);
   std::optional<std::int64_t> nameless = first_nameless(regions, names.regions);
   if (!nameless) nameless = first_nameless(patches, names.patches);
   if (nameless) {
-    if (communicator.is_root()) {
+    if (file.communicator.is_root()) {
       parallel::log_warning(fmt::format("'{}' is left alone: it has no name for the reference {} of '{}'",
-                                        medit_names_path(path), *nameless, path));
+                                        medit_names_path(file.path), *nameless, file.path));
     }
     names = {};
   }
   add_named(names.regions, regions);
   add_named(names.patches, patches);
-  RawMesh raw;
+  RawMesh raw(file);
   for (const std::int64_t reference : regions) {
     const auto named = names.regions.find(reference);
     raw.regions.push_back(named == names.regions.end() ? fmt::format("region_{}", reference) : named->second);
@@ -135,18 +132,18 @@ RawMesh read_medit(const parallel::Communicator& communicator, const std::string
                               ? mesh::Patch{fmt::format("patch_{}", reference), mesh::PatchType::wall}
                               : named->second);
   }
-  raw.point_ids.resize(share.coordinates.size() / 3);
-  std::iota(raw.point_ids.begin(), raw.point_ids.end(), share.first_point);
-  raw.coordinates = std::move(share.coordinates);
+  raw.point_ids.resize(local.coordinates.size() / 3);
+  std::iota(raw.point_ids.begin(), raw.point_ids.end(), local.first_point);
+  raw.coordinates = std::move(local.coordinates);
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
-    raw.cell_regions[s] = ids_of(share.cells[s], regions);
-    raw.cells[s] = std::move(share.cells[s].corners);
-    share.cells[s] = {};
+    raw.cell_regions[s] = ids_of(local.cells[s], regions);
+    raw.cells[s] = std::move(local.cells[s].corners);
+    local.cells[s] = {};
   }
   for (std::size_t s = 0; s < face_shape_count; ++s) {
-    raw.face_patches[s] = ids_of(share.faces[s], patches);
-    raw.faces[s] = std::move(share.faces[s].corners);
-    share.faces[s] = {};
+    raw.face_patches[s] = ids_of(local.faces[s], patches);
+    raw.faces[s] = std::move(local.faces[s].corners);
+    local.faces[s] = {};
   }
   return raw;
 }

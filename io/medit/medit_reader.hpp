@@ -1,21 +1,18 @@
-/// Meshes from Medit files (GMF) of any origin.
+/// Reads Medit files (GMF) of any origin.
 #pragma once
 
 #include "io/raw_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
-
-#include <string>
 
 namespace aeroloom::io {
 
-/// Reads .meshb (versions 1 to 4, both byte orders: every rank its own share of each section) or .mesh (text:
-/// rank 0 reads all); the first bytes decide. Cells of one reference are a region, faces of one reference a
-/// patch, in ascending order of references; named by NAME.names where that is there
-/// (io/medit/medit_names.hpp) and names all that are in use (otherwise it is left alone, with a warning),
-/// else `region_REF` and `patch_REF`, a wall. Edges, ridges, corners, geometry and solutions are left out.
-/// Throws CollectiveError (files) where the file cannot be read, (input) naming file and place: no such
-/// format, a plane mesh, cut off, a count or position that the file has no room for, a section that comes
-/// twice, hexahedra, curved cells, a number that is none, more than 65,536 references. Collective.
-RawMesh read_medit(const parallel::Communicator& communicator, const std::string& path);
+/// Reads binary files (.meshb, versions 1 to 4, both byte orders) and text (.mesh); the first bytes decide.
+/// Every rank reads a range of each section of a binary file; rank 0 reads text. The cells of one reference
+/// are a region, the faces of one reference a patch, by ascending reference. NAME.names
+/// (io/medit/medit_names.hpp) names them if it has all references in use; otherwise it is ignored with a
+/// warning. Without names they are `region_REF`, and `patch_REF`, a wall. Edges, ridges, corners, geometry
+/// and solutions are left out. Collective. Throws CollectiveError: (files) where the file cannot be read;
+/// (input) with the place for a wrong format, two dimensions, damage, repeated sections, hexahedra, curved
+/// cells, and more than 65,536 references.
+RawMesh read_medit(const SharedPath& file);
 
 }  // namespace aeroloom::io

@@ -1,4 +1,4 @@
-#include "io/medit/medit_share.hpp"
+#include "io/medit/local_medit_mesh.hpp"
 #include "io/streams/text_lines.hpp"
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -104,7 +103,7 @@ class TextReader {
 public:
   explicit TextReader(const std::string& path) : _words(path) {}
 
-  MeditShare read() {
+  LocalMeditMesh read() {
     std::string word = _words.next();
     if (word != "MeshVersionFormatted") _words.refuse("this is no Medit file: no MeshVersionFormatted");
     _words.integer("a version");
@@ -112,7 +111,7 @@ public:
       if (!is_keyword(word)) _words.refuse(fmt::format("'{}' should be a keyword", word));
       read_section(word);
     }
-    return std::move(_share);
+    return std::move(_local);
   }
 
 private:
@@ -152,11 +151,11 @@ private:
   }
 
   void read_vertices() {
-    if (!_share.coordinates.empty()) _words.refuse("Vertices come twice");
+    if (!_local.coordinates.empty()) _words.refuse("Vertices come twice");
     const std::int64_t count = count_of_lines(4, "Vertices");
-    _share.coordinates.reserve(3 * static_cast<std::size_t>(count));
+    _local.coordinates.reserve(3 * static_cast<std::size_t>(count));
     for (std::int64_t i = 0; i < count; ++i) {
-      for (int axis = 0; axis < 3; ++axis) _share.coordinates.push_back(_words.real("a coordinate"));
+      for (int axis = 0; axis < 3; ++axis) _local.coordinates.push_back(_words.real("a coordinate"));
       _words.real("a reference");
     }
   }
@@ -167,7 +166,7 @@ private:
          {MeditKeyword::triangles, MeditKeyword::quadrilaterals, MeditKeyword::tetrahedra,
           MeditKeyword::pyramids, MeditKeyword::prisms}) {
       if (keyword != name_of(known)) continue;
-      MeditItems& items = *_share.items(static_cast<std::int32_t>(known));
+      MeditItems& items = *_local.items(static_cast<std::int32_t>(known));
       if (!items.references.empty()) _words.refuse(keyword + " come twice");
       read_items(keyword, medit_corners(static_cast<std::int32_t>(known)), items);
       _following = _words.next();
@@ -191,12 +190,12 @@ private:
   }
 
   WordReader _words;
-  MeditShare _share;
+  LocalMeditMesh _local;
 };
 
 }  // namespace
 
-MeditShare read_medit_text(const std::string& path) {
+LocalMeditMesh read_medit_text(const std::string& path) {
   return TextReader(path).read();
 }
 

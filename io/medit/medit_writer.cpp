@@ -70,7 +70,7 @@ MeditCounts medit_counts_of(const FileMesh& mesh) {
   return {mesh.counts(CountedFaces::all), static_cast<GlobalIndex>(references)};
 }
 
-void write_vertices(const FilePart& part, const MeditSection& section, LineBuffer& buffer) {
+void write_vertices(const MeshPart& part, const MeditSection& section, LineBuffer& buffer) {
   buffer.begin_at(section, part.first_owned);
   for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
     if (!part.owned[static_cast<std::size_t>(v)]) continue;
@@ -80,7 +80,7 @@ void write_vertices(const FilePart& part, const MeditSection& section, LineBuffe
   }
 }
 
-void write_run(const FilePart& part, const Block& block, const Run& run, LineBuffer& buffer) {
+void write_run(const MeshPart& part, const Block& block, const Run& run, LineBuffer& buffer) {
   for (LocalIndex i = run.begin; i < run.end; ++i) {
     const LocalIndex* corner = block.item(i);
     for (int k = 0; k < block.corners; ++k)
@@ -102,7 +102,7 @@ std::vector<GlobalIndex> faces_before(const FileMesh& mesh, std::size_t shape) {
 
 void write_faces(const FileMesh& mesh, std::size_t shape, const MeditSection& section, LineBuffer& buffer) {
   const std::vector<GlobalIndex> before = faces_before(mesh, shape);
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const Run& run : part.faces[shape].runs) {
       buffer.begin_at(section, before[static_cast<std::size_t>(run.id)] + run.before);
       write_run(part, part.faces[shape], run, buffer);
@@ -111,13 +111,14 @@ void write_faces(const FileMesh& mesh, std::size_t shape, const MeditSection& se
 }
 
 void write_cells(const FileMesh& mesh, std::size_t shape, const MeditSection& section, LineBuffer& buffer) {
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     buffer.begin_at(section, part.cells[shape].before);
     for (const Run& run : part.cells[shape].runs) write_run(part, part.cells[shape], run, buffer);
   }
 }
 
-void write_share(const FileMesh& mesh, const MeditLayout& layout, bool is_root, parallel::SharedFile& file) {
+void write_medit_parts(const FileMesh& mesh, const MeditLayout& layout, bool is_root,
+                       parallel::SharedFile& file) {
   LineBuffer buffer(file, layout);
   if (is_root) {
     buffer.text(0, layout.header);
@@ -125,7 +126,7 @@ void write_share(const FileMesh& mesh, const MeditLayout& layout, bool is_root, 
     buffer.text(layout.footer_begin, layout.footer);
   }
   const MeditSection* const vertices = layout.find(MeditKeyword::vertices);
-  for (const FilePart& part : mesh.parts) write_vertices(part, *vertices, buffer);
+  for (const MeshPart& part : mesh.parts) write_vertices(part, *vertices, buffer);
   for (std::size_t s = 0; s < face_shape_count; ++s) {
     if (const MeditSection* const section = layout.find(medit_faces[s]))
       write_faces(mesh, s, *section, buffer);
@@ -140,7 +141,7 @@ void write_share(const FileMesh& mesh, const MeditLayout& layout, bool is_root, 
 }  // namespace
 
 void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptions& options) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension != ".meshb" && extension != ".mesh") {
     throw parallel::CollectiveError(parallel::FailureKind::input,
@@ -157,7 +158,7 @@ void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptio
     file.write(0, std::as_bytes(std::span(names.data(), names.size())));
   });
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
-    write_share(mesh, layout, communicator.is_root(), file);
+    write_medit_parts(mesh, layout, communicator.is_root(), file);
   });
 }
 

@@ -1,8 +1,7 @@
-/// Meshes as Medit files (GMF), which refine, Mmg, ParMmg and INRIA's tools read.
+/// Writes Medit files (GMF), which refine, Mmg, ParMmg and INRIA's tools read.
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <string>
 
@@ -12,15 +11,15 @@ struct MeditOptions {
   bool wide = false;  ///< version 4 even where version 3 suffices
 };
 
-/// Writes PATH, binary where it ends in .meshb and as text where it ends in .mesh, and beside it the names of
-/// regions and patches (io/medit/medit_names.hpp). Keywords and widths follow libMeshb 7: version 3 (64-bit
-/// positions and coordinates, 32-bit numbers), version 4 (64-bit numbers) where a count exceeds 2^31 - 1;
-/// text says version 2 and has 17 digits. Vertices by number, reference 0; faces of all patches, those
-/// between regions too, by patch, counter-clockwise seen from outside the fluid, reference patch + 1; cells
-/// by part, reference region + 1. Prisms and pyramids have the corners of io/file_mesh.hpp. Left out: edges,
-/// ridges, corners, geometry. Every rank writes its own part of the file through a buffer of 1 MiB.
-/// Collective; the bytes depend on the parts alone. Throws CollectiveError (files); (input) where the name
-/// ends otherwise.
+/// Writes a mesh to `path`: binary for the extension .meshb, text for .mesh. The names of regions and patches
+/// go into a file beside it (io/medit/medit_names.hpp). Keywords and widths follow libMeshb 7: version 3 with
+/// 64-bit positions and coordinates and 32-bit numbers, or version 4 with 64-bit numbers where a count
+/// exceeds 2^31 - 1. Text files say version 2 and have 17 digits. Vertices come by number, with reference 0.
+/// Faces of all patches (also between regions) come by patch, with reference patch + 1, counter-clockwise
+/// seen from outside the fluid. Cells come by part, with reference region + 1. Edges, ridges, corners and
+/// geometry are left out. Every rank writes its items through a buffer of 1 MiB. The bytes depend on the
+/// parts alone. Collective. Throws CollectiveError: (files) where it cannot be written, (input) for other
+/// extensions.
 void write_medit(const FileMesh& mesh, const std::string& path, const MeditOptions& options = {});
 
 }  // namespace aeroloom::io

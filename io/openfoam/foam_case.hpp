@@ -1,4 +1,4 @@
-/// The folders of a case, and the dictionaries that a solver must find there.
+/// The folders of an OpenFOAM case, and the dictionaries that a solver needs there.
 #pragma once
 
 #include "mesh/data/patch.hpp"
@@ -14,7 +14,7 @@ struct FoamCase {
   std::filesystem::path folder;
   std::int32_t parts = 1;
 
-  /// The case itself where there is one part.
+  /// The folder of a part: processorN, or the case itself where there is one part.
   std::filesystem::path root(std::int32_t part) const;
   /// The parent of polyMesh.
   std::filesystem::path constant(std::int32_t part) const { return root(part) / "constant"; }
@@ -22,28 +22,28 @@ struct FoamCase {
   std::filesystem::path unfinished(std::int32_t part) const { return constant(part) / "polyMesh.unfinished"; }
 };
 
-/// Makes the folder, and removes what a killed run left unfinished. Throws filesystem_error where a processor
-/// folder beyond the parts holds more than an earlier mesh and what write_fields left. By one rank.
+/// Makes the folder, and removes unfinished files of an earlier run. Throws filesystem_error where a surplus
+/// processor folder holds results. One rank calls it.
 void prepare_case(const FoamCase& foam_case);
-/// Removes the meshes of earlier runs, and what write_fields left that nobody changed. By one rank.
+/// Removes meshes of earlier runs, and unchanged files of write_fields(). One rank calls it.
 void retire_meshes(const FoamCase& foam_case);
 
-/// Writes the settings of foam_settings.hpp where they are missing: dictionaries under system/ and constant/,
-/// fields in 0.orig/. A decomposeParDict of another number of parts is written anew if it is as it was
-/// written here, otherwise a warning says so. By one rank. False: there are fields of an undivided case that
-/// no part is to be given others beside.
+/// Writes the missing settings of foam_settings.hpp: dictionaries in system/ and constant/, fields in
+/// 0.orig/. A decomposeParDict for another number of parts is replaced where it is unchanged; otherwise a
+/// warning follows. Returns false where the case has fields in 0/ that are not decomposed: the parts then get
+/// no fields. One rank calls it.
 bool write_settings(const FoamCase& foam_case, bool is_external);
-/// Refers the time folder 0 of a part to the fields in 0.orig/, where it has none of its own.
+/// Makes the missing fields in the time folder 0 of a part, each of which includes the one in 0.orig/.
 void write_fields(const FoamCase& foam_case, std::int32_t part);
 
-/// Patches by id: their names, and the groups that they are in, by which fields name them; empty where a
-/// patch has the name of its type and is the only one of it. No other patch has the name of a type.
+/// By patch: its name, and the group of its type, by which fields find it. The group is empty where the patch
+/// is the only one of its type and has the name of the type. No other patch has the name of a type.
 struct FoamPatches {
   std::vector<std::string> names, groups;
 };
 FoamPatches foam_patches(const std::vector<mesh::Patch>& patches);
 
-/// Names as OpenFOAM's words, distinct.
+/// The names as words of OpenFOAM, all different.
 std::vector<std::string> foam_words(const std::vector<std::string>& names);
 
 }  // namespace aeroloom::io

@@ -19,14 +19,14 @@ using mesh::LinkDefects;
 using mesh::LocalIndex;
 using mesh::PieceLinks;
 
-std::size_t side_count(const FilePart& part, LocalIndex cell) {
+std::size_t side_count(const MeshPart& part, LocalIndex cell) {
   return first_side(*part.piece, cell + 1) - first_side(*part.piece, cell);
 }
 
 /// Calls `visit(cell, side, neighbour, number)` for all faces whose other cell has a higher number in the
 /// whole mesh, by owner, then other cell; `number` counts them.
 template <class Visit>
-GlobalIndex for_owned_faces(const FilePart& part, const PieceLinks& links, const Visit& visit) {
+GlobalIndex for_owned_faces(const MeshPart& part, const PieceLinks& links, const Visit& visit) {
   GlobalIndex number = 0;
   std::vector<std::pair<const CellNeighbour*, std::int32_t>> upper;
   for (LocalIndex cell = 0; cell < part.cell_count(); ++cell) {
@@ -50,7 +50,7 @@ GlobalIndex for_owned_faces(const FilePart& part, const PieceLinks& links, const
 /// whole mesh (triangles before quadrilaterals).
 class PatchPlaces {
 public:
-  PatchPlaces(const FileMesh& mesh, const FilePart& part) : _part(part) {
+  PatchPlaces(const FileMesh& mesh, const MeshPart& part) : _part(part) {
     _triangles.resize(mesh.patches.size(), 0);
     for (const Run& run : part.faces[0].runs) _triangles[run.id] = run.end - run.begin;
     for (std::size_t s = 0; s < face_shape_count; ++s) {
@@ -81,7 +81,7 @@ public:
   }
 
 private:
-  const FilePart& _part;
+  const MeshPart& _part;
   std::array<std::vector<LocalIndex>, face_shape_count> _place;  // in the part, of each face of the piece
   std::vector<LocalIndex> _triangles;
   std::vector<GlobalIndex> _all_triangles;
@@ -108,7 +108,7 @@ struct PartRow {
 std::vector<PartRow> gather_part_rows(const FileMesh& mesh, const FaceLinks& links) {
   std::vector<PartRow> mine;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
-    const FilePart& part = mesh.parts[i];
+    const MeshPart& part = mesh.parts[i];
     mine.push_back({part.cell_count(),
                     for_owned_faces(part, links.pieces[i],
                                     [](LocalIndex, std::int32_t, const CellNeighbour&, GlobalIndex) {})});
@@ -117,7 +117,7 @@ std::vector<PartRow> gather_part_rows(const FileMesh& mesh, const FaceLinks& lin
 }
 
 /// Notes of a part to others about the faces between them.
-void add_notes(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
+void add_notes(const FileMesh& mesh, const MeshPart& part, const PieceLinks& links,
                std::vector<mesh::Told<FoamFaceNote>>& notes) {
   const PatchPlaces places(mesh, part);
   const auto add = [&](LocalIndex cell, std::size_t side, const CellNeighbour& neighbour,
@@ -149,7 +149,7 @@ struct ProcessorFace {
 /// Puts the faces of one part in order.
 class Sorter {
 public:
-  Sorter(const FileMesh& mesh, const FilePart& part, const PieceLinks& links, const FoamPlan& plan)
+  Sorter(const FileMesh& mesh, const MeshPart& part, const PieceLinks& links, const FoamPlan& plan)
       : _mesh(mesh), _part(part), _links(links), _plan(plan), _places(mesh, part) {}
 
   FoamFaces sort() {
@@ -274,7 +274,7 @@ private:
   }
 
   const FileMesh& _mesh;
-  const FilePart& _part;
+  const MeshPart& _part;
   const PieceLinks& _links;
   const FoamPlan& _plan;
   PatchPlaces _places;
@@ -284,7 +284,7 @@ private:
 
 }  // namespace
 
-FoamCorners corners_of_face(const FilePart& part, const FoamFace& face) {
+FoamCorners corners_of_face(const MeshPart& part, const FoamFace& face) {
   const mesh::CellOfPiece cell = cell_of(*part.piece, face.cell);
   const LocalIndex* v = vertices_of(*part.piece, cell);
   FoamCorners result;
@@ -319,7 +319,7 @@ FoamPlan plan_faces(const FileMesh& mesh, const FaceLinks& links) {
   return plan;
 }
 
-FoamFaces order_faces(const FileMesh& mesh, const FilePart& part, const PieceLinks& links,
+FoamFaces order_faces(const FileMesh& mesh, const MeshPart& part, const PieceLinks& links,
                       const FoamPlan& plan) {
   return Sorter(mesh, part, links, plan).sort();
 }

@@ -1,4 +1,4 @@
-/// Files as OpenFOAM reads them: a header and lists, text or binary.
+/// Writes OpenFOAM files: a header, and lists in text or binary.
 #pragma once
 
 #include "io/local_file.hpp"
@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace aeroloom::io {
 
@@ -15,14 +14,14 @@ struct FoamFormat {
   int label_bits = 32;  ///< 32 or 64
 };
 
-/// The header of a file: `kind` is its class, `location` the folder it names, `note` may be empty.
+/// The header of a file. `kind`: its class; `location`: the folder in the case; `note` may be empty.
 std::string foam_header(const FoamFormat& format, std::string_view kind, std::string_view location,
                         std::string_view object, std::string_view note = {});
 
 /// Writes a list item by item, in constant memory.
 class FoamList {
 public:
-  /// A list of `count` items; what leads to it (a keyword, `List<label>`) is written before.
+  /// Begins a list of `count` items. The caller has written the keyword or `List<label>` before it.
   FoamList(LocalFile& file, const FoamFormat& format, std::int64_t count);
   void label(std::int64_t value);
   void vector(const double* xyz);

@@ -1,8 +1,7 @@
-/// Dictionaries, and fields with conditions by type of patch: all that a solver needs besides the mesh.
+/// The dictionaries and fields that a solver needs besides the mesh, with conditions by type of patch.
 ///
-/// They make `potentialFoam`, then `simpleFoam` with the k-omega SST model, run as they stand: air at 50 m/s,
-/// first-order convection of turbulence and limited gradients, made to start from nothing on tetrahedra
-/// rather than to be exact.
+/// With them `potentialFoam` runs, then `simpleFoam` with the k-omega SST model: air at 50 m/s. First-order
+/// convection and limited gradients make the start on tetrahedra robust rather than accurate.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +13,25 @@
 namespace aeroloom::io {
 
 struct FoamSetting {
-  std::filesystem::path path;  ///< below the case
+  std::filesystem::path path;  ///< relative to the case
   std::string text;
 };
 
-/// All but decomposeParDict, and what foam_fields are made with.
+/// All dictionaries but decomposeParDict.
 std::vector<FoamSetting> foam_dictionaries();
-/// The numbers of the fields. `is_external`: there is a far field, and what flows starts as it does there;
-/// else at rest.
+/// The values that the fields use. `is_external`: with a far field, the flow starts with its state; otherwise
+/// at rest.
 FoamSetting foam_conditions(bool is_external);
 
 struct FoamField {
   std::string name;
-  std::string text;  ///< as it stands in 0.orig, beside the conditions
-  std::string link;  ///< as it stands in the time folder 0: that it is the one in 0.orig
+  std::string text;  ///< the content in 0.orig, with the conditions
+  std::string link;  ///< the content in the time folder 0: it includes the file in 0.orig
 };
-/// `up`: from a time folder to the case, "../" or "../../".
+/// `up`: the path from a time folder to the case, "../" or "../../".
 std::vector<FoamField> foam_fields(std::string_view up);
 
-/// A dictionary decomposeParDict for as many parts.
+/// A decomposeParDict for `parts` parts.
 std::string foam_decomposition(std::int64_t parts);
 
 }  // namespace aeroloom::io

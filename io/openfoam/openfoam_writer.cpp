@@ -52,7 +52,7 @@ bool is_boundary(const mesh::Patch& patch) {
 /// Writes the files of one part.
 class FoamPartWriter {
 public:
-  FoamPartWriter(const FoamMesh& whole, const FilePart& part, const FoamFaces& order, fs::path folder)
+  FoamPartWriter(const FoamMesh& whole, const MeshPart& part, const FoamFaces& order, fs::path folder)
       : _mesh(whole.mesh),
         _part(part),
         _plan(whole.plan),
@@ -78,12 +78,12 @@ private:
     file.text(foam_header(_format, kind, "constant/polyMesh", object, note));
     return file;
   }
-  /// A file that is one list of labels.
-  template <class Items, class Label>
-  void write_labels(const char* object, const Items& items, const Label& label, std::string_view note = {}) {
+  /// A file that is one list of labels: label(0), label(1), ...
+  template <class Label>
+  void write_labels(const char* object, std::size_t count, const Label& label, std::string_view note = {}) {
     LocalFile file = open("labelList", object, note);
-    FoamList list(file, _format, static_cast<std::int64_t>(items.size()));
-    for (const auto& item : items) list.label(label(item));
+    FoamList list(file, _format, static_cast<std::int64_t>(count));
+    for (std::size_t i = 0; i < count; ++i) list.label(label(i));
     list.end();
     file.text("\n");
     file.finish();
@@ -142,10 +142,10 @@ private:
         fmt::format("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}", _part.vertex_count(),
                     _part.cell_count(), faces().size(), _order.inner);
     write_labels(
-        "owner", faces(), [](const FoamFace& face) { return face.cell; }, note);
+        "owner", faces().size(), [&](std::size_t f) { return faces()[f].cell; }, note);
     write_labels(
-        "neighbour", faces().first(static_cast<std::size_t>(_order.inner)),
-        [](const FoamFace& face) { return face.neighbour; }, note);
+        "neighbour", static_cast<std::size_t>(_order.inner),
+        [&](std::size_t f) { return faces()[f].neighbour; }, note);
   }
 
   void write_boundary() {
@@ -236,28 +236,23 @@ private:
 
   void write_addressing() {
     const GlobalIndex first = _plan.first_cell[static_cast<std::size_t>(_part.id)];
-    {
-      LocalFile file = open("labelList", "cellProcAddressing");
-      FoamList list(file, _format, _part.cell_count());
-      for (LocalIndex cell = 0; cell < _part.cell_count(); ++cell) list.label(first + cell);
-      list.end();
-      file.text("\n");
-      file.finish();
-    }
-    write_labels("faceProcAddressing", faces(), [](const FoamFace& face) {
-      return face.flipped != 0 ? -(face.number + 1) : face.number + 1;
+    write_labels("cellProcAddressing", static_cast<std::size_t>(_part.cell_count()),
+                 [&](std::size_t cell) { return first + static_cast<GlobalIndex>(cell); });
+    write_labels("faceProcAddressing", faces().size(), [&](std::size_t f) {
+      return faces()[f].flipped != 0 ? -(faces()[f].number + 1) : faces()[f].number + 1;
     });
-    write_labels("pointProcAddressing", _part.numbers, [](GlobalIndex number) { return number; });
+    write_labels("pointProcAddressing", _part.numbers.size(),
+                 [&](std::size_t v) { return _part.numbers[v]; });
     std::vector<std::int64_t> patches;
     for (const mesh::Patch& patch : _mesh.patches) {
       if (is_boundary(patch)) patches.push_back(static_cast<std::int64_t>(patches.size()));
     }
     patches.resize(patches.size() + _order.processors.size(), -1);
-    write_labels("boundaryProcAddressing", patches, [](std::int64_t patch) { return patch; });
+    write_labels("boundaryProcAddressing", patches.size(), [&](std::size_t p) { return patches[p]; });
   }
 
   const FileMesh& _mesh;
-  const FilePart& _part;
+  const MeshPart& _part;
   const FoamPlan& _plan;
   const FoamFaces& _order;
   const Names& _names;
@@ -266,14 +261,13 @@ private:
 };
 
 FoamFormat format_of(const FileMesh& mesh, const FoamPlan& plan, const OpenFoamOptions& options) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   GlobalIndex corners = 0;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     corners = std::max<GlobalIndex>(corners, 12 * GlobalIndex{part.cells[0].count()} +
                                                  16 * GlobalIndex{part.cells[1].count()} +
                                                  18 * GlobalIndex{part.cells[2].count()});
   }
-  corners = communicator.maximum(corners);
+  corners = mesh.communicator().maximum(corners);
   FoamFormat format;
   format.binary = options.binary;
   format.label_bits = options.label_bits != 0
@@ -291,7 +285,7 @@ int foam_label_bits(GlobalIndex cells, GlobalIndex faces, GlobalIndex points, Gl
 }
 
 void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const mesh::FaceLinks links = mesh::link_faces(*mesh.pieces);
   const FoamPlan plan = plan_faces(mesh, links);
   const FoamMesh whole{
@@ -305,7 +299,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   try {
     parallel::agree(communicator, [&] {
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
-        const FilePart& part = mesh.parts[i];
+        const MeshPart& part = mesh.parts[i];
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(whole, part, order, foam_case.unfinished(part.id)).write();
       }
@@ -313,13 +307,13 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;
-    for (const FilePart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
+    for (const MeshPart& part : mesh.parts) fs::remove_all(foam_case.unfinished(part.id), ignored);
     throw;
   }
   parallel::on_root(communicator, [&] { retire_meshes(foam_case); });
   has_fields = communicator.maximum(std::int64_t{has_fields ? 0 : 1}) == 0;
   parallel::agree(communicator, [&] {
-    for (const FilePart& part : mesh.parts) {
+    for (const MeshPart& part : mesh.parts) {
       if (has_fields) write_fields(foam_case, part.id);
       fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
     }

@@ -1,15 +1,14 @@
-/// Writes a case of OpenFOAM, decomposed: CASE/processorN/constant/polyMesh, one for each part, to be run by
-/// as many ranks without decomposePar. A mesh of one part becomes CASE/constant/polyMesh.
+/// Writes a decomposed OpenFOAM case: CASE/processorN/constant/polyMesh for each part. As many ranks can run
+/// it without decomposePar. A mesh of one part becomes CASE/constant/polyMesh.
 ///
-/// Written: points, faces, owner, neighbour, boundary; cellZones by region where there are several; faceZones
-/// of interior patches, their normals from the front region to that beyond; for several parts cell-, face-,
-/// point- and boundaryProcAddressing with numbers of the whole mesh (for reconstructPar). All patches stand
-/// in each part in the same order, empty ones too; then processor patches. Types: wall -> wall, symmetry ->
-/// symmetry, all others -> patch; each patch is in the group (inGroups) of its type's name, which fields may
-/// use. Names become words: letters, digits, _ - . and bytes beyond ASCII stay, all else becomes _; distinct.
-/// system/controlDict, fvSchemes, fvSolution and decomposeParDict are written only where there are none.
-/// Format: https://doc.cfd.direct/openfoam/user-guide-v11/mesh-description, binary headers as OpenFOAM writes
-/// them.
+/// Files: points, faces, owner, neighbour, boundary. Several regions become cellZones. Interior patches
+/// become faceZones, with normals from the front region to the back region. Several parts have cell-, face-,
+/// point- and boundaryProcAddressing for reconstructPar. Every part has all patches in the same order, also
+/// empty ones, and then processor patches. Types: wall -> wall, symmetry -> symmetry, all others -> patch.
+/// Each patch is in the group (inGroups) with the name of its type. Names become different words: letters,
+/// digits, _ - . and bytes beyond ASCII stay, others become _. system/controlDict, fvSchemes, fvSolution and
+/// decomposeParDict are written only where they are missing. Format: binary headers as OpenFOAM writes them,
+/// https://doc.cfd.direct/openfoam/user-guide-v11/mesh-description.
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -20,20 +19,20 @@ namespace aeroloom::io {
 
 struct OpenFoamOptions {
   bool binary = true;
-  /// Width of labels in binary files: 32, 64, or 0: 32 where all numbers of the mesh fit. Releases since
-  /// v1912 read either width in a build of the other; the Foundation's need WM_LABEL_SIZE to match.
+  /// Bits of labels in binary files: 32, 64, or 0: 32 where all numbers of the mesh fit. Builds of OpenFOAM
+  /// since v1912 read both widths; those of the Foundation need WM_LABEL_SIZE to match.
   int label_bits = 0;
 };
 
-/// `folder`: of the case. Meshes of an earlier run in it go. Throws CollectiveError: files with the path,
-/// also where processor folders beyond the parts hold results; input where faces of the mesh are open.
-/// Nothing stays half written. A rank holds the face order of one part at a time. Collective.
+/// Writes the case `folder`, and removes meshes of earlier runs there. No mesh stays half written. A rank
+/// holds the face order of one part at a time. Collective. Throws CollectiveError: (files) with the path,
+/// also where surplus processor folders hold results; (input) where the mesh has open faces.
 void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options = {});
 
-/// What a user has to do where lengths of the mesh are in another unit, which is so many metres.
+/// The warning for a mesh whose unit of length is `in_metres` metres.
 std::string openfoam_unit_warning(const std::string& unit, double in_metres);
 
-/// 32, or 64 where a number of the mesh, or of the corners of faces of one part, needs it.
+/// The bits of labels: 32, or 64 where a count of the mesh or of the face corners of a part needs them.
 int foam_label_bits(mesh::GlobalIndex cells, mesh::GlobalIndex faces, mesh::GlobalIndex points,
                     mesh::GlobalIndex corners_of_part);
 

@@ -1,6 +1,5 @@
 #include "io/streams/range_reader.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-/// A binary file of unknown origin, read by every rank for itself at any offset.
+/// Reads a binary file of any origin at any offset. Every rank opens the file for itself.
 #pragma once
 
 #include "io/streams/byte_order.hpp"
@@ -11,21 +11,9 @@
 
 namespace aeroloom::io {
 
-/// `count` things shared out evenly: those of `rank` among `size`.
-struct Share {
-  std::int64_t begin = 0, end = 0;
-
-  static Share of(std::int64_t count, int rank, int size) {
-    const std::int64_t each = count / size, rest = count % size;
-    const auto first = [&](std::int64_t r) { return r * each + (r < rest ? r : rest); };
-    return {first(rank), first(rank + std::int64_t{1})};
-  }
-  std::int64_t count() const { return end - begin; }
-};
-
 class RangeReader {
 public:
-  /// Throws std::filesystem::filesystem_error where there is no plain file that can be read.
+  /// Throws std::filesystem::filesystem_error where the path is no plain file, or cannot be read.
   explicit RangeReader(std::string path);
   ~RangeReader();
   RangeReader(const RangeReader&) = delete;
@@ -33,11 +21,11 @@ public:
 
   const std::string& path() const { return _path; }
   std::int64_t size() const { return _size; }
-  /// Little-endian at first.
+  /// Sets the byte order of the file. Without it the file is little-endian.
   void set_order(ByteOrder order) { _reverses = order != own_byte_order; }
 
-  /// Offsets in bytes from the beginning. Throws std::runtime_error where the file is too short, naming the
-  /// byte; filesystem_error where it cannot be read.
+  /// Offsets are bytes from the beginning. Throws std::runtime_error with the byte where the file is too
+  /// short, and filesystem_error where it cannot be read.
   void read_bytes(std::int64_t offset, std::span<std::byte> to);
   template <class T>
   void read(std::int64_t offset, std::span<T> to) {
@@ -53,7 +41,7 @@ public:
     return item;
   }
 
-  /// A number out of bytes that read_bytes() gave.
+  /// A number from bytes that read_bytes() has read.
   template <class T>
   T decoded(const std::byte* bytes) const {
     T item;
@@ -61,7 +49,7 @@ public:
     return _reverses ? with_bytes_reversed(item) : item;
   }
 
-  /// How many bytes lie behind `offset`; 0 beyond the end.
+  /// The number of bytes after `offset`; 0 beyond the end.
   std::int64_t bytes_from(std::int64_t offset) const { return offset < _size ? _size - offset : 0; }
   /// Throws std::runtime_error: "PATH, byte OFFSET: WHAT".
   [[noreturn]] void fail(std::int64_t offset, const std::string& what) const;

@@ -1,4 +1,4 @@
-/// Numbers and text into a file that all ranks write, one after another from any offset on.
+/// Writes numbers and text into a file that all ranks write, from any offset on.
 #pragma once
 
 #include "io/streams/byte_order.hpp"
@@ -7,21 +7,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string_view>
-#include <vector>
 
 namespace aeroloom::io {
 
-/// A buffer of fixed size before a file: the only memory that a writer needs beside the mesh. What has been
-/// put is in the file after flush() or move_to() alone. Failures: as SharedFile::write.
+/// A buffer of fixed size: the only memory that a writer needs besides the mesh. Only flush() and move_to()
+/// write it to the file. Fails as SharedFile::write.
 class RangeWriter {
 public:
   static constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
   explicit RangeWriter(parallel::SharedFile& file, ByteOrder order = own_byte_order)
-      : _file(file), _reverses(order != own_byte_order), _buffer(buffer_bytes) {}
+      : _file(file), _reverses(order != own_byte_order) {}
+  /// Begins at `offset` bytes.
+  RangeWriter(parallel::SharedFile& file, std::int64_t offset) : RangeWriter(file) { _begin = offset; }
 
-  /// Goes on at `offset` bytes from the beginning of the file.
+  /// Writes the buffer, and continues at `offset` bytes from the beginning of the file.
   void move_to(std::int64_t offset) {
     flush();
     _begin = offset;
@@ -30,23 +32,24 @@ public:
   template <parallel::Flat T>
   void put(T value) {
     if (_reverses) value = with_bytes_reversed(value);
-    if (_used + sizeof(T) > _buffer.size()) flush();
-    std::memcpy(_buffer.data() + _used, &value, sizeof(T));
+    if (_used + sizeof(T) > buffer_bytes) flush();
+    std::memcpy(_buffer.get() + _used, &value, sizeof(T));
     _used += sizeof(T);
   }
 
   void put_text(std::string_view text) {
     while (!text.empty()) {
-      if (_used == _buffer.size()) flush();
-      const std::size_t count = std::min(text.size(), _buffer.size() - _used);
-      std::memcpy(_buffer.data() + _used, text.data(), count);
+      if (_used == buffer_bytes) flush();
+      const std::size_t count = std::min(text.size(), buffer_bytes - _used);
+      std::memcpy(_buffer.get() + _used, text.data(), count);
       _used += count;
       text.remove_prefix(count);
     }
   }
 
   void flush() {
-    _file.write(_begin, std::span<const std::byte>(_buffer.data(), _used));
+    if (_used == 0) return;
+    _file.write(_begin, std::span<const std::byte>(_buffer.get(), _used));
     _begin += static_cast<std::int64_t>(_used);
     _used = 0;
   }
@@ -54,7 +57,7 @@ public:
 private:
   parallel::SharedFile& _file;
   bool _reverses;
-  std::vector<std::byte> _buffer;
+  std::unique_ptr<std::byte[]> _buffer = std::make_unique_for_overwrite<std::byte[]>(buffer_bytes);
   std::size_t _used = 0;
   std::int64_t _begin = 0;
 };

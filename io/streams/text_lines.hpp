@@ -1,34 +1,33 @@
-/// A text file of unknown origin, line by line.
+/// Reads a text file of any origin line by line.
 #pragma once
 
 #include "io/streams/range_reader.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace aeroloom::io {
 
-/// Holds one buffer of the file at a time, which grows only where a line needs it. Lines end in \n or \r\n;
-/// the last one may lack it.
+/// Holds one buffer of the file, which grows only for a longer line. Lines end in \n or \r\n; the last line
+/// may have no end.
 class TextLines {
 public:
-  /// Longer ones are no text of a mesh.
+  /// A longer line is an error: the file is no text file of a mesh.
   static constexpr std::size_t longest_line = std::size_t{1} << 16;
 
-  /// Lines of up to `longest` bytes. Throws as RangeReader.
+  /// `longest`: the largest length of a line in bytes. Throws as RangeReader.
   explicit TextLines(const std::string& path, std::size_t longest = longest_line);
 
   /// Goes to the next line; false at the end of the file. Throws std::runtime_error where a line is too long.
   bool next();
   /// The current line without its end; valid until next().
   std::string_view line() const { return _line; }
-  /// Of the current line, from 1.
+  /// The number of the current line, from 1.
   std::int64_t number() const { return _number; }
-  /// Bytes of the file.
+  /// The length of the file in bytes.
   std::int64_t size() const { return _file.size(); }
   const std::string& path() const { return _file.path(); }
   /// Throws std::runtime_error: "PATH, line NUMBER: WHAT".
@@ -41,17 +40,17 @@ private:
   RangeReader _file;
   std::size_t _longest;
   std::vector<char> _buffer;
-  std::size_t _begin = 0, _end = 0;  ///< of what has not been given out
-  std::int64_t _offset = 0;          ///< of the file, after the buffer
+  std::size_t _begin = 0, _end = 0;  ///< the rest of the buffer
+  std::int64_t _offset = 0;          ///< of the end of the buffer in the file
   std::string_view _line;
   std::int64_t _number = 0;
 };
 
-/// Cuts words, separated by blanks, from the front of a line.
+/// Cuts words from the front of a line. Blanks separate words.
 class LineWords {
 public:
   explicit LineWords(std::string_view line) : _rest(line) {}
-  /// Empty when there is none left.
+  /// The next word; empty at the end.
   std::string_view next();
   std::string_view rest() const { return _rest; }
 
@@ -59,9 +58,9 @@ private:
   std::string_view _rest;
 };
 
-/// Without blanks at both ends.
+/// The text without blanks at both ends.
 std::string_view trimmed(std::string_view text);
-/// False unless all of the word is a number.
+/// Whether the whole word is a number.
 bool parse_number(std::string_view word, std::int64_t& value);
 bool parse_number(std::string_view word, double& value);
 

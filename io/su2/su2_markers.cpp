@@ -149,24 +149,26 @@ std::string markers_path_of(const std::string& path) {
   return (file.parent_path() / file.stem()).string() + "_markers.cfg";
 }
 
-void remove_markers(const parallel::Communicator& communicator, const std::string& mesh_path) {
-  parallel::on_root(communicator, [&] { std::filesystem::remove(markers_path_of(mesh_path)); });
+void remove_markers(const SharedPath& mesh_file) {
+  parallel::on_root(mesh_file.communicator,
+                    [&] { std::filesystem::remove(markers_path_of(mesh_file.path)); });
 }
 
 void write_markers(const std::string& mesh_path, const FileMesh& mesh, const BoundaryPatches& patches,
                    const std::vector<std::string>& names) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const std::string text = markers_text(mesh_path, mesh, patches, names);
-  parallel::write_shared_file(communicator, markers_path_of(mesh_path), [&](parallel::SharedFile& file) {
-    if (communicator.is_root()) file.write_items(0, std::span<const char>(text));
-  });
+  parallel::write_shared_file(mesh.communicator(), markers_path_of(mesh_path),
+                              [&](parallel::SharedFile& file) {
+                                if (mesh.communicator().is_root())
+                                  file.write_items(0, std::span<const char>(text));
+                              });
 }
 
-void set_marker_types(const parallel::Communicator& communicator, const std::string& mesh_path,
-                      std::vector<mesh::Patch>& patches) {
+void set_marker_types(const SharedPath& mesh_file, std::vector<mesh::Patch>& patches) {
   std::vector<mesh::PatchType> types;
-  parallel::on_root(communicator, [&] { types = types_of_markers(markers_path_of(mesh_path), patches); });
-  communicator.broadcast_items(types);
+  parallel::on_root(mesh_file.communicator,
+                    [&] { types = types_of_markers(markers_path_of(mesh_file.path), patches); });
+  mesh_file.communicator.broadcast_items(types);
   for (std::size_t p = 0; p < patches.size(); ++p) patches[p].type = types[p];
 }
 

@@ -125,7 +125,8 @@ private:
       if (!element) _lines.fail(su2_type_text(type));
       std::array<GlobalIndex, 6> points{};
       for (int k = 0; k < element->corners; ++k) points[static_cast<std::size_t>(k)] = point(words);
-      add(*element, points, patch);
+      if (element->cell && patch >= 0) _lines.fail("a marker has faces, no cells");
+      append_su2_element(_raw, *element, points, patch);
     }
   }
 
@@ -135,21 +136,6 @@ private:
     if (value < 0) _lines.fail(fmt::format("there is no point {}", value));
     if (value > _highest) _highest = value, _highest_line = _lines.number();
     return value;
-  }
-
-  void add(const Su2Element& element, const std::array<GlobalIndex, 6>& points, std::int32_t patch) {
-    if (element.cell) {
-      if (patch >= 0) _lines.fail("a marker has faces, no cells");
-      const auto s = static_cast<std::size_t>(*element.cell);
-      const GlobalIndex* const in_vtk_order = points.data();
-      for (std::size_t k = 0; k < static_cast<std::size_t>(element.corners); ++k)
-        _raw.cells[s].push_back(in_vtk_order[to_vtk[s][k]]);
-      _raw.cell_regions[s].push_back(0);
-    } else if (element.face && patch >= 0) {
-      const auto s = static_cast<std::size_t>(*element.face);
-      _raw.faces[s].insert(_raw.faces[s].end(), points.begin(), points.begin() + element.corners);
-      _raw.face_patches[s].push_back(patch);
-    }
   }
 
   void read_marker(std::int64_t total) {
@@ -192,11 +178,11 @@ private:
 
 }  // namespace
 
-RawMesh read_su2(const parallel::Communicator& communicator, const std::string& path) {
-  RawMesh raw;
-  parallel::on_root(communicator, [&] { Su2Text(path, raw).read(); });
-  communicator.broadcast_value(raw.patches);
-  set_marker_types(communicator, path, raw.patches);
+RawMesh read_su2(const SharedPath& file) {
+  RawMesh raw(file);
+  parallel::on_root(file.communicator, [&] { Su2Text(file.path, raw).read(); });
+  file.communicator.broadcast_value(raw.patches);
+  set_marker_types(file, raw.patches);
   raw.regions = {"fluid"};
   return raw;
 }

@@ -45,7 +45,7 @@ std::vector<std::string> headings_of(const FileMesh& mesh, const BoundaryPatches
 
 /// Calls line(text) for each point that the part owns.
 template <class Line>
-void for_each_point_line(const FilePart& part, const Line& line) {
+void for_each_point_line(const MeshPart& part, const Line& line) {
   std::array<char, 128> text;
   for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
     if (!part.owned[v]) continue;
@@ -64,7 +64,7 @@ struct ElementRange {
 
 /// Calls line(text) for each element: VTK's type and the points; corner k of the file is corner order(k).
 template <class Order, class Line>
-void for_each_element_line(const FilePart& part, const ElementRange& elements, const Order& order,
+void for_each_element_line(const MeshPart& part, const ElementRange& elements, const Order& order,
                            const Line& line) {
   std::array<char, 160> text;
   for (LocalIndex i = elements.begin; i < elements.end; ++i) {
@@ -78,7 +78,7 @@ void for_each_element_line(const FilePart& part, const ElementRange& elements, c
 
 /// Calls begin(section), then line(text) for each line that a part has in it, section by section.
 template <class Begin, class Line>
-void for_each_line(const FilePart& part, const BoundaryPatches& patches, const Begin& begin,
+void for_each_line(const MeshPart& part, const BoundaryPatches& patches, const Begin& begin,
                    const Line& line) {
   begin(0);
   for_each_point_line(part, line);
@@ -116,7 +116,7 @@ struct TextBlock {
 /// All stretches of this rank's parts with their lengths.
 std::vector<TextBlock> measure(const FileMesh& mesh, const BoundaryPatches& patches) {
   std::vector<TextBlock> stretches;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for_each_line(
         part, patches,
         [&](std::int32_t section) {
@@ -152,21 +152,21 @@ std::vector<std::int64_t> place_stretches(const std::vector<std::string>& headin
 }  // namespace
 
 void write_su2(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const std::vector<std::string> headings = headings_of(mesh, patches, names);
   const std::vector<TextBlock> mine = measure(mesh, patches);
   std::vector<TextBlock> all = communicator.all_gather_items(std::span<const TextBlock>(mine));
   const std::vector<std::int64_t> heading_offsets = place_stretches(headings, all);
-  remove_markers(communicator, path);
+  remove_markers({communicator, path});
   parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file);
     for (std::size_t section = 0; communicator.is_root() && section < headings.size(); ++section) {
       writer.move_to(heading_offsets[section]);
       writer.put_text(headings[section]);
     }
-    for (const FilePart& part : mesh.parts) {
+    for (const MeshPart& part : mesh.parts) {
       for_each_line(
           part, patches,
           [&](std::int32_t section) {

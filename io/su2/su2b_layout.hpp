@@ -1,4 +1,4 @@
-/// Places in binary SU2 files.
+/// The places of the sections in binary SU2 files.
 #pragma once
 
 #include "io/file_mesh.hpp"
@@ -9,10 +9,10 @@
 
 namespace aeroloom::io {
 
-/// Bytes of the name of a marker, its zero included.
+/// The bytes of the name of a marker, with the final zero.
 inline constexpr std::int64_t su2b_name_bytes = 33;
 
-/// Integers that an element has in the connectivity: VTK's type, corners, and of cells their number.
+/// The integers of an element in the connectivity: VTK's type, the corners, and the number of a cell.
 inline constexpr std::int64_t su2b_integers(CellShape shape) {
   return corners_of(shape) + 2;
 }
@@ -26,8 +26,8 @@ struct Su2bCounts {
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> markers;
 };
 
-/// Offsets in bytes. A section of elements is their count, the place of each in the connectivity and the
-/// connectivity's length, then the connectivity.
+/// Offsets in bytes. A section of elements has their count, the place of each in the connectivity, the length
+/// of the connectivity, and the connectivity.
 struct Su2bLayout {
   struct Section {
     std::int64_t count = 0, places = 0, connectivity = 0;
@@ -41,10 +41,10 @@ struct Su2bLayout {
 
   std::int64_t point_bytes() const { return 24 + integer_bytes; }
 };
-/// 32-bit integers where all numbers fit.
+/// The layout with 32-bit integers if all numbers fit, otherwise with 64-bit integers.
 Su2bLayout su2b_layout(const Su2bCounts& counts);
 
-/// The first element of a shape among all of a section, and its place in the connectivity.
+/// The number of the first element of a shape in a section, and its place in the connectivity.
 struct Su2bStart {
   std::int64_t element = 0, integer = 0;
 };

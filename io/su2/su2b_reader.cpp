@@ -20,22 +20,20 @@ namespace aeroloom::io {
 
 namespace {
 
-using mesh::GlobalIndex;
-
 /// Elements and points read at a time.
 constexpr std::int64_t records_at_once = 1 << 15;
 
 /// Reads a file with integers of one width.
 template <class Integer>
-class Su2bShare {
+class Su2bReader {
 public:
-  Su2bShare(RangeReader& file, int rank, int size) : _file(file), _rank(rank), _size(size) {}
+  explicit Su2bReader(RangeReader& file) : _file(file) {}
 
   void read(RawMesh& raw) {
     read_zone();
     const Elements cells = find_elements(first_section, "cells");
     _points = count_at(cells.end, "points", 24 + width);
-    read_elements(cells, Share::of(cells.count, _rank, _size), -1, raw);
+    read_elements(cells, raw.file.local_range(cells.count), -1, raw);
     read_points(cells.end + width, raw);
     read_markers(cells.end + width + _points * (24 + width), raw);
   }
@@ -78,13 +76,13 @@ private:
   }
 
   void read_points(std::int64_t section, RawMesh& raw) {
-    const Share share = Share::of(_points, _rank, _size);
+    const LocalRange range = raw.file.local_range(_points);
     constexpr std::int64_t stride = 24 + width;
-    raw.coordinates.reserve(3 * static_cast<std::size_t>(share.count()));
-    raw.point_ids.reserve(static_cast<std::size_t>(share.count()));
+    raw.coordinates.reserve(3 * static_cast<std::size_t>(range.count()));
+    raw.point_ids.reserve(static_cast<std::size_t>(range.count()));
     std::vector<std::byte> chunk;
-    for (std::int64_t begin = share.begin; begin < share.end; begin += records_at_once) {
-      const std::int64_t end = std::min(begin + records_at_once, share.end);
+    for (std::int64_t begin = range.begin; begin < range.end; begin += records_at_once) {
+      const std::int64_t end = std::min(begin + records_at_once, range.end);
       chunk.resize(static_cast<std::size_t>((end - begin) * stride));
       _file.read_bytes(section + begin * stride, chunk);
       for (std::int64_t i = begin; i < end; ++i) {
@@ -123,23 +121,23 @@ private:
       markers.push_back({faces, found->second});
       total += faces.count;
     }
-    // One share of all faces: ranks' shares one after another have the order of the file.
-    const Share share = Share::of(total, _rank, _size);
+    // One range of all faces: the ranges of the ranks, one after another, have the order of the file.
+    const LocalRange range = raw.file.local_range(total);
     std::int64_t before = 0;
     for (const Marker& marker : markers) {
       const auto inside = [&](std::int64_t i) {
         return std::clamp(i - before, std::int64_t{0}, marker.faces.count);
       };
-      read_elements(marker.faces, {inside(share.begin), inside(share.end)}, marker.patch, raw);
+      read_elements(marker.faces, {inside(range.begin), inside(range.end)}, marker.patch, raw);
       before += marker.faces.count;
     }
   }
 
   /// Elements of a patch, -1: of the volume.
-  void read_elements(const Elements& section, Share share, std::int32_t patch, RawMesh& raw) {
+  void read_elements(const Elements& section, LocalRange range, std::int32_t patch, RawMesh& raw) {
     std::vector<Integer> places, integers;
-    for (std::int64_t begin = share.begin; begin < share.end; begin += records_at_once) {
-      const std::int64_t end = std::min(begin + records_at_once, share.end);
+    for (std::int64_t begin = range.begin; begin < range.end; begin += records_at_once) {
+      const std::int64_t end = std::min(begin + records_at_once, range.end);
       places.resize(static_cast<std::size_t>(end - begin + 1));
       const std::int64_t places_at = section.places + begin * width;
       _file.read(places_at, std::span<Integer>(places));
@@ -175,46 +173,35 @@ private:
         _file.fail(offset + static_cast<std::int64_t>(k + 1) * width,
                    fmt::format("there is no point {}; the file has {}, from 0", points[k], _points));
     }
-    if (element->cell) {
-      if (patch >= 0) _file.fail(offset, "a marker has faces, no cells");
-      const auto s = static_cast<std::size_t>(*element->cell);
-      const Integer* const in_vtk_order = points.data();
-      for (std::size_t k = 0; k < points.size(); ++k)
-        raw.cells[s].push_back(static_cast<GlobalIndex>(in_vtk_order[to_vtk[s][k]]));
-      raw.cell_regions[s].push_back(0);
-    } else if (element->face && patch >= 0) {
-      const auto s = static_cast<std::size_t>(*element->face);
-      for (const Integer point : points) raw.faces[s].push_back(static_cast<GlobalIndex>(point));
-      raw.face_patches[s].push_back(patch);
-    }
+    if (element->cell && patch >= 0) _file.fail(offset, "a marker has faces, no cells");
+    append_su2_element(raw, *element, points, patch);
   }
 
   RangeReader& _file;
-  int _rank, _size;
   std::int64_t _points = 0;
 };
 
 }  // namespace
 
-RawMesh read_su2b(const parallel::Communicator& communicator, const std::string& path) {
-  RawMesh raw;
+RawMesh read_su2b(const SharedPath& file) {
+  RawMesh raw(file);
   raw.regions = {"fluid"};
-  parallel::agree(communicator, [&] {
-    RangeReader file(path);
-    auto width = file.value<std::int32_t>(0);
+  parallel::agree(file.communicator, [&] {
+    RangeReader reader(file.path);
+    auto width = reader.value<std::int32_t>(0);
     if (width != 4 && width != 8) {
-      file.set_order(ByteOrder::big);
-      width = file.value<std::int32_t>(0);
+      reader.set_order(ByteOrder::big);
+      width = reader.value<std::int32_t>(0);
     }
     if (width == 4) {
-      Su2bShare<std::uint32_t>(file, communicator.rank(), communicator.size()).read(raw);
+      Su2bReader<std::uint32_t>(reader).read(raw);
     } else if (width == 8) {
-      Su2bShare<std::uint64_t>(file, communicator.rank(), communicator.size()).read(raw);
+      Su2bReader<std::uint64_t>(reader).read(raw);
     } else {
-      file.fail(0, "no binary SU2 mesh: it begins with the size of its integers, 4 or 8");
+      reader.fail(0, "no binary SU2 mesh: it begins with the size of its integers, 4 or 8");
     }
   });
-  set_marker_types(communicator, path, raw.patches);
+  set_marker_types(file, raw.patches);
   return raw;
 }
 

@@ -53,7 +53,7 @@ public:
     }
   }
 
-  void write_part(const FilePart& part) {
+  void write_part(const MeshPart& part) {
     write_points(part);
     for (std::size_t s = 0; s < cell_shape_count; ++s) {
       const Block& block = part.cells[s];
@@ -98,7 +98,7 @@ private:
     put(end.integer);
   }
 
-  void write_points(const FilePart& part) {
+  void write_points(const MeshPart& part) {
     _writer.move_to(_layout.points + _layout.point_bytes() * part.first_owned);
     for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
       if (!part.owned[v]) continue;
@@ -131,29 +131,28 @@ private:
 };
 
 template <class Integer>
-void write_binary_share(const FileMesh& mesh, const BoundaryPatches& patches,
-                        const std::vector<std::string>& names, bool is_root, RangeWriter& writer) {
+void write_su2b_parts(const FileMesh& mesh, const BoundaryPatches& patches,
+                      const std::vector<std::string>& names, bool is_root, RangeWriter& writer) {
   Su2bParts<Integer> parts(mesh, patches, writer);
   if (is_root) parts.write_heads(names);
-  for (const FilePart& part : mesh.parts) parts.write_part(part);
+  for (const MeshPart& part : mesh.parts) parts.write_part(part);
   writer.flush();
 }
 
 }  // namespace
 
 void write_su2b(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   const BoundaryPatches patches = boundary_patches(mesh);
   const std::vector<std::string> names = marker_names(mesh, patches);
   const bool is_narrow = su2b_layout(counts_of_mesh(mesh, patches)).integer_bytes == 4;
-  const bool is_root = communicator.is_root();
-  remove_markers(communicator, path);
-  parallel::write_shared_file(communicator, path, [&](parallel::SharedFile& file) {
+  const bool is_root = mesh.communicator().is_root();
+  remove_markers({mesh.communicator(), path});
+  parallel::write_shared_file(mesh.communicator(), path, [&](parallel::SharedFile& file) {
     RangeWriter writer(file, ByteOrder::little);
     if (is_narrow) {
-      write_binary_share<std::uint32_t>(mesh, patches, names, is_root, writer);
+      write_su2b_parts<std::uint32_t>(mesh, patches, names, is_root, writer);
     } else {
-      write_binary_share<std::uint64_t>(mesh, patches, names, is_root, writer);
+      write_su2b_parts<std::uint64_t>(mesh, patches, names, is_root, writer);
     }
   });
   write_markers(path, mesh, patches, names);

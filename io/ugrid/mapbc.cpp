@@ -45,13 +45,13 @@ Table parse_mapbc(const std::string& path) {
 
 }  // namespace
 
-Table read_mapbc(const parallel::Communicator& communicator, const std::string& path) {
+Table read_mapbc(const SharedPath& file) {
   Table table;
-  parallel::agree(communicator, [&] {
+  parallel::on_root(file.communicator, [&] {
     std::error_code none;
-    if (communicator.is_root() && std::filesystem::exists(path, none)) table = parse_mapbc(path);
+    if (std::filesystem::exists(file.path, none)) table = parse_mapbc(file.path);
   });
-  communicator.broadcast_value(table);
+  file.communicator.broadcast_value(table);
   return table;
 }
 

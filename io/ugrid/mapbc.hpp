@@ -1,19 +1,17 @@
-/// Names and conditions of patches beside a UGRID file.
+/// Reads the .mapbc file beside a UGRID file: names and conditions of patches.
 #pragma once
 
+#include "io/shared_path.hpp"
 #include "mesh/data/patch.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <map>
-#include <string>
 
 namespace aeroloom::io {
 
-/// By patch id. Lines are `id condition name`, the name up to the end of the line; the first line has their
-/// count. Empty where there is no such file. Read by rank 0. Collective; throws CollectiveError naming file
-/// and line.
-std::map<std::int64_t, mesh::Patch> read_mapbc(const parallel::Communicator& communicator,
-                                               const std::string& path);
+/// The patches by id; empty where there is no such file. The first line has the number of patches; the other
+/// lines are `id condition name`, with the name up to the end of the line. Rank 0 reads. Collective; throws
+/// CollectiveError with the file and the line.
+std::map<std::int64_t, mesh::Patch> read_mapbc(const SharedPath& file);
 
 }  // namespace aeroloom::io

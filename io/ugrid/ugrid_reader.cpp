@@ -9,8 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,36 +29,36 @@ constexpr std::int64_t chunk_items = 1 << 17;
 constexpr std::array<const char*, face_shape_count> face_names = {"triangle", "quadrilateral"};
 constexpr std::array<const char*, cell_shape_count> cell_names = {"tetrahedron", "pyramid", "prism"};
 
-/// The ids of the patches of the faces in a share, by shape.
+/// The ids of the patches of the faces on this rank, by shape.
 using PatchIds = std::array<std::vector<std::int64_t>, face_shape_count>;
 
 /// Reads a file with integers of one width.
 template <class Integer>
-class UgridShare {
+class UgridReader {
 public:
-  UgridShare(RangeReader& file, int rank, int size) : _file(file), _rank(rank), _size(size) {}
+  UgridReader(RangeReader& file, RawMesh& raw) : _file(file), _raw(raw) {}
 
-  void read(RawMesh& raw, PatchIds& patch_ids) {
+  void read(PatchIds& patch_ids) {
     read_counts();
-    read_points(raw);
+    read_points();
     for (std::size_t s = 0; s < face_shape_count; ++s) {
       const int corners = corners_of(face_shapes[s]);
-      read_connectivity(_layout.faces[s], share_of(_counts.faces[s]), corners, nullptr, face_names[s],
-                        raw.faces[s]);
-      read_patch_ids(_layout.patch_ids[s], share_of(_counts.faces[s]), patch_ids[s]);
+      read_connectivity(_layout.faces[s], range_of(_counts.faces[s]), corners, nullptr, face_names[s],
+                        _raw.faces[s]);
+      read_patch_ids(_layout.patch_ids[s], range_of(_counts.faces[s]), patch_ids[s]);
     }
     for (std::size_t s = 0; s < cell_shape_count; ++s) {
-      const Share share = share_of(_counts.cells[s]);
-      read_connectivity(_layout.cells[s], share, corners_of(cell_shapes[s]), to_ugrid[s].data(),
-                        cell_names[s], raw.cells[s]);
-      raw.cell_regions[s].assign(static_cast<std::size_t>(share.count()), 0);
+      const LocalRange range = range_of(_counts.cells[s]);
+      read_connectivity(_layout.cells[s], range, corners_of(cell_shapes[s]), to_ugrid[s].data(),
+                        cell_names[s], _raw.cells[s]);
+      _raw.cell_regions[s].assign(static_cast<std::size_t>(range.count()), 0);
     }
   }
 
 private:
   static constexpr std::int64_t width = sizeof(Integer);
 
-  Share share_of(GlobalIndex count) const { return Share::of(count, _rank, _size); }
+  LocalRange range_of(GlobalIndex count) const { return _raw.file.local_range(count); }
 
   /// Counts are held against the size of the file before anything is computed or allocated from them.
   void read_counts() {
@@ -83,23 +83,22 @@ private:
     _layout = ugrid_layout(_counts, static_cast<int>(width));
   }
 
-  void read_points(RawMesh& raw) {
-    const Share share = share_of(_counts.vertices);
-    raw.coordinates.resize(3 * static_cast<std::size_t>(share.count()));
-    const std::int64_t offset = _layout.points + 24 * share.begin;
-    _file.read(offset, std::span<double>(raw.coordinates));
-    for (std::size_t i = 0; i < raw.coordinates.size(); ++i) {
-      if (!std::isfinite(raw.coordinates[i]))
+  void read_points() {
+    const LocalRange range = range_of(_counts.vertices);
+    _raw.coordinates.resize(3 * static_cast<std::size_t>(range.count()));
+    const std::int64_t offset = _layout.points + 24 * range.begin;
+    _file.read(offset, std::span<double>(_raw.coordinates));
+    for (std::size_t i = 0; i < _raw.coordinates.size(); ++i) {
+      if (!std::isfinite(_raw.coordinates[i]))
         _file.fail(offset + 8 * static_cast<std::int64_t>(i),
                    fmt::format("a coordinate of point {} is no number",
-                               share.begin + static_cast<std::int64_t>(i / 3) + 1));
+                               range.begin + static_cast<std::int64_t>(i / 3) + 1));
     }
-    raw.point_ids.resize(static_cast<std::size_t>(share.count()));
-    for (std::size_t i = 0; i < raw.point_ids.size(); ++i)
-      raw.point_ids[i] = share.begin + static_cast<GlobalIndex>(i);
+    _raw.point_ids.resize(static_cast<std::size_t>(range.count()));
+    std::iota(_raw.point_ids.begin(), _raw.point_ids.end(), range.begin);
   }
 
-  /// Calls visit(number, index) for the integers of a share, chunk by chunk.
+  /// Calls visit(number, index) for `count` integers from `offset` on, chunk by chunk.
   template <class Visit>
   void for_each_integer(std::int64_t offset, std::int64_t count, const Visit& visit) {
     std::vector<Integer> chunk;
@@ -112,27 +111,27 @@ private:
   }
 
   /// Points of items from 0; corner k of the file becomes corner order[k].
-  void read_connectivity(std::int64_t section, Share share, int corners, const std::int8_t* order,
+  void read_connectivity(std::int64_t section, LocalRange range, int corners, const std::int8_t* order,
                          const char* name, std::vector<GlobalIndex>& connectivity) {
-    connectivity.resize(static_cast<std::size_t>(share.count() * corners));
-    const std::int64_t offset = section + share.begin * corners * width;
-    for_each_integer(offset, share.count() * corners, [&](std::int64_t point, std::int64_t i) {
+    connectivity.resize(static_cast<std::size_t>(range.count() * corners));
+    const std::int64_t offset = section + range.begin * corners * width;
+    for_each_integer(offset, range.count() * corners, [&](std::int64_t point, std::int64_t i) {
       if (point < 1 || point > _counts.vertices)
         _file.fail(offset + i * width, fmt::format("{} {} has point {}, of {}", name,
-                                                   share.begin + i / corners + 1, point, _counts.vertices));
+                                                   range.begin + i / corners + 1, point, _counts.vertices));
       const std::int64_t k = i % corners;
       connectivity[static_cast<std::size_t>(order == nullptr ? i : i - k + order[k])] = point - 1;
     });
   }
 
-  void read_patch_ids(std::int64_t section, Share share, std::vector<std::int64_t>& ids) {
-    ids.resize(static_cast<std::size_t>(share.count()));
-    for_each_integer(section + share.begin * width, share.count(),
+  void read_patch_ids(std::int64_t section, LocalRange range, std::vector<std::int64_t>& ids) {
+    ids.resize(static_cast<std::size_t>(range.count()));
+    for_each_integer(section + range.begin * width, range.count(),
                      [&](std::int64_t id, std::int64_t i) { ids[static_cast<std::size_t>(i)] = id; });
   }
 
   RangeReader& _file;
-  int _rank, _size;
+  RawMesh& _raw;
   ShapeCounts _counts;
   UgridLayout _layout;
 };
@@ -144,12 +143,12 @@ bool are_keys(const std::map<std::int64_t, mesh::Patch>& table, const std::vecto
 }
 
 /// Collective.
-void set_patches(const parallel::Communicator& communicator, const std::string& path,
-                 const PatchIds& patch_ids, RawMesh& raw) {
+void set_patches(const PatchIds& patch_ids, RawMesh& raw) {
+  const auto& [communicator, path] = raw.file;
   const std::vector<std::int64_t> ids = distinct_numbers<std::int64_t>(
       communicator, {patch_ids[0], patch_ids[1]}, most_patches,
       fmt::format("{}: its faces have more than {} different patch ids", path, most_patches));
-  std::map<std::int64_t, mesh::Patch> table = read_mapbc(communicator, mapbc_path_of(path));
+  std::map<std::int64_t, mesh::Patch> table = read_mapbc({communicator, mapbc_path_of(path)});
   if (!table.empty() && !are_keys(table, ids)) {
     if (communicator.is_root()) {
       parallel::log_warning(
@@ -177,21 +176,21 @@ void set_patches(const parallel::Communicator& communicator, const std::string& 
 
 }  // namespace
 
-RawMesh read_ugrid(const parallel::Communicator& communicator, const std::string& path) {
-  RawMesh raw;
+RawMesh read_ugrid(const SharedPath& file) {
+  RawMesh raw(file);
   raw.regions = {"fluid"};
   PatchIds patch_ids;
-  parallel::agree(communicator, [&] {
-    const UgridKind kind = ugrid_kind_of(path);
-    RangeReader file(path);
-    file.set_order(kind.order);
+  parallel::agree(file.communicator, [&] {
+    const UgridKind kind = ugrid_kind_of(file.path);
+    RangeReader reader(file.path);
+    reader.set_order(kind.order);
     if (kind.integer_bytes == 4) {
-      UgridShare<std::int32_t>(file, communicator.rank(), communicator.size()).read(raw, patch_ids);
+      UgridReader<std::int32_t>(reader, raw).read(patch_ids);
     } else {
-      UgridShare<std::int64_t>(file, communicator.rank(), communicator.size()).read(raw, patch_ids);
+      UgridReader<std::int64_t>(reader, raw).read(patch_ids);
     }
   });
-  set_patches(communicator, path, patch_ids, raw);
+  set_patches(patch_ids, raw);
   return raw;
 }
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,7 +35,7 @@ public:
     for (const GlobalIndex count : in_ugrid_order(_counts)) _writer.put(static_cast<Integer>(count));
   }
 
-  void write_part(const FilePart& part) {
+  void write_part(const MeshPart& part) {
     write_points(part);
     for (std::size_t s = 0; s < face_shape_count; ++s) {
       for (const Run& run : part.faces[s].runs) {
@@ -49,7 +48,7 @@ public:
 private:
   static constexpr std::int64_t width = sizeof(Integer);
 
-  void write_points(const FilePart& part) {
+  void write_points(const MeshPart& part) {
     _writer.move_to(_layout.points + 24 * part.first_owned);
     for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
       if (!part.owned[v]) continue;
@@ -57,7 +56,7 @@ private:
     }
   }
 
-  void write_faces(const FilePart& part, std::size_t shape, const Run& run) {
+  void write_faces(const MeshPart& part, std::size_t shape, const Run& run) {
     const Block& block = part.faces[shape];
     const std::int32_t place = _patches.places[run.id];
     const GlobalIndex first = _patches.before[place][shape] + run.before;
@@ -72,7 +71,7 @@ private:
     for (LocalIndex i = run.begin; i < run.end; ++i) _writer.put(id);
   }
 
-  void write_cells(const FilePart& part, std::size_t shape) {
+  void write_cells(const MeshPart& part, std::size_t shape) {
     const Block& block = part.cells[shape];
     if (block.count() == 0) return;
     _writer.move_to(_layout.cells[shape] + block.before * block.corners * width);
@@ -81,7 +80,7 @@ private:
     }
   }
 
-  void put_vertex(const FilePart& part, LocalIndex vertex) {
+  void put_vertex(const MeshPart& part, LocalIndex vertex) {
     _writer.put(static_cast<Integer>(part.numbers[vertex] + 1));
   }
 
@@ -96,7 +95,7 @@ void write_parts_of_rank(const FileMesh& mesh, const BoundaryPatches& patches, b
                          RangeWriter& writer) {
   UgridParts<Integer> parts(mesh, patches, writer);
   if (is_root) parts.write_counts();
-  for (const FilePart& part : mesh.parts) parts.write_part(part);
+  for (const MeshPart& part : mesh.parts) parts.write_part(part);
   writer.flush();
 }
 
@@ -115,7 +114,7 @@ NormalAxis normal_axis_of(const geometry::Box& box) {
 /// The box around a patch. Collective.
 geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
   geometry::Box box;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const Block& block : part.faces) {
       for (const Run& run : block.runs) {
         if (run.id != patch) continue;
@@ -125,7 +124,7 @@ geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
       }
     }
   }
-  return mesh::box_over_ranks(mesh.pieces->communicator, box);
+  return mesh::box_over_ranks(mesh.communicator(), box);
 }
 
 /// Collective.
@@ -148,7 +147,7 @@ std::string mapbc_text(const FileMesh& mesh, const BoundaryPatches& patches) {
 }  // namespace
 
 void write_ugrid(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   UgridKind kind;
   parallel::agree(communicator, [&] {
     kind = ugrid_kind_of(path);

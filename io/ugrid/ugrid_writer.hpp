@@ -1,24 +1,22 @@
-/// UGRID files with their .mapbc, which FUN3D, refine, Flow360 and USM3D read.
+/// Writes UGRID files with their .mapbc, which FUN3D, refine, Flow360 and USM3D read.
 ///
-/// PATH tells the kind (io/ugrid/ugrid_format.hpp): .lb8.ugrid, .b8.ugrid, or .lb8l.ugrid, .b8l.ugrid with
-/// 64-bit integers. Written: points in the order of their numbers; tetrahedra, pyramids and prisms, each in
-/// the order of parts; the faces of all patches that bound the mesh, triangles, then quadrilaterals, each
-/// sorted by patch id, pointing into the fluid. Ids are 1 .. N in the order of patches that have faces.
-/// NAME.mapbc beside it lists id, FUN3D's number of the condition and name (blanks and `/ , ; * ' "` become
-/// `_`; later ones of equal names get `_2`, ...). A plane of symmetry is normal to an axis where it extends
-/// less than 1e-9 of its size along it. Left out: parts, regions and their interfaces, for which UGRID has no
-/// place.
+/// The path tells the kind (io/ugrid/ugrid_format.hpp): .lb8.ugrid, .b8.ugrid, or .lb8l.ugrid, .b8l.ugrid
+/// with 64-bit integers. Points come by number; tetrahedra, pyramids and prisms come by part. Triangles, then
+/// quadrilaterals, of all patches on the boundary come by patch id, and point into the fluid. Ids are 1 ... N
+/// in the order of the patches that have faces. NAME.mapbc lists id, FUN3D's number of the condition and
+/// name; blanks and `/ , ; * ' "` in names become `_`, and repeated names get `_2`, ... A symmetry plane is
+/// normal to an axis if its extent along it is below 1e-9 of its size. Parts, regions and the faces between
+/// regions are left out: UGRID has no place for them.
 #pragma once
 
 #include "io/file_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <string>
 
 namespace aeroloom::io {
 
-/// The bytes depend on the parts alone. Collective; throws CollectiveError: input where the name has no UGRID
-/// suffix or the mesh does not fit its integers, files where it cannot be written.
+/// The bytes depend on the parts alone. Collective. Throws CollectiveError: (input) where the suffix is
+/// unknown or its integers are too small for the mesh; (files) where the file cannot be written.
 void write_ugrid(const FileMesh& mesh, const std::string& path);
 
 }  // namespace aeroloom::io

@@ -19,16 +19,16 @@ struct Content {
     const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
     return std::max_element(held.begin(), held.end(), less)->first;
   }
-  GlobalIndex brought_to(Rank writer) const {
+  GlobalIndex received_by(Rank writer) const {
     const auto own = held.find(writer);
     return own == held.end() ? items : items - own->second;
   }
 };
 
-std::vector<Content> group_parts(std::span<const PartPlace> places, GlobalIndex items_per_file,
+std::vector<Content> group_parts(std::span<const PartLocation> places, GlobalIndex items_per_file,
                                  std::vector<std::size_t>& file_of) {
   std::vector<Content> contents;
-  for (const PartPlace& place : places) {
+  for (const PartLocation& place : places) {
     if (contents.empty() || contents.back().items >= items_per_file) contents.emplace_back();
     Content& content = contents.back();
     file_of.push_back(contents.size() - 1);
@@ -43,12 +43,12 @@ std::vector<Rank> choose_writers(const std::vector<Content>& contents, int ranks
   std::vector<GlobalIndex> work(static_cast<std::size_t>(ranks), 0);
   GlobalIndex all = 0;
   for (const Content& content : contents) all += content.work;
-  const GlobalIndex share = all / ranks;
+  const GlobalIndex mean_work = all / ranks;
   std::vector<Rank> writers(contents.size(), -1);
   for (std::size_t i = 0; i < contents.size(); ++i) {
     const Rank holder = contents[i].holder_of_most();
     GlobalIndex& of_holder = work[static_cast<std::size_t>(holder)];
-    const bool fits = of_holder + contents[i].work <= share;
+    const bool fits = of_holder + contents[i].work <= mean_work;
     if (of_holder > 0 && contents[i].work > 0 && !fits) continue;
     writers[i] = holder;
     of_holder += contents[i].work;
@@ -64,27 +64,27 @@ std::vector<Rank> choose_writers(const std::vector<Content>& contents, int ranks
 
 }  // namespace
 
-FilePlan plan_files(std::span<const PartPlace> places, GlobalIndex items_per_file, int ranks) {
+FilePlan plan_files(std::span<const PartLocation> places, GlobalIndex items_per_file, int ranks) {
   FilePlan plan;
   const std::vector<Content> contents = group_parts(places, items_per_file, plan.file_of);
   const std::vector<Rank> writers = choose_writers(contents, ranks);
   GlobalIndex all = 0;
   for (const Content& content : contents) all += content.items;
-  constexpr int share_at_once = 8;  // chosen, not measured
-  const GlobalIndex at_once = std::max(items_per_file, all / ranks / share_at_once);
+  constexpr int rounds_of_mean = 8;  // chosen, not measured
+  const GlobalIndex at_once = std::max(items_per_file, all / ranks / rounds_of_mean);
   struct Round {
     std::size_t number = 0;
-    GlobalIndex brought = 0;
+    GlobalIndex received = 0;
   };
   std::vector<Round> last(static_cast<std::size_t>(ranks));
   for (std::size_t i = 0; i < contents.size(); ++i) {
     PlannedFile& file = plan.files.emplace_back();
     file.writer = writers[i];
-    const GlobalIndex brought = contents[i].brought_to(file.writer);
-    if (brought == 0) continue;
+    const GlobalIndex received = contents[i].received_by(file.writer);
+    if (received == 0) continue;
     Round& round = last[static_cast<std::size_t>(file.writer)];
-    if (round.brought > 0 && round.brought + brought > at_once) round = {round.number + 1, 0};
-    round.brought += brought;
+    if (round.received > 0 && round.received + received > at_once) round = {round.number + 1, 0};
+    round.received += received;
     file.round = round.number;
     plan.rounds = std::max(plan.rounds, round.number + 1);
   }

@@ -1,4 +1,4 @@
-/// Which parts of a mesh share a file, who writes each file, and when parts travel to the writer.
+/// Distributes the parts of a mesh over files, and chooses the rank that writes each file.
 #pragma once
 
 #include "mesh/data/piece.hpp"
@@ -12,29 +12,29 @@
 
 namespace aeroloom::io {
 
-/// A part and where it lives.
-struct PartPlace {
+/// A part, and the rank that holds it.
+struct PartLocation {
   std::int32_t id = 0;
   parallel::Rank rank = 0;
-  mesh::GlobalIndex items = 0;  ///< cells (or faces) that go into a file
-  mesh::GlobalIndex work = 0;   ///< to write it, in corners of these items
+  mesh::GlobalIndex items = 0;  ///< cells (or faces) for the file
+  mesh::GlobalIndex work = 0;   ///< work to write them: their number of corners
 
   static constexpr auto fields() {
-    return std::tuple(&PartPlace::id, &PartPlace::rank, &PartPlace::items, &PartPlace::work);
+    return std::tuple(&PartLocation::id, &PartLocation::rank, &PartLocation::items, &PartLocation::work);
   }
 };
 
-/// A file: consecutive parts.
+/// A file, which holds consecutive parts.
 struct PlannedFile {
-  /// Of a file whose parts all live with its writer: it waits for no round.
+  /// The round of a file whose writer holds all its parts.
   static constexpr std::size_t no_round = std::numeric_limits<std::size_t>::max();
 
   parallel::Rank writer = 0;
-  std::size_t round = no_round;  ///< in which its parts travel to the writer
+  std::size_t round = no_round;  ///< in which the writer gets the parts
 };
 
 struct FilePlan {
-  std::vector<std::size_t> file_of;  ///< per part
+  std::vector<std::size_t> file_of;  ///< by part
   std::vector<PlannedFile> files;
   std::size_t rounds = 0;
 
@@ -43,11 +43,11 @@ struct FilePlan {
   }
 };
 
-/// Parts share a file until it has `items_per_file`: a function of the mesh alone. A file is written by the
-/// rank that holds most of it as long as this rank has no more work than the others, else by the rank with
-/// least work: at the end two ranks differ by one file at most. In a round at most `items_per_file`, or an
-/// eighth of a rank's mean share of the items where that is more, travel to a writer (but always one file's).
-/// `places`: of all parts, ascending by id from 0.
-FilePlan plan_files(std::span<const PartPlace> places, mesh::GlobalIndex items_per_file, int ranks);
+/// Consecutive parts go into one file until it has `items_per_file` items. This depends on the mesh alone.
+/// The rank that holds most of a file writes it, as long as it has no more than the mean work. Otherwise the
+/// rank with least work writes it, so at the end two ranks differ by at most one file. Parts are sent to
+/// writers in rounds, which limits memory. In a round a writer gets one file, or more while they have at most
+/// `items_per_file` items or an eighth of the mean of all ranks. `places`: all parts, by id from 0.
+FilePlan plan_files(std::span<const PartLocation> places, mesh::GlobalIndex items_per_file, int ranks);
 
 }  // namespace aeroloom::io

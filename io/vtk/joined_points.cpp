@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstdint>
 #include <map>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -55,8 +54,9 @@ std::vector<GlobalIndex> lowest_ids(const std::vector<PlacedPoint>& points) {
   return lowest;
 }
 
-/// The joined id of each point of the share.
-std::vector<GlobalIndex> find_joined(const parallel::Communicator& communicator, const RawMesh& raw) {
+/// The joined id of each point on this rank.
+std::vector<GlobalIndex> find_joined(const RawMesh& raw) {
+  const parallel::Communicator& communicator = raw.file.communicator;
   std::map<parallel::Rank, std::vector<PlacedPoint>> outgoing;
   for (std::size_t i = 0; i < raw.point_ids.size(); ++i) {
     const PlacedPoint point = placed(raw, i);
@@ -96,8 +96,8 @@ std::vector<GlobalIndex> find_joined(const parallel::Communicator& communicator,
 
 }  // namespace
 
-void join_equal_points(const parallel::Communicator& communicator, RawMesh& raw) {
-  const std::vector<GlobalIndex> joined = find_joined(communicator, raw);
+void join_equal_points(RawMesh& raw) {
+  const std::vector<GlobalIndex> joined = find_joined(raw);
   const GlobalIndex first = raw.point_ids.empty() ? 0 : raw.point_ids.front();
   const auto replace = [&](std::vector<GlobalIndex>& corners) {
     for (GlobalIndex& v : corners) v = joined.at(static_cast<std::size_t>(v - first));

@@ -1,14 +1,13 @@
-/// Points of several files that are one because they are in one place.
+/// Joins points of several files that have equal coordinates.
 #pragma once
 
 #include "io/raw_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 namespace aeroloom::io {
 
-/// Gives points whose three coordinates have equal bits the lowest of their ids, and cells and faces with
-/// them. The ids of a share's points must be consecutive, and its cells and faces use no others. Collective;
-/// the same for any number of ranks.
-void join_equal_points(const parallel::Communicator& communicator, RawMesh& raw);
+/// Gives all points with the same bits of all three coordinates the lowest of their ids. Cells and faces get
+/// the new ids. The points of a rank must have consecutive ids, and its cells and faces must use no others.
+/// Collective; the result does not depend on the number of ranks.
+void join_equal_points(RawMesh& raw);
 
 }  // namespace aeroloom::io

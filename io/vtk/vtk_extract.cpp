@@ -1,7 +1,7 @@
 #include "io/raw_mesh.hpp"
+#include "io/vtk/vtk_content.hpp"
 #include "io/vtk/vtk_grid.hpp"
 #include "io/vtk/vtk_labels.hpp"
-#include "io/vtk/vtk_part.hpp"
 #include "io/vtk_order.hpp"
 
 #include <algorithm>
@@ -148,19 +148,19 @@ struct Places {
   std::array<std::vector<vtkIdType>, face_shape_count> faces;
 };
 
-void append_item_corners(std::span<const vtkIdType> corners, Kind kind, int type, VtkPart& part) {
+void append_item_corners(std::span<const vtkIdType> corners, Kind kind, int type, VtkContent& content) {
   if (kind.use == Use::cell) {
-    std::vector<GlobalIndex>& items = part.cells[kind.shape];
+    std::vector<GlobalIndex>& items = content.cells[kind.shape];
     for (std::size_t k = 0; k < corners.size(); ++k) items.push_back(corners[to_vtk[kind.shape][k]]);
     return;
   }
-  std::vector<GlobalIndex>& items = part.faces[kind.shape];
+  std::vector<GlobalIndex>& items = content.faces[kind.shape];
   items.insert(items.end(), corners.begin(), corners.end());
   if (type == VTK_PIXEL) std::swap(items.back(), items[items.size() - 2]);
 }
 
 /// Sorts cells by shape; corners are points of the file.
-Places read_cells(vtkUnstructuredGrid& grid, bool faces_too, VtkPart& part) {
+Places read_cells(vtkUnstructuredGrid& grid, bool faces_too, VtkContent& content) {
   Places places;
   if (grid.GetNumberOfCells() == 0) return places;
   Cells cells(grid);
@@ -168,43 +168,43 @@ Places read_cells(vtkUnstructuredGrid& grid, bool faces_too, VtkPart& part) {
     const std::span<const vtkIdType> corners = cells.corners(c);
     const Kind kind = kind_of(cells.type(c), corners.size(), c);
     if (kind.use == Use::none || cells.is_ghost(c) || (kind.use == Use::face && !faces_too)) continue;
-    append_item_corners(corners, kind, cells.type(c), part);
+    append_item_corners(corners, kind, cells.type(c), content);
     (kind.use == Use::cell ? places.cells[kind.shape] : places.faces[kind.shape]).push_back(c);
   }
   return places;
 }
 
-void use_ids(const std::vector<GlobalIndex>& ids, VtkPart& part) {
+void use_ids(const std::vector<GlobalIndex>& ids, VtkContent& content) {
   const auto replace = [&](std::vector<GlobalIndex>& items) {
     for (GlobalIndex& v : items) v = ids[static_cast<std::size_t>(v)];
   };
-  for (auto& items : part.cells) replace(items);
-  for (auto& items : part.faces) replace(items);
+  for (auto& items : content.cells) replace(items);
+  for (auto& items : content.faces) replace(items);
 }
 
 }  // namespace
 
-VtkPart extract_vtk_part(const std::string& path) {
+VtkContent extract_vtk_content(const std::string& path) {
   const vtkSmartPointer<vtkUnstructuredGrid> grid = read_vtk_grid(path);
-  VtkPart part;
-  part.coordinates = read_coordinates(*grid);
+  VtkContent content;
+  content.coordinates = read_coordinates(*grid);
   std::optional<std::vector<GlobalIndex>> ids = read_ids(*grid);
   const bool has_fields = ids && has_boundary_fields(*grid->GetFieldData());
-  const Places places = read_cells(*grid, !has_fields, part);
+  const Places places = read_cells(*grid, !has_fields, content);
   CellLabels regions = read_regions(*grid, places.cells);
-  std::move(regions.of_cells.begin(), regions.of_cells.end(), part.cell_labels.begin());
-  part.regions = std::move(regions.table);
-  if (ids) use_ids(*ids, part);
+  std::move(regions.of_cells.begin(), regions.of_cells.end(), content.cell_labels.begin());
+  content.regions = std::move(regions.table);
+  if (ids) use_ids(*ids, content);
   if (has_fields) {
-    read_boundary_fields(*grid->GetFieldData(), part);
+    read_boundary_fields(*grid->GetFieldData(), content);
   } else {
     CellLabels patches = read_patches(*grid, places.faces);
-    std::move(patches.of_cells.begin(), patches.of_cells.end(), part.face_labels.begin());
-    part.patches = std::move(patches.table);
+    std::move(patches.of_cells.begin(), patches.of_cells.end(), content.face_labels.begin());
+    content.patches = std::move(patches.table);
   }
-  part.has_ids = ids.has_value();
-  if (ids) part.ids = std::move(*ids);
-  return part;
+  content.has_ids = ids.has_value();
+  if (ids) content.ids = std::move(*ids);
+  return content;
 }
 
 }  // namespace aeroloom::io

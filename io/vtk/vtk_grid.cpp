@@ -1,8 +1,8 @@
 #include "io/vtk/vtk_grid.hpp"
 
-#include "io/vtk/vtk_complaints.hpp"
+#include "io/vtk/vtk_content.hpp"
+#include "io/vtk/vtk_errors.hpp"
 #include "io/vtk/vtk_labels.hpp"
-#include "io/vtk/vtk_part.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,8 +25,8 @@ namespace aeroloom::io {
 
 namespace {
 
-void require_silence(const VtkComplaints& complaints) {
-  if (complaints.any()) throw std::runtime_error("VTK cannot read it: " + complaints.first());
+void require_silence(const VtkErrors& errors) {
+  if (errors.any()) throw std::runtime_error("VTK cannot read it: " + errors.first());
 }
 
 /// VTK does not say everywhere that an array was too short.
@@ -74,7 +74,7 @@ void find_sources(vtkXMLDataElement& grid, std::vector<std::string>& sources) {
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path) {
-  const VtkComplaints complaints;
+  const VtkErrors errors;
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".vtk") {
@@ -87,24 +87,24 @@ vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path) {
     vtkNew<XmlGridReader> reader;
     reader->SetFileName(path.c_str());
     reader->UpdateInformation();
-    require_silence(complaints);
+    require_silence(errors);
     select_arrays(*reader);
     reader->Update();
-    require_silence(complaints);
+    require_silence(errors);
     if (reader->has_failed())
       throw std::runtime_error("an array is too short, or its data cannot be taken out");
     grid = reader->GetOutput();
   }
-  require_silence(complaints);
+  require_silence(errors);
   if (grid == nullptr) throw std::runtime_error("it holds no unstructured grid");
   return grid;
 }
 
 std::vector<std::string> extract_vtk_sources(const std::string& path) {
-  const VtkComplaints complaints;
+  const VtkErrors errors;
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
-  require_silence(complaints);
+  require_silence(errors);
   vtkXMLDataElement* grid = root != nullptr ? root->FindNestedElementWithName("PUnstructuredGrid") : nullptr;
   if (grid == nullptr) throw std::runtime_error("it is no index of unstructured grids (PUnstructuredGrid)");
   std::vector<std::string> sources;

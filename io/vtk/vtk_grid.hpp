@@ -1,4 +1,4 @@
-/// VTK's own readers. Included by io/vtk/*.cpp alone: it names VTK.
+/// Calls VTK's readers. Only io/vtk/*.cpp include this header.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace aeroloom::io {
 
-/// The grid of a .vtu or legacy .vtk file as VTK reads it; of a .vtu, only the cell arrays that matter
-/// (io/vtk/vtk_labels.hpp). Throws std::runtime_error with VTK's first complaint.
+/// The grid of a .vtu or legacy .vtk file as VTK reads it. Of a .vtu only the cell arrays in
+/// io/vtk/vtk_labels.hpp are read. Throws std::runtime_error with the first error of VTK.
 vtkSmartPointer<vtkUnstructuredGrid> read_vtk_grid(const std::string& path);
 
 }  // namespace aeroloom::io

@@ -153,13 +153,13 @@ bool has_boundary_fields(vtkFieldData& fields) {
          fields.GetArray("boundary_patch") != nullptr;
 }
 
-void read_boundary_fields(vtkFieldData& fields, VtkPart& part) {
+void read_boundary_fields(vtkFieldData& fields, VtkContent& content) {
   const std::vector<std::int64_t> corners = field_of(fields, "boundary_corners"),
                                   offsets = field_of(fields, "boundary_offsets"),
                                   patch = field_of(fields, "boundary_patch");
   const std::vector<mesh::Patch> patches = patches_of(fields);
   for (std::size_t i = 0; i < patches.size(); ++i)
-    part.patches.push_back({static_cast<std::int64_t>(i), patches[i]});
+    content.patches.push_back({static_cast<std::int64_t>(i), patches[i]});
   if (offsets.size() != patch.size() + 1)
     throw std::runtime_error(fmt::format("{} boundary faces have {} offsets (field array 'boundary_offsets')",
                                          patch.size(), offsets.size()));
@@ -174,8 +174,8 @@ void read_boundary_fields(vtkFieldData& fields, VtkPart& part) {
       throw std::runtime_error(
           fmt::format("boundary face {} is of patch {}, of {}", f, patch[f], patches.size()));
     const auto shape = static_cast<std::size_t>(end - begin - 3);
-    part.faces[shape].insert(part.faces[shape].end(), corners.begin() + begin, corners.begin() + end);
-    part.face_labels[shape].push_back(static_cast<std::int32_t>(patch[f]));
+    content.faces[shape].insert(content.faces[shape].end(), corners.begin() + begin, corners.begin() + end);
+    content.face_labels[shape].push_back(static_cast<std::int32_t>(patch[f]));
     begin = end;
   }
 }

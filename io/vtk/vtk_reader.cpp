@@ -2,13 +2,12 @@
 
 #include "geometry/sort_unique.hpp"
 #include "io/vtk/joined_points.hpp"
-#include "io/vtk/vtk_part.hpp"
+#include "io/vtk/vtk_content.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -24,55 +23,56 @@ namespace fs = std::filesystem;
 using mesh::GlobalIndex;
 
 /// The files that hold the mesh, the same on every rank. Collective.
-std::vector<std::string> find_parts(const parallel::Communicator& communicator, const std::string& path) {
+std::vector<std::string> find_files(const SharedPath& file) {
+  const std::string& path = file.path;
   const std::string extension = fs::path(path).extension().string();
-  std::vector<std::string> parts;
-  parallel::agree(communicator, [&] {
+  std::vector<std::string> files;
+  parallel::agree(file.communicator, [&] {
     if (extension != ".pvtu" && extension != ".vtu" && extension != ".vtk")
       throw std::runtime_error(fmt::format("'{}': '{}' is not among .vtu, .pvtu and .vtk", path, extension));
-    if (!communicator.is_root() || extension != ".pvtu") return;
+    if (!file.communicator.is_root() || extension != ".pvtu") return;
     for (const std::string& source : read_vtk_sources(path))
-      parts.push_back((fs::path(path).parent_path() / source).string());
+      files.push_back((fs::path(path).parent_path() / source).string());
   });
   if (extension != ".pvtu") return {path};
-  communicator.broadcast_value(parts);
-  return parts;
+  file.communicator.broadcast_value(files);
+  return files;
 }
 
-/// Runs what concerns one part; its index, if any, is named where that fails.
+/// Does work with one file. Errors name the index, if there is one.
 template <class Work>
-auto with_index(const std::string& path, const std::string& part, const Work& work) {
+auto with_index(const std::string& path, const std::string& file, const Work& work) {
   try {
     return work();
   } catch (const fs::filesystem_error& error) {
-    if (part == path) throw;
-    throw fs::filesystem_error(fmt::format("a part of '{}' cannot be read", path), part, error.code());
+    if (file == path) throw;
+    throw fs::filesystem_error(fmt::format("a part of '{}' cannot be read", path), file, error.code());
   } catch (const std::runtime_error& error) {
-    if (part == path) throw;
+    if (file == path) throw;
     throw std::runtime_error(fmt::format("a part of '{}': {}", path, error.what()));
   }
 }
 
-struct PartRange {
+struct FileRange {
   std::size_t begin = 0, end = 0;
 };
 
-/// Consecutive parts for this rank, by bytes; a single one is for rank 0. Each rank looks at its share of the
+/// Consecutive files for this rank, by bytes; a single one is for rank 0. Each rank looks at a range of the
 /// files. Collective.
-PartRange deal_parts(const parallel::Communicator& communicator, const std::string& path,
-                     const std::vector<std::string>& parts) {
+FileRange assign_files(const SharedPath& file, const std::vector<std::string>& files) {
+  const parallel::Communicator& communicator = file.communicator;
   const auto ranks = static_cast<std::size_t>(communicator.size()),
              rank = static_cast<std::size_t>(communicator.rank());
-  const auto cut = [&](std::size_t r) { return r * parts.size() / ranks; };
+  const auto cut = [&](std::size_t r) { return r * files.size() / ranks; };
   std::vector<std::int64_t> mine;
   parallel::agree(communicator, [&] {
     for (std::size_t p = cut(rank); p < cut(rank + 1); ++p)
-      mine.push_back(with_index(path, parts[p], [&] { return readable_bytes(parts[p]); }));
+      mine.push_back(with_index(file.path, files[p], [&] { return readable_bytes(files[p]); }));
   });
   const auto sizes = communicator.all_gather_items(std::span<const std::int64_t>(mine));
   double total = 0, before = 0;
   for (const std::int64_t size : sizes) total += static_cast<double>(size);
-  PartRange range{parts.size(), parts.size()};
+  FileRange range{files.size(), files.size()};
   for (std::size_t p = 0; p < sizes.size(); ++p) {
     const auto reader = std::min(
         ranks - 1, static_cast<std::size_t>(before / std::max(total, 1.0) * static_cast<double>(ranks)));
@@ -84,11 +84,13 @@ PartRange deal_parts(const parallel::Communicator& communicator, const std::stri
   return range;
 }
 
-/// The share that this rank has read of several parts.
-struct VtkShare {
+/// The mesh that this rank has read from several files.
+struct LocalVtkMesh {
+  explicit LocalVtkMesh(const SharedPath& file) : raw(file) {}
+
   RawMesh raw;
   std::vector<VtkLabel> regions, patches;     ///< what labels of cells and faces refer to, so far
-  GlobalIndex with_ids = 0, without_ids = 0;  ///< parts with points
+  GlobalIndex with_ids = 0, without_ids = 0;  ///< files with points
 };
 
 template <class T>
@@ -104,39 +106,41 @@ std::int32_t label_offset(const std::vector<VtkLabel>& before, const std::vector
   return static_cast<std::int32_t>(before.size());
 }
 
-void append_part(VtkPart part, VtkShare& share) {
-  RawMesh& raw = share.raw;
-  if (part.point_count() > 0) ++(part.has_ids ? share.with_ids : share.without_ids);
+void append_content(VtkContent content, LocalVtkMesh& local) {
+  RawMesh& raw = local.raw;
+  if (content.point_count() > 0) ++(content.has_ids ? local.with_ids : local.without_ids);
   const auto first_point = static_cast<GlobalIndex>(raw.point_ids.size());
-  const std::int32_t first_region = label_offset(share.regions, part.regions),
-                     first_patch = label_offset(share.patches, part.patches);
-  if (!part.has_ids) {
-    for (auto& corners : part.cells)
+  const std::int32_t first_region = label_offset(local.regions, content.regions),
+                     first_patch = label_offset(local.patches, content.patches);
+  if (!content.has_ids) {
+    for (auto& corners : content.cells)
       for (GlobalIndex& v : corners) v += first_point;
-    for (auto& corners : part.faces)
+    for (auto& corners : content.faces)
       for (GlobalIndex& v : corners) v += first_point;
-    part.ids.resize(part.point_count());
-    for (std::size_t i = 0; i < part.ids.size(); ++i) part.ids[i] = first_point + static_cast<GlobalIndex>(i);
+    content.ids.resize(content.point_count());
+    for (std::size_t i = 0; i < content.ids.size(); ++i)
+      content.ids[i] = first_point + static_cast<GlobalIndex>(i);
   }
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
-    for (std::int32_t& label : part.cell_labels[s]) label += first_region;
-    move_to_end(raw.cells[s], part.cells[s]);
-    move_to_end(raw.cell_regions[s], part.cell_labels[s]);
+    for (std::int32_t& label : content.cell_labels[s]) label += first_region;
+    move_to_end(raw.cells[s], content.cells[s]);
+    move_to_end(raw.cell_regions[s], content.cell_labels[s]);
   }
   for (std::size_t s = 0; s < face_shape_count; ++s) {
-    for (std::int32_t& label : part.face_labels[s]) label += first_patch;
-    move_to_end(raw.faces[s], part.faces[s]);
-    move_to_end(raw.face_patches[s], part.face_labels[s]);
+    for (std::int32_t& label : content.face_labels[s]) label += first_patch;
+    move_to_end(raw.faces[s], content.faces[s]);
+    move_to_end(raw.face_patches[s], content.face_labels[s]);
   }
-  move_to_end(raw.coordinates, part.coordinates);
-  move_to_end(raw.point_ids, part.ids);
-  move_to_end(share.regions, part.regions);
-  move_to_end(share.patches, part.patches);
+  move_to_end(raw.coordinates, content.coordinates);
+  move_to_end(raw.point_ids, content.ids);
+  move_to_end(local.regions, content.regions);
+  move_to_end(local.patches, content.patches);
 }
 
-/// Ids of points that have none in the file are their places among all. Collective.
-void place_points(const parallel::Communicator& communicator, RawMesh& raw) {
-  const GlobalIndex first = communicator.exclusive_scan(static_cast<std::int64_t>(raw.point_ids.size()));
+/// Gives points without ids in the file their place among all points as id. Collective.
+void place_points(RawMesh& raw) {
+  const GlobalIndex first =
+      raw.file.communicator.exclusive_scan(static_cast<std::int64_t>(raw.point_ids.size()));
   const auto move = [&](std::vector<GlobalIndex>& ids) {
     for (GlobalIndex& v : ids) v += first;
   };
@@ -180,9 +184,9 @@ std::vector<mesh::Patch> merge_labels(const parallel::Communicator& communicator
   return named;
 }
 
-void require_ids_everywhere(const parallel::Communicator& communicator, const VtkShare& share,
-                            const std::string& path) {
-  const GlobalIndex with = communicator.sum(share.with_ids), without = communicator.sum(share.without_ids);
+void require_ids_everywhere(const LocalVtkMesh& local) {
+  const auto& [communicator, path] = local.raw.file;
+  const GlobalIndex with = communicator.sum(local.with_ids), without = communicator.sum(local.without_ids);
   if (with == 0 || without == 0) return;
   throw parallel::CollectiveError(
       parallel::FailureKind::input,
@@ -193,35 +197,36 @@ void require_ids_everywhere(const parallel::Communicator& communicator, const Vt
 
 }  // namespace
 
-RawMesh read_vtk(const parallel::Communicator& communicator, const std::string& path) {
-  const std::vector<std::string> parts = find_parts(communicator, path);
-  const PartRange mine = deal_parts(communicator, path, parts);
-  VtkShare share;
+RawMesh read_vtk(const SharedPath& file) {
+  const parallel::Communicator& communicator = file.communicator;
+  const std::vector<std::string> files = find_files(file);
+  const FileRange mine = assign_files(file, files);
+  LocalVtkMesh local(file);
   parallel::agree(communicator, [&] {
     for (std::size_t p = mine.begin; p < mine.end; ++p)
-      append_part(with_index(path, parts[p], [&] { return read_vtk_part(parts[p]); }), share);
+      append_content(with_index(file.path, files[p], [&] { return read_vtk_content(files[p]); }), local);
   });
-  require_ids_everywhere(communicator, share, path);
-  if (communicator.sum(share.with_ids) == 0) {
-    place_points(communicator, share.raw);
-    if (parts.size() > 1) join_equal_points(communicator, share.raw);
+  require_ids_everywhere(local);
+  if (communicator.sum(local.with_ids) == 0) {
+    place_points(local.raw);
+    if (files.size() > 1) join_equal_points(local.raw);
   }
-  for (const mesh::Patch& region : merge_labels(communicator, share.regions, share.raw.cell_regions))
-    share.raw.regions.push_back(region.name);
-  if (share.raw.regions.empty()) share.raw.regions = {"volume"};
-  share.raw.patches = merge_labels(communicator, share.patches, share.raw.face_patches);
-  return std::move(share.raw);
+  for (const mesh::Patch& region : merge_labels(communicator, local.regions, local.raw.cell_regions))
+    local.raw.regions.push_back(region.name);
+  if (local.raw.regions.empty()) local.raw.regions = {"volume"};
+  local.raw.patches = merge_labels(communicator, local.patches, local.raw.face_patches);
+  return std::move(local.raw);
 }
 
 int parts_named_in_pvtu(const std::string& path) {
   if (!path.ends_with(".pvtu")) return 0;
   std::ifstream stream(path);
-  int parts = 0;
+  int files = 0;
   for (std::string line; std::getline(stream, line);) {
     for (std::size_t at = line.find("<Piece"); at != std::string::npos; at = line.find("<Piece", at + 1))
-      ++parts;
+      ++files;
   }
-  return parts;
+  return files;
 }
 
 }  // namespace aeroloom::io

@@ -1,5 +1,5 @@
-#include "io/vtk/vtk_files.hpp"
-#include "io/vtk/vtk_parts.hpp"
+#include "io/vtk/indexed_files.hpp"
+#include "io/vtk/vtk_objects.hpp"
 #include "io/vtk/vtk_writer.hpp"
 #include "mesh/quality/quality.hpp"
 
@@ -39,20 +39,20 @@ void append_face(const Block& block, mesh::LocalIndex face, const std::vector<Po
   arrays.cells.close_cell();
 }
 
-void append_triangles(const PartPiece& piece, const std::vector<PointIndex>& places, FaceArrays& arrays) {
-  const Block& triangles = piece.part.faces[0];
+void append_triangles(const WrittenPart& written, const std::vector<PointIndex>& places, FaceArrays& arrays) {
+  const Block& triangles = written.part.faces[0];
   for (mesh::LocalIndex t = 0; t < triangles.count(); ++t) {
     append_face(triangles, t, places, arrays);
     const mesh::LocalIndex* v = triangles.item(t);
-    arrays.quality.push_back(static_cast<float>(
-        mesh::triangle_mean_ratio(piece.part.point(v[0]), piece.part.point(v[1]), piece.part.point(v[2]))));
+    arrays.quality.push_back(static_cast<float>(mesh::triangle_mean_ratio(
+        written.part.point(v[0]), written.part.point(v[1]), written.part.point(v[2]))));
   }
-  arrays.piece.resize(arrays.quality.size(), piece.part.id);
-  arrays.face.insert(arrays.face.end(), piece.triangle_face.begin(), piece.triangle_face.end());
-  arrays.patch.insert(arrays.patch.end(), piece.triangle_patch.begin(), piece.triangle_patch.end());
+  arrays.piece.resize(arrays.quality.size(), written.part.id);
+  arrays.face.insert(arrays.face.end(), written.triangle_face.begin(), written.triangle_face.end());
+  arrays.patch.insert(arrays.patch.end(), written.triangle_patch.begin(), written.triangle_patch.end());
 }
 
-void append_faces(const FilePart& part, const std::vector<PointIndex>& places, FaceArrays& arrays) {
+void append_faces(const MeshPart& part, const std::vector<PointIndex>& places, FaceArrays& arrays) {
   for (const Block& block : part.faces) {
     for (const Run& run : block.runs) {
       for (mesh::LocalIndex f = run.begin; f < run.end; ++f) append_face(block, f, places, arrays);
@@ -62,7 +62,7 @@ void append_faces(const FilePart& part, const std::vector<PointIndex>& places, F
   arrays.piece.resize(arrays.patch.size(), part.id);
 }
 
-vtkSmartPointer<vtkPolyData> make_surface(const PartPoints& points, const FaceArrays& arrays) {
+vtkSmartPointer<vtkPolyData> make_surface(const FilePoints& points, const FaceArrays& arrays) {
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(make_points(points.coordinates));
   surface->SetPolys(make_cells(arrays.cells));
@@ -72,11 +72,11 @@ vtkSmartPointer<vtkPolyData> make_surface(const PartPoints& points, const FaceAr
 }
 
 /// Names go into every part: a reader of the index takes field data from the parts.
-void write_triangle_part(const std::vector<PartPiece>& pieces, const mesh::DistributedMesh& mesh,
+void write_triangle_file(const std::vector<WrittenPart>& parts, const mesh::DistributedMesh& mesh,
                          const std::string& path, Compression compression) {
-  const PartPoints points = merge_points(pieces, PartContent::faces);
+  const FilePoints points = merge_points(parts, FileContent::faces);
   FaceArrays arrays;
-  for (std::size_t i = 0; i < pieces.size(); ++i) append_triangles(pieces[i], points.of_piece[i], arrays);
+  for (std::size_t i = 0; i < parts.size(); ++i) append_triangles(parts[i], points.of_part[i], arrays);
   const auto surface = make_surface(points, arrays);
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("face", arrays.face));
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("patch", arrays.patch));
@@ -87,11 +87,11 @@ void write_triangle_part(const std::vector<PartPiece>& pieces, const mesh::Distr
   write_vtk_file(*writer, *surface, path, compression);
 }
 
-void write_face_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, const std::string& path,
+void write_face_file(const std::vector<WrittenPart>& parts, const FileMesh& mesh, const std::string& path,
                      Compression compression) {
-  const PartPoints points = merge_points(pieces, PartContent::faces);
+  const FilePoints points = merge_points(parts, FileContent::faces);
   FaceArrays arrays;
-  for (std::size_t i = 0; i < pieces.size(); ++i) append_faces(pieces[i].part, points.of_piece[i], arrays);
+  for (std::size_t i = 0; i < parts.size(); ++i) append_faces(parts[i].part, points.of_part[i], arrays);
   const auto surface = make_surface(points, arrays);
   surface->GetCellData()->AddArray(make_array<vtkIntArray>("patch", arrays.patch));
   add_patches(*surface->GetFieldData(), mesh.patches);
@@ -100,11 +100,11 @@ void write_face_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh,
 }
 
 /// The triangles of a surface as faces without runs.
-std::vector<PartPiece> pieces_of(const mesh::NumberedMesh& surface) {
-  std::vector<PartPiece> pieces;
+std::vector<WrittenPart> parts_of(const mesh::NumberedMesh& surface) {
+  std::vector<WrittenPart> parts;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     const mesh::Piece& piece = surface.pieces[i];
-    PartPiece& view = pieces.emplace_back();
+    WrittenPart& view = parts.emplace_back();
     view.part.id = piece.id;
     view.part.coordinates = piece.coordinates;
     view.part.numbers = surface.numbering.vertices[i];
@@ -112,21 +112,21 @@ std::vector<PartPiece> pieces_of(const mesh::NumberedMesh& surface) {
     view.triangle_face = piece.triangle_face;
     view.triangle_patch = piece.triangle_patch;
   }
-  return pieces;
+  return parts;
 }
 
-/// The parts of a mesh with some of their faces; looks into arrays of its own.
+/// The parts of a mesh with some of their faces, as views of `corners`.
 struct SelectedFaces {
-  std::vector<PartPiece> pieces;
+  std::vector<WrittenPart> parts;
   std::vector<std::vector<mesh::LocalIndex>> corners;
 };
 
 SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
   SelectedFaces selected;
-  selected.pieces = pieces_of(mesh);
+  selected.parts = parts_of(mesh);
   selected.corners.reserve(face_shape_count * mesh.parts.size());
-  for (PartPiece& piece : selected.pieces) {
-    for (Block& block : piece.part.faces) {
+  for (WrittenPart& written : selected.parts) {
+    for (Block& block : written.part.faces) {
       std::vector<mesh::LocalIndex>& corners = selected.corners.emplace_back();
       std::vector<Run> runs;
       for (Run run : block.runs) {
@@ -151,34 +151,28 @@ SelectedFaces select_faces(const FileMesh& mesh, SurfaceFaces faces) {
 
 void write_surface(const mesh::NumberedMesh& surface, const std::string& directory, const std::string& name,
                    Compression compression) {
-  const parallel::Communicator& communicator = surface.communicator;
-  const PartFiles files{directory, name, "pvtp", "vtp"};
-  const std::size_t parts =
-      write_parts(communicator, pieces_of(surface), PartContent::faces, faces_per_part, files,
-                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_triangle_part(pieces, surface, path, compression);
-                  });
+  const IndexedFiles files{surface.communicator, directory, name, "pvtp", "vtp"};
+  const std::size_t count = write_files(parts_of(surface), FileContent::faces, faces_per_part, files,
+                                        [&](const std::vector<WrittenPart>& parts, const std::string& path) {
+                                          write_triangle_file(parts, surface, path, compression);
+                                        });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {
       {"Int32", "piece"}, {"Int32", "face"}, {"Int32", "patch"}, {"Float32", "quality"}};
-  write_index(communicator, files.index_path(),
-              index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
+  write_index(files, index_text("PPolyData", point_arrays, cell_arrays, files.file_sources(count)));
 }
 
 void write_surface(const FileMesh& mesh, const std::string& directory, const std::string& name,
                    Compression compression, SurfaceFaces faces) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const PartFiles files{directory, name, "pvtp", "vtp"};
+  const IndexedFiles files{mesh.communicator(), directory, name, "pvtp", "vtp"};
   const SelectedFaces selected = select_faces(mesh, faces);
-  const std::size_t parts =
-      write_parts(communicator, selected.pieces, PartContent::faces, faces_per_part, files,
-                  [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_face_part(pieces, mesh, path, compression);
-                  });
+  const std::size_t count = write_files(selected.parts, FileContent::faces, faces_per_part, files,
+                                        [&](const std::vector<WrittenPart>& parts, const std::string& path) {
+                                          write_face_file(parts, mesh, path, compression);
+                                        });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   constexpr IndexArray cell_arrays[] = {{"Int32", "piece"}, {"Int32", "patch"}};
-  write_index(communicator, files.index_path(),
-              index_text("PPolyData", point_arrays, cell_arrays, files.part_sources(parts)));
+  write_index(files, index_text("PPolyData", point_arrays, cell_arrays, files.file_sources(count)));
 }
 
 void write_triangles(const std::vector<geometry::Vec3>& points,

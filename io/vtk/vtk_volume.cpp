@@ -1,6 +1,6 @@
 #include "io/vtk/cell_quality.hpp"
-#include "io/vtk/vtk_files.hpp"
-#include "io/vtk/vtk_parts.hpp"
+#include "io/vtk/indexed_files.hpp"
+#include "io/vtk/vtk_objects.hpp"
 #include "io/vtk/vtk_writer.hpp"
 #include "io/vtk_order.hpp"
 
@@ -41,7 +41,7 @@ struct CellArrays {
   }
 };
 
-void append_cell(const FilePart& part, CellShape shape, const mesh::LocalIndex* corners,
+void append_cell(const MeshPart& part, CellShape shape, const mesh::LocalIndex* corners,
                  const std::vector<PointIndex>& places, CellArrays& arrays) {
   const auto s = static_cast<std::size_t>(shape);
   const int count = corners_of(shape);
@@ -57,7 +57,7 @@ void append_cell(const FilePart& part, CellShape shape, const mesh::LocalIndex* 
   arrays.min_dihedral.push_back(static_cast<float>(smallest_dihedral(shape, points)));
 }
 
-void append_cells(const FilePart& part, const std::vector<PointIndex>& places, CellArrays& arrays) {
+void append_cells(const MeshPart& part, const std::vector<PointIndex>& places, CellArrays& arrays) {
   for (const CellShape shape : cell_shapes) {
     const Block& block = part.cells[static_cast<std::size_t>(shape)];
     for (const Run& run : block.runs) {
@@ -78,7 +78,7 @@ struct BoundaryArrays {
   std::vector<std::int32_t> patch;
 };
 
-void append_boundary(const FilePart& part, BoundaryArrays& arrays) {
+void append_boundary(const MeshPart& part, BoundaryArrays& arrays) {
   for (const Block& block : part.faces) {
     for (const Run& run : block.runs) {
       for (mesh::LocalIndex f = run.begin; f < run.end; ++f) {
@@ -91,9 +91,9 @@ void append_boundary(const FilePart& part, BoundaryArrays& arrays) {
 }
 
 /// Names go into every part: a reader of the index takes field data from the parts.
-void add_fields(vtkUnstructuredGrid& grid, const std::vector<PartPiece>& pieces, const FileMesh& mesh) {
+void add_fields(vtkUnstructuredGrid& grid, const std::vector<WrittenPart>& parts, const FileMesh& mesh) {
   BoundaryArrays boundary;
-  for (const PartPiece& piece : pieces) append_boundary(piece.part, boundary);
+  for (const WrittenPart& written : parts) append_boundary(written.part, boundary);
   vtkFieldData& fields = *grid.GetFieldData();
   fields.AddArray(make_array<vtkStringArray>("region_names", mesh.regions));
   add_patches(fields, mesh.patches);
@@ -102,14 +102,14 @@ void add_fields(vtkUnstructuredGrid& grid, const std::vector<PartPiece>& pieces,
   fields.AddArray(make_array<vtkIntArray>("boundary_patch", boundary.patch));
 }
 
-void write_volume_part(const std::vector<PartPiece>& pieces, const FileMesh& mesh, const std::string& path,
+void write_volume_file(const std::vector<WrittenPart>& parts, const FileMesh& mesh, const std::string& path,
                        Compression compression) {
-  const PartPoints points = merge_points(pieces, PartContent::cells);
+  const FilePoints points = merge_points(parts, FileContent::cells);
   CellArrays arrays;
   std::size_t count = 0;
-  for (const PartPiece& piece : pieces) count += static_cast<std::size_t>(piece.part.cell_count());
+  for (const WrittenPart& written : parts) count += static_cast<std::size_t>(written.part.cell_count());
   arrays.reserve(count);
-  for (std::size_t i = 0; i < pieces.size(); ++i) append_cells(pieces[i].part, points.of_piece[i], arrays);
+  for (std::size_t i = 0; i < parts.size(); ++i) append_cells(parts[i].part, points.of_part[i], arrays);
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(make_points(points.coordinates));
   grid->SetCells(make_array<vtkUnsignedCharArray>("types", arrays.types), make_cells(arrays.cells));
@@ -119,7 +119,7 @@ void write_volume_part(const std::vector<PartPiece>& pieces, const FileMesh& mes
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("mean_ratio", arrays.mean_ratio));
   grid->GetCellData()->AddArray(make_array<vtkFloatArray>("min_dihedral", arrays.min_dihedral));
   if (mesh.has_layers) grid->GetCellData()->AddArray(make_array<vtkShortArray>("layer", arrays.layer));
-  add_fields(*grid, pieces, mesh);
+  add_fields(*grid, parts, mesh);
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   write_vtk_file(*writer, *grid, path, compression);
 }
@@ -128,24 +128,17 @@ void write_volume_part(const std::vector<PartPiece>& pieces, const FileMesh& mes
 
 void write_volume(const FileMesh& mesh, const std::string& directory, const std::string& name,
                   Compression compression) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
-  const PartFiles files{directory, name, "pvtu", "vtu"};
-  const std::size_t parts =
-      write_parts(communicator, pieces_of(mesh), PartContent::cells, cells_per_vtk_file(mesh.cell_count()),
-                  files, [&](const std::vector<PartPiece>& pieces, const std::string& path) {
-                    write_volume_part(pieces, mesh, path, compression);
+  const IndexedFiles files{mesh.communicator(), directory, name, "pvtu", "vtu"};
+  const std::size_t count =
+      write_files(parts_of(mesh), FileContent::cells, cells_per_vtk_file(mesh.cell_count()), files,
+                  [&](const std::vector<WrittenPart>& parts, const std::string& path) {
+                    write_volume_file(parts, mesh, path, compression);
                   });
   constexpr IndexArray point_arrays[] = {{"Int64", "global_id"}};
   std::vector<IndexArray> cell_arrays = {
       {"Int32", "piece"}, {"Int32", "region"}, {"Float32", "mean_ratio"}, {"Float32", "min_dihedral"}};
   if (mesh.has_layers) cell_arrays.push_back({"Int16", "layer"});
-  write_index(communicator, files.index_path(),
-              index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.part_sources(parts)));
-}
-
-void write_volume(const mesh::NumberedMesh& mesh, const std::string& directory, const std::string& name,
-                  Compression compression) {
-  write_volume(file_mesh_of(mesh), directory, name, compression);
+  write_index(files, index_text("PUnstructuredGrid", point_arrays, cell_arrays, files.file_sources(count)));
 }
 
 }  // namespace aeroloom::io

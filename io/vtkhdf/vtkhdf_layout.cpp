@@ -53,16 +53,21 @@ GridPlaces lay_out_grid(FileLayout& file, std::span<const GridCounts> partitions
   return places;
 }
 
-BoundaryPlaces lay_out_boundary(FileLayout& file, std::int64_t faces, std::int64_t corners,
-                                std::span<const mesh::Patch> patches) {
-  file.add_group("/Boundary");
+void store_patches(FileLayout& file, const std::string& names_path, const std::string& types_path,
+                   std::span<const mesh::Patch> patches) {
   std::vector<std::string> names, types;
   for (const mesh::Patch& patch : patches) {
     names.push_back(patch.name);
     types.emplace_back(name_of(patch.type));
   }
-  file.store_texts("/Boundary/PatchNames", names);
-  file.store_texts("/Boundary/PatchTypes", types);
+  file.store_texts(names_path, names);
+  file.store_texts(types_path, types);
+}
+
+BoundaryPlaces lay_out_boundary(FileLayout& file, std::int64_t faces, std::int64_t corners,
+                                std::span<const mesh::Patch> patches) {
+  file.add_group("/Boundary");
+  store_patches(file, "/Boundary/PatchNames", "/Boundary/PatchTypes", patches);
   BoundaryPlaces places;
   places.connectivity = file.reserve("/Boundary/Connectivity", ItemType::int64, corners);
   places.offsets = file.reserve("/Boundary/Offsets", ItemType::int64, faces + 1);

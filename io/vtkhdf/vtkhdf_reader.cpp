@@ -2,8 +2,7 @@
 
 #include "geometry/sort_unique.hpp"
 #include "io/distinct_numbers.hpp"
-#include "io/streams/range_reader.hpp"
-#include "io/vtkhdf/vtkhdf_share.hpp"
+#include "io/vtkhdf/vtkhdf_items.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
@@ -15,17 +14,15 @@
 
 namespace aeroloom::io {
 
-using parallel::Communicator;
 using vtkhdf::FileFacts;
 
 namespace {
 
-/// The ids of points by their places among all of the file; `mine` are those of this rank's share.
-/// Collective.
+/// The ids of points by their places among all `points` of the file. Collective.
 class IdLookup {
 public:
-  IdLookup(const Communicator& communicator, std::int64_t points, const std::vector<mesh::GlobalIndex>& mine)
-      : _communicator(communicator), _points(points), _mine(mine) {}
+  IdLookup(const RawMesh& raw, std::int64_t points)
+      : _communicator(raw.file.communicator), _points(points), _mine(raw.point_ids) {}
 
   void replace(const std::vector<std::vector<mesh::GlobalIndex>*>& lists) {
     parallel::agree(_communicator, [&] {
@@ -62,7 +59,7 @@ private:
     auto next = _places.begin();
     for (int rank = 0; rank < _communicator.size() && next != _places.end(); ++rank) {
       const auto end =
-          std::lower_bound(next, _places.end(), Share::of(_points, rank, _communicator.size()).end);
+          std::lower_bound(next, _places.end(), LocalRange::of(_points, rank, _communicator.size()).end);
       if (end != next) {
         result.push_back({rank, parallel::to_bytes(std::span<const mesh::GlobalIndex>(
                                     &*next, static_cast<std::size_t>(end - next)))});
@@ -73,7 +70,7 @@ private:
   }
 
   std::vector<parallel::Parcel> answers(const std::vector<parallel::Parcel>& questions) const {
-    const std::int64_t first = Share::of(_points, _communicator.rank(), _communicator.size()).begin;
+    const std::int64_t first = LocalRange::of(_points, _communicator.rank(), _communicator.size()).begin;
     std::vector<parallel::Parcel> result;
     for (const parallel::Parcel& question : questions) {
       auto places = parallel::from_bytes<mesh::GlobalIndex>(question.content);
@@ -83,7 +80,7 @@ private:
     return result;
   }
 
-  const Communicator& _communicator;
+  const parallel::Communicator& _communicator;
   std::int64_t _points;
   const std::vector<mesh::GlobalIndex>& _mine;
   std::vector<mesh::GlobalIndex> _places, _ids;
@@ -107,14 +104,13 @@ struct NamedValues {
 
 /// Finds what the values in `lists` stand for; they become places in it. Where `known` has a name for each
 /// value in use, they stay. Collective; throws CollectiveError (input) where there are too many to be names.
-NamedValues name_values(const Communicator& communicator, const std::string& path,
-                        const std::vector<std::vector<std::int32_t>*>& lists,
+NamedValues name_values(const SharedPath& file, const std::vector<std::vector<std::int32_t>*>& lists,
                         const std::vector<std::string>& known, const char* stem) {
   NamedValues named;
   named.values = distinct_numbers(
-      communicator, spans_of(lists), most_names,
-      fmt::format("{}: the cell data {} has more than {} different values", path, stem, most_names));
-  parallel::agree(communicator, [&] {
+      file.communicator, spans_of(lists), most_names,
+      fmt::format("{}: the cell data {} has more than {} different values", file.path, stem, most_names));
+  parallel::agree(file.communicator, [&] {
     const auto has_name = [&](std::int32_t value) {
       return value >= 0 && static_cast<std::size_t>(value) < known.size();
     };
@@ -146,18 +142,15 @@ std::vector<std::vector<T>*> pointers_to(std::array<std::vector<T>, N>& lists) {
   return pointers;
 }
 
-void name_regions(const Communicator& communicator, const std::string& path, const FileFacts& facts,
-                  RawMesh& raw) {
+void name_regions(const FileFacts& facts, RawMesh& raw) {
   std::vector<std::string> known = facts.region_names;
   if (!facts.has_regions && known.size() != 1) known = {"fluid"};
-  raw.regions = name_values(communicator, path, pointers_to(raw.cell_regions), known, "region").names;
+  raw.regions = name_values(raw.file, pointers_to(raw.cell_regions), known, "region").names;
   if (raw.regions.empty()) raw.regions = {"fluid"};
 }
 
-void name_patches(const Communicator& communicator, const std::string& path, const FileFacts& facts,
-                  RawMesh& raw) {
-  NamedValues named =
-      name_values(communicator, path, pointers_to(raw.face_patches), facts.patch_names, "patch");
+void name_patches(const FileFacts& facts, RawMesh& raw) {
+  NamedValues named = name_values(raw.file, pointers_to(raw.face_patches), facts.patch_names, "patch");
   for (std::size_t i = 0; i < named.names.size(); ++i) {
     const std::int32_t value = named.values[i];
     const bool has_type = value >= 0 && static_cast<std::size_t>(value) < facts.patch_types.size();
@@ -169,25 +162,23 @@ void name_patches(const Communicator& communicator, const std::string& path, con
 
 }  // namespace
 
-RawMesh read_vtkhdf(const Communicator& communicator, const std::string& path) {
+RawMesh read_vtkhdf(const SharedPath& file) {
   FileFacts facts;
-  parallel::on_root(communicator, [&] { facts = vtkhdf::survey_file(path); });
-  communicator.broadcast_value(facts);
-  RawMesh raw, boundary;
-  parallel::agree(communicator, [&] {
-    vtkhdf::read_share(facts, path, communicator.rank(), communicator.size(), raw, boundary);
-  });
+  parallel::on_root(file.communicator, [&] { facts = vtkhdf::survey_file(file.path); });
+  file.communicator.broadcast_value(facts);
+  RawMesh raw(file), boundary(file);
+  parallel::agree(file.communicator, [&] { vtkhdf::read_local_items(facts, raw, boundary); });
   if (!facts.id_array.empty()) {
     std::vector<std::vector<mesh::GlobalIndex>*> corners = pointers_to(raw.cells);
     for (auto* faces : pointers_to(raw.faces)) corners.push_back(faces);
-    IdLookup(communicator, facts.all().points, raw.point_ids).replace(corners);
+    IdLookup(raw, facts.all().points).replace(corners);
   }
   if (facts.has_boundary) {
     raw.faces = std::move(boundary.faces);
     raw.face_patches = std::move(boundary.face_patches);
   }
-  name_regions(communicator, path, facts, raw);
-  name_patches(communicator, path, facts, raw);
+  name_regions(facts, raw);
+  name_patches(facts, raw);
   return raw;
 }
 

@@ -3,25 +3,23 @@
 
 #include "io/raw_mesh.hpp"
 
-#include <string>
-
 namespace aeroloom::io {
 
-/// Reads an UnstructuredGrid of any number of partitions, contiguous or chunked, compressed or not; each rank
-/// its share of points, cells and faces.
+/// Reads an UnstructuredGrid of any number of partitions, chunked or not, compressed or not. Every rank reads
+/// its range of points, cells and faces.
 ///
-/// Points are known by the point data `global_id`, that which is marked as GlobalIds, or GlobalPointIds; in
-/// this order. Without any a file of one partition has its own numbers; one of several is an error, for
-/// nothing says which points of two partitions are one (never matched by coordinates).
-/// Regions are the cell data `region`, called as the field data `region_names` says or region_VALUE; without
-/// it there is one, `fluid`. Faces come from the group /Boundary where it has Patch and
-/// PatchNames (vtkhdf_writer.hpp); without it, from
-/// triangles and quadrilaterals among the cells if there is cell data `patch` (names: field data
-/// `patch_names`, or patch_VALUE; conditions: `patch_types`, or wall). Cells that `vtkGhostType` marks as
-/// duplicates, points and lines are left out.
+/// The ids of points are the point data `global_id`, or the data marked as GlobalIds, or GlobalPointIds.
+/// Without ids a file of one partition uses its own numbers. Several partitions without ids are an error: no
+/// points are matched by coordinates. Regions are the cell data `region`, with names from the field data
+/// `region_names`, or region_VALUE. Without it there is one region, `fluid`. Faces come from the group
+/// /Boundary if it has Patch and PatchNames (vtkhdf_writer.hpp). Otherwise they are the triangles and
+/// quadrilaterals among the cells, if there is cell data `patch`. Names of patches are in the field data
+/// `patch_names`, or are patch_VALUE; conditions are in `patch_types`, or are walls. Points, lines, and cells
+/// that `vtkGhostType` marks as duplicates are left out.
 ///
-/// Throws CollectiveError: files where it cannot be opened, input for anything else: no VTKHDF file, another
-/// type of data, several time steps, cells of other shapes, arrays that contradict each other. Collective.
-RawMesh read_vtkhdf(const parallel::Communicator& communicator, const std::string& path);
+/// Collective. Throws CollectiveError: (files) where the file cannot be opened; (input) for all else: no
+/// VTKHDF file, other types of data, several time steps, other shapes of cells, arrays that contradict each
+/// other.
+RawMesh read_vtkhdf(const SharedPath& file);
 
 }  // namespace aeroloom::io

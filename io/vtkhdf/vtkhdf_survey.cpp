@@ -3,7 +3,6 @@
 #include "io/hdf5/input_file.hpp"
 
 #include <array>
-#include <limits>
 #include <stdexcept>
 
 #include <fmt/format.h>

@@ -1,8 +1,7 @@
-/// A survey of a VTKHDF file, without its large arrays.
+/// The metadata of a VTKHDF file, read without its large arrays.
 #pragma once
 
 #include "io/vtkhdf/vtkhdf_layout.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <string>
@@ -12,12 +11,12 @@
 namespace aeroloom::io::vtkhdf {
 
 struct FileFacts {
-  std::vector<GridCounts> before;  ///< partitions before each, one entry more than partitions
-  std::string id_array;            ///< of points; empty: there is none
-  bool has_regions = false, has_patches = false, has_ghosts = false;  ///< cell data
+  std::vector<GridCounts> before;  ///< sums over the partitions before each; a last entry for all
+  std::string id_array;            ///< path of the ids of points, or empty
+  bool has_regions = false, has_patches = false, has_ghosts = false;  ///< whether it has such cell data
   bool has_boundary = false;
   std::int64_t boundary_faces = 0, boundary_corners = 0;
-  std::vector<std::string> region_names, patch_names, patch_types;  ///< of /Boundary where there is one
+  std::vector<std::string> region_names, patch_names, patch_types;  ///< from /Boundary if it exists
 
   static constexpr auto fields() {
     return std::tuple(&FileFacts::before, &FileFacts::id_array, &FileFacts::has_regions,
@@ -29,8 +28,8 @@ struct FileFacts {
   std::size_t partition_count() const { return before.size() - 1; }
 };
 
-/// Throws std::runtime_error, or std::filesystem::filesystem_error where the file cannot be opened. Not
-/// collective.
+/// Throws std::runtime_error for damage, and std::filesystem::filesystem_error where the file cannot be
+/// opened. Not collective.
 FileFacts survey_file(const std::string& path);
 
 }  // namespace aeroloom::io::vtkhdf

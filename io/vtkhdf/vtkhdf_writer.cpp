@@ -1,19 +1,17 @@
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 
 #include "geometry/sort_unique.hpp"
+#include "io/streams/range_writer.hpp"
 #include "io/vtk_order.hpp"
 #include "io/vtkhdf/vtkhdf_layout.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
-#include <functional>
-#include <optional>
 #include <tuple>
 
 namespace aeroloom::io {
 
 using hdf5::FileLayout;
-using hdf5::ItemStream;
 using parallel::SharedFile;
 using vtkhdf::GridCounts;
 
@@ -33,7 +31,6 @@ GridCounts counts_of_grid(std::int64_t points, const std::array<Block, N>& block
 
 /// One row per part of the whole mesh, by its id.
 std::vector<GridCounts> gather_counts(const FileMesh& mesh, const std::vector<GridCounts>& mine) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   struct PartCounts {
     std::int64_t part;
     GridCounts counts;
@@ -43,7 +40,7 @@ std::vector<GridCounts> gather_counts(const FileMesh& mesh, const std::vector<Gr
   std::vector<PartCounts> rows;
   for (std::size_t i = 0; i < mine.size(); ++i) rows.push_back({mesh.parts[i].id, mine[i]});
   std::vector<GridCounts> all(static_cast<std::size_t>(mesh.part_count));
-  for (const PartCounts& row : communicator.all_gather_items(std::span<const PartCounts>(rows)))
+  for (const PartCounts& row : mesh.communicator().all_gather_items(std::span<const PartCounts>(rows)))
     all[static_cast<std::size_t>(row.part)] = row.counts;
   return all;
 }
@@ -59,7 +56,7 @@ public:
         _types(file, places.types + before.cells),
         _parts(file, places.parts + before.cells * static_cast<std::int64_t>(sizeof(std::int32_t))),
         _ids(file, places.ids + before.cells * static_cast<std::int64_t>(sizeof(std::int32_t))) {
-    _offsets.add(0);
+    _offsets.put(std::int64_t{0});
   }
 
   /// The cells of a block; `corner(cell, k)` is the k-th in VTK's order, as an index of the partition.
@@ -67,11 +64,11 @@ public:
   void add(const Block& block, std::uint8_t type, const Corner& corner) {
     for (const Run& run : block.runs) {
       for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
-        for (int k = 0; k < block.corners; ++k) _connectivity.add(corner(block.item(i), k));
-        _offsets.add(_corners += block.corners);
-        _types.add(type);
-        _parts.add(_part);
-        _ids.add(run.id);
+        for (int k = 0; k < block.corners; ++k) _connectivity.put(corner(block.item(i), k));
+        _offsets.put(_corners += block.corners);
+        _types.put(type);
+        _parts.put(_part);
+        _ids.put(run.id);
       }
     }
   }
@@ -87,13 +84,11 @@ public:
 private:
   std::int32_t _part;
   std::int64_t _corners = 0;
-  ItemStream<std::int64_t> _connectivity, _offsets;
-  ItemStream<std::uint8_t> _types;
-  ItemStream<std::int32_t> _parts, _ids;
+  RangeWriter _connectivity, _offsets, _types, _parts, _ids;
 };
 
 void write_grid_cells(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
-                      const FilePart& part) {
+                      const MeshPart& part) {
   file.write_items(places.points + 3 * before.points * item_bytes, part.coordinates);
   file.write_items(places.numbers + before.points * item_bytes, part.numbers);
   PartitionWriter writer(file, places, before, part.id);
@@ -107,22 +102,21 @@ void write_grid_cells(SharedFile& file, const vtkhdf::GridPlaces& places, const 
 }
 
 void write_boundary(SharedFile& file, const vtkhdf::BoundaryPlaces& places, const GridCounts& before,
-                    const FilePart& part) {
-  ItemStream<std::int64_t> connectivity(file, places.connectivity + before.corners * item_bytes);
-  ItemStream<std::int64_t> offsets(file, places.offsets + (before.cells + 1) * item_bytes);
-  ItemStream<std::uint8_t> types(file, places.types + before.cells);
-  ItemStream<std::int32_t> patches(
-      file, places.patches + before.cells * static_cast<std::int64_t>(sizeof(std::int32_t)));
+                    const MeshPart& part) {
+  RangeWriter connectivity(file, places.connectivity + before.corners * item_bytes);
+  RangeWriter offsets(file, places.offsets + (before.cells + 1) * item_bytes);
+  RangeWriter types(file, places.types + before.cells);
+  RangeWriter patches(file, places.patches + before.cells * static_cast<std::int64_t>(sizeof(std::int32_t)));
   std::int64_t corners = before.corners;
   for (const FaceShape shape : face_shapes) {
     const Block& block = part.faces[static_cast<std::size_t>(shape)];
     for (const Run& run : block.runs) {
       for (mesh::LocalIndex i = run.begin; i < run.end; ++i) {
         for (int k = 0; k < block.corners; ++k)
-          connectivity.add(part.numbers[static_cast<std::size_t>(block.item(i)[k])]);
-        offsets.add(corners += block.corners);
-        types.add(vtk_face_type[static_cast<std::size_t>(shape)]);
-        patches.add(run.id);
+          connectivity.put(part.numbers[static_cast<std::size_t>(block.item(i)[k])]);
+        offsets.put(corners += block.corners);
+        types.put(vtk_face_type[static_cast<std::size_t>(shape)]);
+        patches.put(run.id);
       }
     }
   }
@@ -133,7 +127,7 @@ void write_boundary(SharedFile& file, const vtkhdf::BoundaryPlaces& places, cons
 }
 
 /// The vertices of a part's faces, ascending.
-std::vector<mesh::LocalIndex> vertices_of_faces(const FilePart& part) {
+std::vector<mesh::LocalIndex> vertices_of_faces(const MeshPart& part) {
   std::vector<mesh::LocalIndex> used;
   for (const Block& block : part.faces)
     used.insert(used.end(), block.connectivity.begin(), block.connectivity.end());
@@ -142,14 +136,14 @@ std::vector<mesh::LocalIndex> vertices_of_faces(const FilePart& part) {
 }
 
 void write_grid_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const GridCounts& before,
-                      const FilePart& part) {
+                      const MeshPart& part) {
   const std::vector<mesh::LocalIndex> used = vertices_of_faces(part);
-  ItemStream<double> points(file, places.points + 3 * before.points * item_bytes);
-  ItemStream<std::int64_t> numbers(file, places.numbers + before.points * item_bytes);
+  RangeWriter points(file, places.points + 3 * before.points * item_bytes);
+  RangeWriter numbers(file, places.numbers + before.points * item_bytes);
   for (const mesh::LocalIndex v : used) {
     const geometry::Vec3 p = part.point(v);
-    for (const double x : {p.x, p.y, p.z}) points.add(x);
-    numbers.add(part.numbers[static_cast<std::size_t>(v)]);
+    for (const double x : {p.x, p.y, p.z}) points.put(x);
+    numbers.put(part.numbers[static_cast<std::size_t>(v)]);
   }
   points.flush();
   numbers.flush();
@@ -166,9 +160,9 @@ void write_grid_faces(SharedFile& file, const vtkhdf::GridPlaces& places, const 
 }  // namespace
 
 void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
+  const parallel::Communicator& communicator = mesh.communicator();
   std::vector<GridCounts> cells, faces;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     cells.push_back(counts_of_grid(part.vertex_count(), part.cells));
     faces.push_back(counts_of_grid(0, part.faces));
   }
@@ -186,10 +180,10 @@ void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
                                         mesh.patches);
     structure = layout.finish();
   });
-  hdf5::write_laid_out(communicator, path, structure, [&](SharedFile& file) {
+  hdf5::write_laid_out({communicator, path}, structure, [&](SharedFile& file) {
     const std::int64_t none = 0;
     if (communicator.is_root()) file.write_items(boundary.offsets, std::span(&none, 1));
-    for (const FilePart& part : mesh.parts) {
+    for (const MeshPart& part : mesh.parts) {
       const auto p = static_cast<std::size_t>(part.id);
       write_grid_cells(file, grid, before[p], part);
       write_boundary(file, boundary, faces_before[p], part);
@@ -198,29 +192,23 @@ void write_vtkhdf(const FileMesh& mesh, const std::string& path) {
 }
 
 void write_vtkhdf_surface(const FileMesh& mesh, const std::string& path) {
-  const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::vector<GridCounts> faces;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     faces.push_back(counts_of_grid(static_cast<std::int64_t>(vertices_of_faces(part).size()), part.faces));
   }
   const std::vector<GridCounts> rows = gather_counts(mesh, faces);
   const std::vector<GridCounts> before = vtkhdf::sums_before(rows);
   vtkhdf::GridPlaces grid;
   std::vector<hdf5::Extent> structure;
-  parallel::agree(communicator, [&] {
+  parallel::agree(mesh.communicator(), [&] {
     FileLayout layout;
     grid = vtkhdf::lay_out_grid(layout, rows, "patch");
-    std::vector<std::string> names, types;
-    for (const mesh::Patch& patch : mesh.patches) {
-      names.push_back(patch.name);
-      types.emplace_back(name_of(patch.type));
-    }
-    layout.store_texts("/VTKHDF/FieldData/patch_names", names);
-    layout.store_texts("/VTKHDF/FieldData/patch_types", types);
+    vtkhdf::store_patches(layout, "/VTKHDF/FieldData/patch_names", "/VTKHDF/FieldData/patch_types",
+                          mesh.patches);
     structure = layout.finish();
   });
-  hdf5::write_laid_out(communicator, path, structure, [&](SharedFile& file) {
-    for (const FilePart& part : mesh.parts)
+  hdf5::write_laid_out({mesh.communicator(), path}, structure, [&](SharedFile& file) {
+    for (const MeshPart& part : mesh.parts)
       write_grid_faces(file, grid, before[static_cast<std::size_t>(part.id)], part);
   });
 }

@@ -12,7 +12,7 @@
 #include "pipeline/case/layer_rules.hpp"
 #include "pipeline/case/patch_rules.hpp"
 #include "pipeline/case/quality_gate.hpp"
-#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/feature_resolution.hpp"
 #include "sizing/choice/given_sizes.hpp"
 #include "sizing/choice/levels.hpp"
 #include "sizing/sources/patch_size.hpp"

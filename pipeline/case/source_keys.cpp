@@ -1,8 +1,8 @@
 #include "pipeline/case/source_keys.hpp"
 
 #include "pipeline/case/case_keys.hpp"
-#include "sizing/sources/size_demands.hpp"
 #include "sizing/sources/size_expression.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "pipeline/case/wall_keys.hpp"
 
 #include "pipeline/case/case_keys.hpp"
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -29,8 +29,8 @@ Command add_export_cad(CLI::App& program) {
             return with_case(communicator, *arguments, loudness, [&](const cases::Case& input) {
               return guarded(communicator, report::ExitCode::cad, [&] {
                 parallel::agree(communicator, [&] {
-                  const cad::ExportedPart part =
-                      arguments->domain ? cad::ExportedPart::domain : cad::ExportedPart::geometry;
+                  const cad::ExportedShape part =
+                      arguments->domain ? cad::ExportedShape::domain : cad::ExportedShape::geometry;
                   if (communicator.is_root()) cad::export_step(input.domain, part, arguments->step);
                 });
                 parallel::log_info(fmt::format("wrote {}", arguments->step));

@@ -1,6 +1,6 @@
 #include "pipeline/domain/level_findings.hpp"
 
-#include "sizing/lifting/level_demands.hpp"
+#include "sizing/lifting/level_requests.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace aeroloom::domain {
 namespace {
 
 std::string names_of(const cad::Model& model, const sizing::LiftingElement& element) {
-  if (element.strip != cad::no_entity) return model.face(element.strip).name;
+  if (element.blunt_face != cad::no_entity) return model.face(element.blunt_face).name;
   std::string names;
   for (const cad::FaceId face : model.edge(element.edge).faces)
     names += (names.empty() ? "" : ", ") + model.face(face).name;
@@ -19,7 +19,7 @@ FoundTrailingEdge describe_trailing_edge(const cad::Model& model, const sizing::
                                          const sizing::LevelSizes& sizes) {
   FoundTrailingEdge found;
   found.faces = names_of(model, element);
-  found.is_blunt = element.strip != cad::no_entity;
+  found.is_blunt = element.blunt_face != cad::no_entity;
   const sizing::EdgeLine& line = element.trailing;
   for (std::size_t i = 1; i < line.points.size(); ++i)
     found.length += distance(line.points[i - 1], line.points[i]);

@@ -2,7 +2,7 @@
 
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
-#include "sizing/lifting/level_demands.hpp"
+#include "sizing/lifting/level_requests.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ public:
   /// The request with the level's bounds; what it asks for along lines the factory's fields ask for from now
   /// on.
   cases::SizingRequest take(Level level) {
-    _factory.demand(sizing::level_lines(_factory.model(), _bodies, sizes(level), _flow));
+    _factory.request_lines(sizing::level_lines(_factory.model(), _bodies, sizes(level), _flow));
     return with_bounds(_request, sizing::level_bounds(_factory.model(), _bodies, sizes(level)));
   }
   /// The finest one up to that asked for which the budget holds. Counts of a family go with the cube of its

@@ -97,33 +97,33 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
 void tell_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
                         const cases::SizingRequest& request, double target) {
-  const double ratio = chosen.counts.tetrahedra / chosen.features.share / target;
+  const double ratio = chosen.counts.tetrahedra / chosen.features.ratio / target;
   if (ratio < missed_target && ratio > 1 / missed_target) return;
   const std::string costs = describe_costs(sizing::costs_of_given(factory, chosen, request));
   if (!factory.sampled().communicator().is_root()) return;
   const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
                                    "larger sizes make it fewer"
                                  : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
-  const bool has_features = chosen.features.share > some_features;
+  const bool has_features = chosen.features.ratio > some_features;
   parallel::log_warning(fmt::format(
       "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}{}: {}",
-      target, chosen.counts.tetrahedra / chosen.features.share,
+      target, chosen.counts.tetrahedra / chosen.features.ratio,
       has_features ? " without features finer than the smallest size" : "", costs.empty() ? "" : "; ", costs,
       remedy));
 }
 
 /// Sizes before any are chosen: those given, or what coarse fields promise of them.
 struct Trial {
-  sizing::SizingOptions sizes;               ///< where nothing is left to choose
-  std::optional<sizing::Prospect> prospect;  ///< else
+  sizing::SizingOptions sizes;                          ///< where nothing is left to choose
+  std::optional<sizing::PreliminarySizes> preliminary;  ///< else
 
-  sizing::SizingOptions options() const { return prospect ? prospect->with_features() : sizes; }
+  sizing::SizingOptions options() const { return preliminary ? preliminary->with_features() : sizes; }
 };
 
 /// The sizes that trailing edges are judged by. Its functions refer to the factory.
 TrialSizes tell(sizing::FieldFactory& factory, const Trial& trial) {
   const sizing::SizingOptions options = trial.options();
-  return {[=](double width) { return sizing::strip_size(width, options) / width; }, options.minimum,
+  return {[=](double width) { return sizing::narrow_size(width, options) / width; }, options.minimum,
           [&factory, options](const std::vector<geometry::Vec3>& places) {
             return factory.sizes_without_features(places, options);
           }};
@@ -133,20 +133,20 @@ Trial try_sizes(sizing::FieldFactory& factory, const cases::SizingRequest& reque
                 const std::optional<sizing::SizingOptions>& near) {
   const std::optional<double> target = target_of(request);
   if (!target) return {sizing::with_given({}, request), {}};
-  return {{}, sizing::prospect_sizes(factory, *target, request.feature_budget, near, request)};
+  return {{}, sizing::preliminary_sizes(factory, *target, request.feature_budget, near, request)};
 }
 
 /// The sized domain of the factory's model, which stays as it is.
 SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& request, const Trial& trial,
                    JoinedFaces joined, sizing::FieldFor purpose) {
-  if (!trial.prospect) {
+  if (!trial.preliminary) {
     sizing::ChosenSizes applied = sizing::apply_sizes(factory, trial.sizes, purpose);
     SizingFindings findings{std::move(joined), applied.counts};
     findings.bounded = report_bounded_faces(factory, trial.sizes);
     return {factory.model(), trial.sizes, std::move(applied.field), std::move(findings)};
   }
   const double target = *target_of(request);
-  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, target, *trial.prospect, request, purpose);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, target, *trial.preliminary, request, purpose);
   tell_missed_target(factory, chosen, request, target);
   SizingFindings findings{std::move(joined), chosen.counts};
   if (!request.holds_features())
@@ -155,23 +155,23 @@ SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& re
   return {factory.model(), chosen.options, std::move(chosen.field), std::move(findings)};
 }
 
-sizing::SizeDemands demands_of(const cases::SizingRequest& request) {
-  sizing::SizeDemands demands{{}, request.patch_sizes};
+sizing::SizeRequests requests_of(const cases::SizingRequest& request) {
+  sizing::SizeRequests requests{{}, request.patch_sizes};
   for (const cases::SourceRule& rule : request.sources) {
     const auto add = [&](const auto& shape) {
       if constexpr (std::is_convertible_v<decltype(shape), sizing::SolidShape>)
-        demands.regions.push_back({rule.name, shape, rule.size});
+        requests.regions.push_back({rule.name, shape, rule.size});
       else
-        demands.wakes.push_back({rule.name, shape, rule.size});
+        requests.wakes.push_back({rule.name, shape, rule.size});
     };
     std::visit(add, rule.shape);
   }
-  for (const cases::WallRule& rule : request.walls) demands.walls.push_back(cases::wall_of(rule));
-  for (const cases::EdgeRule& rule : request.edges) demands.edges.push_back(cases::edge_of(rule));
+  for (const cases::WallRule& rule : request.walls) requests.walls.push_back(cases::wall_of(rule));
+  for (const cases::EdgeRule& rule : request.edges) requests.edges.push_back(cases::edge_of(rule));
   if (!request.expression.empty())
-    demands.formula = {sizing::SizeExpression(request.expression), request.minimum.value_or(0),
-                       request.reference_length.value_or(1)};
-  return demands;
+    requests.formula = {sizing::SizeExpression(request.expression), request.minimum.value_or(0),
+                        request.reference_length.value_or(1)};
+  return requests;
 }
 
 /// The purpose of a choice of sizes, and the sizes that it starts from.
@@ -190,7 +190,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   std::optional<sizing::FieldFactory> factory(std::in_place, sizing::SampledModel(communicator, model),
-                                              layers, fields, demands_of(asked));
+                                              layers, fields, requests_of(asked));
   std::optional<LevelRequest> of_level;
   if (asked.level) of_level = apply_level(*factory, asked);
   const cases::SizingRequest& request = of_level ? of_level->request : asked;
@@ -214,7 +214,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   TrailingEdgeReport report = judge_trailing_edges(model, edges, tell(*factory, trial));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
-  if (closed && trial.prospect) near = trial.prospect->options;
+  if (closed && trial.preliminary) near = trial.preliminary->options;
   SizedDomain sized = closed ? size_domain_near(communicator, *closed, request,
                                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, aim)
                              : finish(*factory, request, trial, std::move(what), aim.purpose);
@@ -236,7 +236,7 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
                         const cases::SizingRequest& given, const Simplification& simplification,
                         sizing::FieldFor purpose) {
   const cases::SizingRequest request = cases::in_model_units(given);
-  sizing::require_faces(model, demands_of(request));
+  sizing::require_faces(model, requests_of(request));
   return size_domain_near(communicator, model, request, simplification, {purpose, {}});
 }
 

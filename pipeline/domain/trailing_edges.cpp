@@ -1,7 +1,7 @@
 #include "pipeline/domain/trailing_edges.hpp"
 
-#include "cad/domain/close_strips.hpp"
-#include "cad/model/topology/closed_edges.hpp"
+#include "cad/domain/trailing_edges.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "sizing/field/closed_corners.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
 
@@ -115,7 +115,7 @@ TrailingEdgeReport judge_trailing_edges(const cad::Model& domain,
     JudgedEdge edge{strip.face,      domain.face(strip.face).name,
                     strip.place,     strip.length,
                     strip.narrowest, strip.widest,
-                    each.chord,      each.share};
+                    each.chord,      each.fraction};
     edge.aspect = aspect_along(strip, trial);
     judge(edge, strip, trial);
     report.push_back(std::move(edge));
@@ -143,7 +143,7 @@ std::optional<cad::Model> close_trailing_edges(const cad::Model& domain,
 void judge_again(TrailingEdgeReport& report, const sizing::SizingOptions& sizes) {
   for (JudgedEdge& edge : report) {
     if (edge.fate == EdgeFate::closed || !(edge.narrowest > 0)) continue;
-    edge.aspect = sizing::strip_size(edge.narrowest, sizes) / edge.narrowest;
+    edge.aspect = sizing::narrow_size(edge.narrowest, sizes) / edge.narrowest;
     if (edge.aspect <= largest_kept_aspect) keep(edge);
   }
 }

@@ -18,12 +18,12 @@ constexpr double telling_aspect = 1.9;
 
 }  // namespace
 
-FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureShare& share,
+FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureResolution& share,
                               double tetrahedra) {
   FeatureReport report{share, tetrahedra, {}};
   if (!share.limited || share.aspect < telling_aspect) return report;
   const double widest = share.minimum / telling_aspect;
-  for (const sizing::Strip& strip : sizing::strips_narrower_than(sampled, widest, share.minimum)) {
+  for (const sizing::NarrowRegion& strip : sizing::narrow_regions_below(sampled, widest, share.minimum)) {
     report.strips.push_back({sampled.model().face(strip.face).name, strip.width, strip.place,
                              std::atan(1 / share.aspect_at(strip.width)) * 180 / std::numbers::pi});
   }
@@ -32,16 +32,16 @@ FeatureReport report_features(const sizing::SampledModel& sampled, const sizing:
 
 double FeatureReport::wanted_tetrahedra() const {
   if (strips.empty()) return tetrahedra;
-  return tetrahedra * share.gap_share * share.resolved_share / share.share;
+  return tetrahedra * share.gap_ratio * share.resolved_ratio / share.ratio;
 }
 
 std::string describe_share(const FeatureReport& report) {
   constexpr double telling = 1.25;  // less is what a forecast may be off by
-  if (report.share.share < telling) return {};
+  if (report.share.ratio < telling) return {};
   return fmt::format(
       "features finer than the smallest size make it {:.2g} times as many: about {:.2g} "
       "tetrahedra (sizing.feature_budget, sizing.feature_minimum bound them)",
-      report.share.share, report.tetrahedra);
+      report.share.ratio, report.tetrahedra);
 }
 
 std::string describe(const FeatureReport& report) {

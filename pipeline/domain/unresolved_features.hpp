@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/vec.hpp"
-#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/feature_resolution.hpp"
 
 #include <string>
 #include <tuple>
@@ -30,7 +30,7 @@ struct UnresolvedStrip {
 /// Features finer than the smallest size, and how far they are resolved, where sizes were chosen from the
 /// model.
 struct FeatureReport {
-  sizing::FeatureShare share;
+  sizing::FeatureResolution share;
   double tetrahedra = 0;                ///< predicted in all
   std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty where everything is resolved
 
@@ -42,7 +42,7 @@ struct FeatureReport {
 };
 
 /// Lists the strips. Collective.
-FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureShare& share,
+FeatureReport report_features(const sizing::SampledModel& sampled, const sizing::FeatureResolution& share,
                               double tetrahedra);
 
 /// The message about unresolved features: what they would take, what to expect, and the remedies; empty where

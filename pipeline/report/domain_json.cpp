@@ -27,7 +27,7 @@ Json sizing_json(const RunRecord& record) {
           {"walls", to_json(findings.walls)},
           {"minimum", record.sizes.minimum},
           {"feature_minimum", sizing::smallest_feature_size(record.sizes)},
-          {"strip_minimum", sizing::smallest_strip_size(record.sizes)},
+          {"strip_minimum", sizing::smallest_narrow_size(record.sizes)},
           {"gap_minimum", sizing::smallest_gap_size(record.sizes)},
           {"maximum", record.sizes.maximum},
           {"surface_maximum", record.sizes.surface_maximum},

@@ -1,7 +1,7 @@
 #include "pipeline/report/findings_json.hpp"
 
 #include "pipeline/report/change_json.hpp"
-#include "sizing/choice/feature_share.hpp"
+#include "sizing/choice/feature_resolution.hpp"
 
 #include <utility>
 
@@ -51,9 +51,9 @@ nlohmann::ordered_json to_json(const domain::FeatureReport& report) {
   }
   return {{"aspect", nothing ? nlohmann::ordered_json() : nlohmann::ordered_json(report.share.aspect)},
           {"smallest_size", smallest},
-          {"share", report.share.share},
+          {"share", report.share.ratio},
           {"smallest_gap_size", report.share.gap_floor},
-          {"gap_share", report.share.gap_share},
+          {"gap_share", report.share.gap_ratio},
           {"predicted_tetrahedra", report.tetrahedra},
           {"wanted_tetrahedra", report.wanted_tetrahedra()},
           {"unresolved", std::move(strips)}};

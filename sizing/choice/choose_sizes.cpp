@@ -37,14 +37,14 @@ constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
 /// Of the logarithm of the size: four times as large or small, beyond which no slope that was measured holds.
 constexpr double largest_step = 1.4;
 // Far too many, and no fewer over a step that tells: what is given rules, not this size.
-constexpr double hopeless = 2, flat = 0.02;  // of the logarithm of the count
+constexpr double infeasible = 2, flat = 0.02;  // of the logarithm of the count
 // Over a shorter step counts may jump by more than they change: a flat slope says nothing then.
 constexpr double least_telling_step = 0.2;
 // Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
 // over when they come as near as the second; sizes that only tell which faces are narrow, the third.
 constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
-// Where features take more than a twentieth on top of what is aimed at, their share is no better known.
-constexpr double little_share = 1.05, near_enough_with_features = 0.2;
+// Where features take more than a twentieth on top of what is aimed at, their ratio is no better known.
+constexpr double little_ratio = 1.05, near_enough_with_features = 0.2;
 // A field with more leaves than this gives several times the count: it is not built to the end. With fewer
 // than the least limit fields take so little that none is given up.
 constexpr double leaves_per_tetrahedron = 0.5;
@@ -112,17 +112,17 @@ double first_size(const FieldFactory& factory) {
 }
 
 /// Searches the size on the body, by fields whose sizes are `coarser` times as large, where features bring
-/// `share` times the elements that there would be without them.
+/// `features.ratio` times the elements that there would be without them.
 class Search {
 public:
-  Search(FieldFactory& factory, double target_tetrahedra, double coarser, const FeatureShare& features,
+  Search(FieldFactory& factory, double target_tetrahedra, double coarser, const FeatureResolution& features,
          const GivenSizes& given)
       : _factory(factory),
         _given(given),
         _coarser(coarser),
         _features(features),
         _target(std::log(target_tetrahedra)),
-        _most_leaves(leaves_for(target_tetrahedra * features.share)) {}
+        _most_leaves(leaves_for(target_tetrahedra * features.ratio)) {}
 
   void run(double first_size, double largest_error, int most_rounds) {
     const Preset preset = Preset::of(_factory.model());
@@ -135,7 +135,7 @@ public:
       if (round > 0 && last_error < far_too_many && error < far_too_many) {
         const bool is_flat =
             std::abs(error - last_error) < flat && std::abs(size - last_size) >= least_telling_step;
-        if (is_flat && error > hopeless) break;
+        if (is_flat && error > infeasible) break;
         const double measured = (error - last_error) / (size - last_size);
         const bool tells = measured <= flattest_slope || std::abs(size - last_size) >= least_telling_step;
         if (tells) slope = std::clamp(measured, steepest_slope, flattest_slope);
@@ -152,7 +152,7 @@ public:
   }
 
   bool is_out_of_reach() const { return std::abs(_error) > out_of_reach; }
-  bool is_hopeless() const { return _error > hopeless; }
+  bool is_infeasible() const { return _error > infeasible; }
   /// The sizes that came nearest to the target; the coarsest tried where all were far too fine.
   const SizingOptions& options() const { return _options; }
   double body_size() const { return _body_size; }
@@ -189,7 +189,7 @@ private:
     const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarser);
     parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra", body_size,
                                       _coarser > 1 ? "about " : "", count));
-    const double error = std::log(count / _features.share) - _target;
+    const double error = std::log(count / _features.ratio) - _target;
     if (std::abs(error) < std::abs(_error)) {
       _error = error;
       _options = options;
@@ -202,7 +202,7 @@ private:
   FieldFactory& _factory;
   const GivenSizes& _given;
   double _coarser;
-  FeatureShare _features;
+  FeatureResolution _features;
   double _target;
   std::int64_t _most_leaves;
   double _error = far_too_many, _body_size = 0;
@@ -225,31 +225,32 @@ SizingOptions estimate_sizes(FieldFactory& factory, double target_tetrahedra, co
   return search.options();
 }
 
-SizingOptions Prospect::with_features() const {
+SizingOptions PreliminarySizes::with_features() const {
   SizingOptions sizes = options;
   set_features(sizes, features);
   return sizes;
 }
 
-Prospect prospect_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
-                        const std::optional<SizingOptions>& near, const GivenSizes& given) {
+PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
+                                   const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
   const double coarser = coarsening(target_tetrahedra);
   Search base(factory, target_tetrahedra, coarser, {}, given);
   const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(factory);
   base.run(start, near ? near_enough : close_enough, most_rounds);
-  Prospect prospect{base.options(), base.body_size(), base.is_out_of_reach(), base.is_hopeless(), {}};
+  PreliminarySizes preliminary{
+      base.options(), base.body_size(), base.is_out_of_reach(), base.is_infeasible(), {}};
   if (!given.holds_features()) {
-    prospect.features = share_of_features(factory, base.options(), feature_budget, coarser,
-                                          leaves_for(target_tetrahedra * feature_budget));
+    preliminary.features = choose_feature_resolution(factory, base.options(), feature_budget, coarser,
+                                                     leaves_for(target_tetrahedra * feature_budget));
   }
-  return prospect;
+  return preliminary;
 }
 
 ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, FieldFor purpose) {
   if (factory.has_more_parts(options, most_parts_unasked)) {
-    RoughField rough = factory.build_rough_field(options);
-    const bool is_large = rough.counts.tetrahedra > least_rough;
+    CoarseField rough = factory.build_coarse_field(options);
+    const bool is_large = rough.counts.tetrahedra > least_coarse_forecast;
     if (is_large && purpose == FieldFor::forecast)
       return {options, std::move(rough.field), rough.counts, {}, 0};
     if (is_large) parallel::log_info(fmt::format("sizing: some {:.2g} tetrahedra", rough.counts.tetrahedra));
@@ -259,25 +260,25 @@ ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, Fie
   return {options, std::move(field), counts, {}, 0};
 }
 
-ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, const Prospect& prospect,
+ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, const PreliminarySizes& preliminary,
                          const GivenSizes& given, FieldFor purpose) {
-  if (prospect.is_hopeless && purpose == FieldFor::forecast) {
-    ChosenSizes applied = apply_sizes(factory, prospect.with_features(), purpose);
-    applied.features = prospect.features;
-    applied.body_size = prospect.body_size;
+  if (preliminary.is_infeasible && purpose == FieldFor::forecast) {
+    ChosenSizes applied = apply_sizes(factory, preliminary.with_features(), purpose);
+    applied.features = preliminary.features;
+    applied.body_size = preliminary.body_size;
     return applied;
   }
-  Search search(factory, target_tetrahedra, 1, prospect.features, given);
-  search.run(prospect.body_size,
-             prospect.features.share > little_share ? near_enough_with_features : near_enough,
-             prospect.is_out_of_reach ? rounds_out_of_reach : most_rounds);
+  Search search(factory, target_tetrahedra, 1, preliminary.features, given);
+  search.run(preliminary.body_size,
+             preliminary.features.ratio > little_ratio ? near_enough_with_features : near_enough,
+             preliminary.is_out_of_reach ? rounds_out_of_reach : most_rounds);
   return search.best(purpose);
 }
 
 ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                          const std::optional<SizingOptions>& near, const GivenSizes& given) {
   return choose_sizes(factory, target_tetrahedra,
-                      prospect_sizes(factory, target_tetrahedra, feature_budget, near, given), given);
+                      preliminary_sizes(factory, target_tetrahedra, feature_budget, near, given), given);
 }
 
 std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& chosen,

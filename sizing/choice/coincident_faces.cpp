@@ -31,19 +31,16 @@ constexpr double nearest_walls = 2e-5, least_part = 0.05;
 // as that is only thin.
 constexpr double nearest_in_gap = 2e-4, most_triangles_in_gap = 1e7;
 constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times the square of their edges
-// Walls that run together towards a common edge are no overlap: the distance over that to the edge, at most.
+// ModelFacets that run together towards a common edge are no overlap: the distance over that to the edge, at
+// most.
 constexpr double least_wedge = 1e-3;
 // Chosen, not measured: the cosine between normals, to either side; the overlap of two facets over the area
 // of the smaller one; places of two faces, those of the largest overlaps, each of which takes a projection.
 constexpr double least_cosine = 0.9, least_overlap = 1e-3;
 constexpr std::size_t places_looked_at = 16;
-// Nodes of the tree that the search may visit: in all, shared out by facets, and for each face.
+// Nodes of the tree that the search may visit: in all, distributed by facets, and for each face.
 constexpr double most_tree_nodes = 1e8;
 constexpr std::int64_t few_tree_nodes = 1000;
-
-double area_of(const Triangle& t) {
-  return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
-}
 
 /// A convex polygon in space, at most six corners of two triangles that overlap, and some for rounding.
 struct Polygon {
@@ -107,11 +104,11 @@ struct FacetPair {
 /// The faces that lie on one face.
 class FaceOverlaps {
 public:
-  FaceOverlaps(const cad::Model& model, const Walls& walls, const std::vector<std::int32_t>& first_walls,
+  FaceOverlaps(const cad::Model& model, const ModelFacets& all, const std::vector<std::int32_t>& first_facets,
                FaceId face, const cad::Facets& facets, double extent)
       : _model(model),
-        _walls(walls),
-        _first_walls(first_walls),
+        _all(all),
+        _first_facets(first_facets),
         _face(face),
         _facets(facets),
         _within(nearest_walls * extent),
@@ -140,25 +137,25 @@ private:
   }
 
   void look_at(std::int32_t facet, std::int64_t& nodes) {
-    const std::int32_t wall = _first_walls[_face] + facet;
-    const auto& [face, corners, parameters, deviation] = _walls.facets[wall];
-    const Vec3 normal = _walls.normals[wall];
+    const std::int32_t number = _first_facets[_face] + facet;
+    const auto& [face, corners, parameters, deviation] = _all.items[number];
+    const Vec3 normal = _all.normals[number];
     if (!(norm(normal) > 0.5)) return;
     const auto faces_it = [&](std::int32_t other) {
-      const FaceId beyond = _walls.facets[other].face;
-      return beyond != _face && std::abs(dot(normal, _walls.normals[other])) >= least_cosine &&
+      const FaceId beyond = _all.items[other].face;
+      return beyond != _face && std::abs(dot(normal, _all.normals[other])) >= least_cosine &&
              !_model.is_far_field(beyond);
     };
     _near.clear();
-    _walls.rays.find_near(corners, _within_gap + 2 * deviation, faces_it, _near, nodes);
+    _all.rays.find_near(corners, _within_gap + 2 * deviation, faces_it, _near, nodes);
     for (const std::int32_t other : _near) {
-      const Wall& beyond = _walls.facets[other];
-      const Vec3 other_normal = _walls.normals[other];
+      const ModelFacet& beyond = _all.items[other];
+      const Vec3 other_normal = _all.normals[other];
       const Overlap overlap = overlap_of(corners, normal, beyond.corners);
       if (!(overlap.area > least_overlap * std::min(area_of(corners), area_of(beyond.corners)))) continue;
       const double apart = std::abs(dot(overlap.middle - beyond.corners[0], other_normal));
       if (apart > _within_gap + 2 * (deviation + beyond.deviation)) continue;
-      _pairs[beyond.face].push_back({facet, other - _first_walls[beyond.face], overlap});
+      _pairs[beyond.face].push_back({facet, other - _first_facets[beyond.face], overlap});
     }
   }
 
@@ -194,7 +191,7 @@ private:
       const auto [place, apart, is_meshed] = distance_at(other, of_other, pairs[i]);
       if (!(apart <= _within_gap)) continue;
       const double reach = apart / least_wedge;
-      if (common.nearest(place, reach, [](std::int32_t) { return true; }) < reach) continue;
+      if (common.nearest(place, reach) < reach) continue;
       if (apart <= _within) found.walls.add(place, apart, pairs[i].overlap.area);
       if (is_meshed) found.gap.add(place, apart, pairs[i].overlap.area);
     }
@@ -231,8 +228,8 @@ private:
   }
 
   const cad::Model& _model;
-  const Walls& _walls;
-  const std::vector<std::int32_t>& _first_walls;  // of each face
+  const ModelFacets& _all;
+  const std::vector<std::int32_t>& _first_facets;  // of each face
   FaceId _face;
   const cad::Facets& _facets;
   double _within, _within_gap;
@@ -262,20 +259,20 @@ std::vector<CoincidentFaces> merge(std::vector<CoincidentFaces> all) {
 
 std::vector<CoincidentFaces> find_coincident_faces(const SampledModel& sampled) {
   const cad::Model& model = sampled.model();
-  const Walls& walls = sampled.walls();
+  const ModelFacets& all = sampled.facets();
   const Vec3 size = sampled.body_box().size();
   const double extent = std::max({size.x, size.y, size.z});
   std::vector<CoincidentFaces> mine;
   parallel::collectively(sampled.communicator(), ScopedCpu::As::task, [&] {
-    std::vector<std::int32_t> first_walls(model.face_count(), -1);
-    for (std::size_t w = walls.facets.size(); w-- > 0;)
-      first_walls[walls.facets[w].face] = static_cast<std::int32_t>(w);
+    std::vector<std::int32_t> first_facets(model.face_count(), -1);
+    for (std::size_t w = all.items.size(); w-- > 0;)
+      first_facets[all.items[w].face] = static_cast<std::int32_t>(w);
     for (const SampledFace& face : sampled.own_faces()) {
-      if (model.is_far_field(face.id) || first_walls[face.id] < 0) continue;
+      if (model.is_far_field(face.id) || first_facets[face.id] < 0) continue;
       const double part =
-          static_cast<double>(face.facets.triangles.size()) / static_cast<double>(walls.facets.size());
+          static_cast<double>(face.facets.triangles.size()) / static_cast<double>(all.items.size());
       const std::int64_t most = few_tree_nodes + std::llround(part * most_tree_nodes);
-      const auto found = FaceOverlaps(model, walls, first_walls, face.id, face.facets, extent).find(most);
+      const auto found = FaceOverlaps(model, all, first_facets, face.id, face.facets, extent).find(most);
       mine.insert(mine.end(), found.begin(), found.end());
     }
   });

@@ -1,4 +1,4 @@
-/// Faces of the body that lie on one another: what no size can part.
+/// Faces of the body that lie on one another. No size can mesh what is between them.
 #pragma once
 
 #include "sizing/choice/sampled_model.hpp"
@@ -8,12 +8,12 @@
 
 namespace aeroloom::sizing {
 
-/// Two faces that lie on one another, or nearly so.
+/// Two faces that lie on one another, or nearly.
 struct CoincidentFaces {
   cad::FaceId first, second;
-  double area;           ///< over which they do, about
+  double area;           ///< of the overlap, about
   geometry::Vec3 place;  ///< on the first one
-  double apart;          ///< how far they are from each other there, at most
+  double apart;          ///< their largest distance there
 
   static constexpr auto fields() {
     return std::tuple(&CoincidentFaces::first, &CoincidentFaces::second, &CoincidentFaces::area,
@@ -21,10 +21,11 @@ struct CoincidentFaces {
   }
 };
 
-/// Pairs of faces of the body, none between regions, that are nearer than 2e-5 of the body's extent, or with
-/// a gap of up to 2e-4 that is meshed and would take ten million triangles, over more than a twentieth of the
-/// smaller one's area; not where they run together towards a common edge. The largest areas first. By facets
-/// and projections. For the model before any of its faces were joined. Collective.
+/// Finds pairs of faces of the body that are too near each other over more than a twentieth of the smaller
+/// one. Too near is less than 2e-5 of the extent of the body. A meshed gap of up to 2e-4 is too near as well,
+/// if it would take ten million triangles. Faces between regions do not count, nor places where faces run
+/// towards a common edge. The largest areas come first. Uses facets and projections. The model must have no
+/// joined faces yet. Collective.
 std::vector<CoincidentFaces> find_coincident_faces(const SampledModel& sampled);
 
 }  // namespace aeroloom::sizing

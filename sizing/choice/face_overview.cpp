@@ -33,7 +33,7 @@ std::vector<std::pair<FaceId, FaceSamples::Overview>> FieldFactory::look_over(co
     seen.emplace_back(face.id,
                       samples_of(face.id, once)
                           .overview(model(), face.id, face.facets, _sampled.bounds_far_field(face.id),
-                                    _demands.options_on(_sampled, face.id, options)));
+                                    _requests.options_on(_sampled, face.id, options)));
   }
   return seen;
 }
@@ -50,8 +50,7 @@ std::vector<BoundedFace> FieldFactory::faces_bounded_by_minimum(const SizingOpti
       if (seen.bounded_area > 0) mine.push_back({face, seen.bounded_area / seen.area, seen.degrees});
     }
   });
-  std::vector<BoundedFace> all = _sampled.communicator().gather_sorted(mine, &BoundedFace::face);
-  return all;
+  return _sampled.communicator().gather_sorted(mine, &BoundedFace::face);
 }
 
 bool FieldFactory::has_more_parts(const SizingOptions& options, double most) {

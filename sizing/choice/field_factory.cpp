@@ -39,7 +39,7 @@ bool is_same(double a, double b) {
   return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
 }
 
-/// Cells that demands ask for over leaves, from which on a field has clearly more leaves: cells may lie in
+/// Requested cells over leaves, from which on a field has clearly more leaves: cells may lie in
 /// several regions, and are counted with some to spare.
 constexpr double most_cells_per_leaf = 4;
 
@@ -50,21 +50,21 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
          is_same(elements_across_gaps(a), elements_across_gaps(b)) &&
          is_same(a.chordal_deviation, b.chordal_deviation) && is_same(a.feature_aspect, b.feature_aspect) &&
          is_same(smallest_feature_size(a), smallest_feature_size(b)) &&
-         is_same(smallest_strip_size(a), smallest_strip_size(b)) &&
+         is_same(smallest_narrow_size(a), smallest_narrow_size(b)) &&
          is_same(smallest_gap_size(a), smallest_gap_size(b));
 }
 
 }  // namespace
 
-FieldFactory::FieldFactory(SampledModel sampled, double layers, Fields fields, SizeDemands demands)
+FieldFactory::FieldFactory(SampledModel sampled, double layers, Fields fields, SizeRequests requests)
     : _sampled(std::move(sampled)),
-      _demands(_sampled, std::move(demands)),
+      _requests(_sampled, std::move(requests)),
       _gaps(_sampled, layers),
       _fields(fields) {}
 
 FieldFactory::FieldFactory(FieldFactory&& before, const cad::Model& joined)
     : _sampled(std::move(before._sampled), joined),
-      _demands(std::move(before._demands), _sampled),
+      _requests(std::move(before._requests), _sampled),
       _gaps(std::move(before._gaps), _sampled),
       _fields(before._fields) {
   for (const SampledFace& face : _sampled.own_faces()) {
@@ -76,8 +76,8 @@ FieldFactory::FieldFactory(FieldFactory&& before, const cad::Model& joined)
   }
 }
 
-void FieldFactory::demand(std::vector<SizeLine> lines) {
-  _demands.set_lines(std::move(lines));
+void FieldFactory::request_lines(std::vector<SizeLine> lines) {
+  _requests.set_lines(std::move(lines));
   _estimates.clear();
 }
 
@@ -88,13 +88,13 @@ std::vector<SizeSource> FieldFactory::sample_own(const SizingOptions& given, dou
   };
   for (const SampledFace& face : _sampled.own_faces()) {
     const bool far_field = _sampled.bounds_far_field(face.id);
-    const SizingOptions options = _demands.options_on(_sampled, face.id, given);
+    const SizingOptions options = _requests.options_on(_sampled, face.id, given);
     FaceSamples once(model().is_planar(face.id));
     std::vector<SizeSource> sources =
         samples_of(face.id, once).sources(model(), face.id, face.facets, far_field, options, coarser);
-    const std::vector<SizeSource> strips =
-        strip_sources(model(), face.facets, face.closed_corners, options, largest_size(far_field, options));
-    sources.insert(sources.end(), strips.begin(), strips.end());
+    const std::vector<SizeSource> narrow =
+        narrow_sources(model(), face.facets, face.closed_corners, options, largest_size(far_field, options));
+    sources.insert(sources.end(), narrow.begin(), narrow.end());
     keep(thin_sources(_sampled.root(), sources));
     if (const Gaps* gaps = _gaps.of_face(face.id)) keep(gap_sources(*gaps, options));
   }
@@ -146,15 +146,15 @@ std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, doubl
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : mine) source.size *= coarser;
-  const std::vector<SizeSource> demanded = _demands.sample(_sampled, options, coarser);
-  mine.insert(mine.end(), demanded.begin(), demanded.end());
+  const std::vector<SizeSource> requested = _requests.sample(_sampled, options, coarser);
+  mine.insert(mine.end(), requested.begin(), requested.end());
   return mine;
 }
 
 std::vector<double> FieldFactory::sizes_without_features(std::span<const geometry::Vec3> places,
                                                          const SizingOptions& options) {
   SizingOptions without = options;
-  without.feature_minimum = without.strip_minimum = options.maximum;
+  without.feature_minimum = without.narrow_minimum = options.maximum;
   std::vector<double> sizes = sizes_at(places, sample(without, 1), options);
   for (double& size : sizes) size = std::max(size, options.minimum);
   return sizes;
@@ -166,11 +166,11 @@ SizeField FieldFactory::build_field(const SizingOptions& options) {
 
 std::optional<SizeField> FieldFactory::build_coarser(const SizingOptions& options, double coarser,
                                                      std::int64_t most_leaves) {
-  if (_demands.ask_for_more_cells(_sampled, options, coarser,
-                                  most_cells_per_leaf * static_cast<double>(most_leaves)))
+  if (_requests.ask_for_more_cells(_sampled, options, coarser,
+                                   most_cells_per_leaf * static_cast<double>(most_leaves)))
     return std::nullopt;
   SizingOptions coarse = options;
-  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.strip_minimum, &coarse.gap_minimum,
+  for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.narrow_minimum, &coarse.gap_minimum,
                        &coarse.surface_maximum, &coarse.maximum})
     *size *= coarser;
   if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);

@@ -28,10 +28,11 @@ constexpr std::int64_t most_close_rays = 600'000;
 constexpr std::int64_t most_nodes = 300'000'000, most_close_nodes = 100'000'000;
 // How often what some faces leave of that is given to those that need more, and the least part of it that is
 // worth it. docs/bounds.md has what that comes to; chosen, not measured.
-constexpr int most_deals = 4, most_close_deals = 8;
-constexpr double least_deal = 0.02;
-/// Shares of nodes are whole numbers, of which so many are all: a face with a millionth still has millions.
-constexpr double all_shares = 3e12;
+constexpr int most_gap_rounds = 4, most_close_rounds = 8;
+constexpr double least_left = 0.02;
+/// Weights of faces are whole numbers that add up to this: a face with a millionth still gets millions of
+/// nodes.
+constexpr double all_weights = 3e12;
 /// Rays that are farther apart than this many times the finest that is wanted are told of. Chosen, not
 /// measured.
 constexpr double coarser_than_wanted = 1.5;
@@ -64,12 +65,12 @@ struct FaceSearch {
   FaceId face;
   Gaps* gaps;
   FaceGapSearch search;
-  std::int64_t share;  ///< of `all_shares`
+  std::int64_t weight;  ///< of `all_weights`
 };
 
 /// Of all work: a third the same for each face, a third by area, a third by facets.
-std::int64_t share_of_face(double faces, double area_part, double facet_part) {
-  return std::llround(all_shares / 3 * (1 / faces + area_part + facet_part));
+std::int64_t weight_of_face(double faces, double area_part, double facet_part) {
+  return std::llround(all_weights / 3 * (1 / faces + area_part + facet_part));
 }
 
 /// Looks until everything was looked at or the work is done. Collective.
@@ -79,17 +80,18 @@ void search_faces(const SampledModel& sampled, std::vector<FaceSearch>& searches
                               "faces searched for gaps");
   const auto is_done = [](const FaceSearch& each) { return each.gaps->unseen.empty(); };
   std::int64_t left = most_nodes;
-  for (int deal = 0; deal < most_deals && left > least_deal * most_nodes; ++deal) {
+  for (int round = 0; round < most_gap_rounds && left > least_left * most_nodes; ++round) {
     std::int64_t wanting = 0, visited = 0;
-    for (const FaceSearch& each : searches) wanting += deal == 0 || !is_done(each) ? each.share : 0;
+    for (const FaceSearch& each : searches) wanting += round == 0 || !is_done(each) ? each.weight : 0;
     wanting = communicator.sum(wanting);
     if (wanting == 0) break;
-    const double per_share =
-        static_cast<double>(left) / (deal == 0 ? all_shares : static_cast<double>(wanting));
+    const double nodes_per_weight =
+        static_cast<double>(left) / (round == 0 ? all_weights : static_cast<double>(wanting));
     parallel::collectively(communicator, ScopedCpu::As::task, [&] {
       for (FaceSearch& each : searches) {
-        if (deal > 0 && is_done(each)) continue;
-        visited += each.search.go_on(std::llround(per_share * static_cast<double>(each.share)), *each.gaps);
+        if (round > 0 && is_done(each)) continue;
+        visited +=
+            each.search.go_on(std::llround(nodes_per_weight * static_cast<double>(each.weight)), *each.gaps);
         if (is_done(each)) progress.advance(1, 1);
       }
     });
@@ -105,9 +107,9 @@ void look_closer(const SampledModel& sampled, double layers, std::vector<FaceSea
   const parallel::Communicator& communicator = sampled.communicator();
   std::int64_t rays_left = most_close_rays, nodes_left = most_close_nodes;
   const auto is_worth_it = [&] {
-    return rays_left > least_deal * most_close_rays && nodes_left > least_deal * most_close_nodes;
+    return rays_left > least_left * most_close_rays && nodes_left > least_left * most_close_nodes;
   };
-  for (int deal = 0; deal < most_close_deals && is_worth_it(); ++deal) {
+  for (int round = 0; round < most_close_rounds && is_worth_it(); ++round) {
     std::int64_t rays = 0, faces = 0;
     for (const FaceSearch& each : searches) {
       rays += count_rays(*each.gaps, layers);
@@ -143,7 +145,7 @@ void look_closer(const SampledModel& sampled, double layers, std::vector<FaceSea
 }  // namespace
 
 GapSearch::GapSearch(const SampledModel& sampled, double layers) : _layers(layers) {
-  measure(sampled, Notes::tell);
+  measure(sampled, Notes::log);
 }
 
 GapSearch::GapSearch(GapSearch&& before, const SampledModel& joined) : _layers(before._layers) {
@@ -162,7 +164,7 @@ GapSearch::GapSearch(GapSearch&& before, const SampledModel& joined) : _layers(b
     gaps.key() = face.id;
     _gaps.insert(std::move(gaps));
   }
-  measure(joined, Notes::were_told);
+  measure(joined, Notes::none);
 }
 
 void GapSearch::measure(const SampledModel& sampled, Notes notes) {
@@ -180,7 +182,7 @@ void GapSearch::measure(const SampledModel& sampled, Notes notes) {
       if (!model.is_far_field(f)) area += sampled.area(f), ++count;
     }
     const double finest = finest_facet(extent, area);
-    if (notes == Notes::tell && _layers > 0 && finest > coarser_than_wanted * extent / finest_gap) {
+    if (notes == Notes::log && _layers > 0 && finest > coarser_than_wanted * extent / finest_gap) {
       parallel::log_info(
           fmt::format("sizing: gaps are looked for every {:.3g} of the surface; finer looking would take too "
                       "many rays",
@@ -194,9 +196,9 @@ void GapSearch::measure(const SampledModel& sampled, Notes notes) {
       if (!is_new) continue;
       searches.push_back({face.id,
                           &gaps->second,
-                          {model, face.id, face.facets, sampled.walls(), limits},
-                          share_of_face(count, sampled.area(face.id) / std::max(area, least_area),
-                                        static_cast<double>(face.facets.triangles.size()) / all_facets)});
+                          {model, face.id, face.facets, sampled.facets(), limits},
+                          weight_of_face(count, sampled.area(face.id) / std::max(area, least_area),
+                                         static_cast<double>(face.facets.triangles.size()) / all_facets)});
     }
   });
   search_faces(sampled, searches);

@@ -24,14 +24,14 @@ SizingOptions with_given(const SizingOptions& options, const GivenSizes& given) 
       sizes.surface_maximum > 0 ? std::min(sizes.maximum, sizes.surface_maximum) : sizes.maximum;
   if (given.minimum) {
     sizes.minimum = *given.minimum;
-    sizes.feature_minimum = sizes.strip_minimum = sizes.gap_minimum = 0;
+    sizes.feature_minimum = sizes.narrow_minimum = sizes.gap_minimum = 0;
     if (!given.surface_maximum && sizes.surface_maximum > 0)
       sizes.surface_maximum = std::max(sizes.surface_maximum, sizes.minimum);
   } else if (sizes.minimum > largest) {
     sizes.minimum = largest;
     sizes.feature_minimum = std::min(sizes.feature_minimum, largest);
   }
-  if (given.feature_minimum) sizes.feature_minimum = *given.feature_minimum, sizes.strip_minimum = 0;
+  if (given.feature_minimum) sizes.feature_minimum = *given.feature_minimum, sizes.narrow_minimum = 0;
   return sizes;
 }
 

@@ -7,8 +7,8 @@
 
 namespace aeroloom::sizing {
 
-/// Bounds that are given, members of SizingOptions; the others are chosen around them. Lengths in the model's
-/// unit.
+/// The bounds that are given, members of SizingOptions. The others are chosen to fit them. Lengths are in the
+/// unit of the model.
 struct GivenSizes {
   std::optional<double> minimum, maximum;   ///< minimum <= maximum
   std::optional<double> feature_minimum;    ///< smallest size at short edges, narrow faces, sharp corners
@@ -23,12 +23,12 @@ struct GivenSizes {
   bool holds_features() const { return minimum || feature_minimum; }
 };
 
-/// The options with what is given in place of their own; those of their bounds that contradict it follow. A
-/// minimum brings that of features along (SizingOptions). Throws std::invalid_argument where what is given
-/// contradicts itself.
+/// The options with the given bounds in place of their own. Bounds that contradict a given one follow it. A
+/// given minimum also sets the sizes of features (SizingOptions). Throws std::invalid_argument where given
+/// bounds contradict each other.
 SizingOptions with_given(const SizingOptions& options, const GivenSizes& given);
 
-/// The purpose of a field: to make a mesh, or to tell what mesh that would be.
+/// What a field is for: a mesh, or a forecast of the size of that mesh.
 enum class FieldFor : bool { mesh, forecast };
 
 }  // namespace aeroloom::sizing

@@ -10,23 +10,26 @@
 namespace aeroloom::sizing {
 
 /// The narrowest place of a face between two of its edges that share no vertex.
-struct Strip {
+struct NarrowRegion {
   cad::FaceId face;
   double width;
   geometry::Vec3 place;
 
-  static constexpr auto fields() { return std::tuple(&Strip::face, &Strip::width, &Strip::place); }
+  static constexpr auto fields() {
+    return std::tuple(&NarrowRegion::face, &NarrowRegion::width, &NarrowRegion::place);
+  }
 };
 
-/// One for each face with strips narrower than that, by width: the least distance between two of its edges.
-/// `minimum` tells how far corners are closed. Collective.
-std::vector<Strip> strips_narrower_than(const SampledModel& sampled, double width, double minimum);
+/// The faces with a place narrower than `width`, one narrow region each, the narrowest first. `minimum` tells
+/// how far corners are closed. Collective.
+std::vector<NarrowRegion> narrow_regions_below(const SampledModel& sampled, double width, double minimum);
 
-/// Elements along both sides of all strips narrower than the minimum, about, for each of some aspects
-/// (SizingOptions::feature_aspect): lengths over strip_size(). Each counts by what grows around it until
-/// sizes are the minimum: where they grow by k a length from s to m, the integral of 2 pi r / (s + k r)^3
-/// is that to infinity times (1 - s/m)^2. Collective.
-std::vector<double> elements_along_strips(const SampledModel& sampled, std::span<const double> aspects,
-                                          const SizingOptions& options);
+/// The elements that narrow regions below the minimum add, for each of some aspects
+/// (SizingOptions::feature_aspect). A pair of sides of length L has L / narrow_size() elements along each
+/// side. An element of size s also costs the cone of growth around it, up to the minimum size m: (1 - s/m)^2
+/// of the integral of 2 pi r / (s + k r)^3 to infinity, where sizes grow by k for each length. Collective.
+std::vector<double> elements_along_narrow_regions(const SampledModel& sampled,
+                                                  std::span<const double> aspects,
+                                                  const SizingOptions& options);
 
 }  // namespace aeroloom::sizing

@@ -132,7 +132,7 @@ private:
   double over_cut_cube(Vec3 low, double edge, const std::vector<std::int32_t>& touching, int depth) const {
     const double h = _field(low + 0.5 * edge * Vec3{1, 1, 1});
     if (edge <= cube_per_size * h || depth >= deepest_subdivision)
-      return _boundary.share_behind(low, edge, touching) * cube(edge / h);
+      return _boundary.fraction_behind(low, edge, touching) * cube(edge / h);
     const double half = 0.5 * edge;
     double sum = 0;
     std::vector<std::int32_t> inner;
@@ -141,7 +141,7 @@ private:
       find_touching(child_low, half, touching, inner);
       if (!inner.empty()) {
         sum += over_cut_cube(child_low, half, inner, depth + 1);
-      } else if (_boundary.share_behind(child_low, half, touching) > 0.5) {
+      } else if (_boundary.fraction_behind(child_low, half, touching) > 0.5) {
         sum += cube(half / _field(child_low + 0.5 * half * Vec3{1, 1, 1}));
       }
     }
@@ -171,16 +171,16 @@ double count_triangles(const SampledModel& sampled, const SizeField& field) {
       const auto& points = face.facets.points;
       for (const auto& t : face.facets.triangles) {
         const Triangle corners{points[t[0]], points[t[1]], points[t[2]]};
-        area += 0.5 * norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
+        area += area_of(corners);
         sum += integrate_facet(field, corners);
       }
       // Facets cut corners: the exact area makes up for it.
       if (area > 0) mine.push_back({face.id, triangles_per_square * sum * sampled.area(face.id) / area});
     }
   }
-  std::vector<FaceCount> all = sampled.communicator().gather_sorted(mine, &FaceCount::face);
   double total = 0;
-  for (const FaceCount& face : all) total += face.count;
+  for (const FaceCount& face : sampled.communicator().gather_sorted(mine, &FaceCount::face))
+    total += face.count;
   return total;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using cad::FaceId;
 using parallel::ScopedCpu;
 
-/// Loads by which faces are distributed for sampling: a share for each face, and its share of the body's
+/// Loads by which faces are distributed for sampling: the same for each face, and its part of the body's
 /// area.
 std::vector<double> predict_sampling_loads(const std::vector<bool>& far_field,
                                            const std::vector<double>& areas) {
@@ -55,7 +55,7 @@ SampledModel::SampledModel(SampledModel&& before, const cad::Model& joined)
       _model(joined),
       _root(before._root),
       _part_on_boundary(std::move(before._part_on_boundary)),
-      _walls(std::move(before._walls)),
+      _facets(std::move(before._facets)),
       _body_box(before._body_box) {
   parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<FaceId> number(before._model.face_count());
@@ -66,7 +66,7 @@ SampledModel::SampledModel(SampledModel&& before, const cad::Model& joined)
       _areas.push_back(0);
       for (const FaceId member : members) _areas[f] += before._areas[member], number[member] = f;
     }
-    for (Wall& wall : _walls->facets) wall.face = number[wall.face];
+    for (ModelFacet& facet : _facets->items) facet.face = number[facet.face];
     take_faces(std::move(before._faces), number);
     list_corners();
   });
@@ -118,7 +118,7 @@ void SampledModel::list_corners() {
 }
 
 void SampledModel::gather_triangles() {
-  std::vector<Wall> mine;
+  std::vector<ModelFacet> mine;
   parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (const SampledFace& face : _faces) {
       if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
@@ -131,19 +131,19 @@ void SampledModel::gather_triangles() {
       }
     }
   });
-  std::vector<Wall> all = _communicator.all_gather_items<Wall>(mine);
+  std::vector<ModelFacet> all = _communicator.all_gather_items<ModelFacet>(mine);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.face < b.face; });
   ScopedCpu cpu(ScopedCpu::As::repeated);
   std::vector<Triangle> boundary;
-  for (const Wall& t : all) {
+  for (const ModelFacet& t : all) {
     if (!_far_field[t.face]) {
       for (const geometry::Vec3 p : t.corners) _body_box.add(p);
     }
     if (_model.face(t.face).back == cad::no_entity) boundary.push_back(t.corners);
   }
-  // Without faces between regions the walls are the boundary: one tree serves both.
+  // Without faces between regions all facets are the boundary: one tree serves both.
   if (boundary.size() < all.size()) _part_on_boundary.emplace(std::move(boundary));
-  _walls.emplace(std::move(all));
+  _facets.emplace(std::move(all));
   if (_body_box.empty()) _body_box = _model.bounds();
 }
 

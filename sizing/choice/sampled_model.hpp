@@ -1,4 +1,4 @@
-/// A model spread over the ranks as facets, from which sizes are sampled. It does not depend on sizes.
+/// A model, divided among the ranks to sample sizes on it. It does not depend on sizes.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -18,44 +18,45 @@ struct SampledFace {
   std::vector<EdgePair> closed_corners = {};  ///< is_closed_corner()
 };
 
-/// Faces are assigned to ranks by area, edges one by one. Each rank triangulates its faces; the facets of all
-/// faces are known on every rank. They are the same for any number of ranks.
+/// A model whose faces are assigned to ranks by area, and whose edges are assigned in turn. Each rank
+/// triangulates its own faces. Every rank holds the facets of all faces. These are the same for any number of
+/// ranks.
 class SampledModel {
 public:
   /// Collective. Throws parallel::CollectiveError where the CAD library fails on a face.
   SampledModel(const parallel::Communicator& communicator, const cad::Model& model);
 
-  /// The same model with some of its faces joined: all other faces keep their facets. Collective.
+  /// For the same model with some faces joined. All other faces keep their facets. Collective.
   SampledModel(SampledModel&& before, const cad::Model& joined);
 
   const cad::Model& model() const { return _model; }
   const parallel::Communicator& communicator() const { return _communicator; }
   const RootCube& root() const { return _root; }
 
-  /// Of the face, as its facets have it.
+  /// The area of a face.
   double area(cad::FaceId face) const { return _areas[face]; }
-  /// As find_far_field() has it.
+  /// Whether a face bounds the far field, by find_far_field().
   bool bounds_far_field(cad::FaceId face) const { return _far_field[face]; }
 
   /// The faces of this rank, ascending.
   const std::vector<SampledFace>& own_faces() const { return _faces; }
-  /// The corners of those faces that may_be_sharp().
+  /// The corners of those faces for which may_be_sharp() is true.
   const std::vector<cad::FaceCorner>& own_corners() const { return _corners; }
-  /// What the edges of this rank ask for by their curvature and length.
+  /// The sources along the edges of this rank (edge_sources()).
   std::vector<SizeSource> sample_own_edges(const SizingOptions& options) const;
 
-  /// Facets of all faces, by face; not those between regions.
-  const Walls& walls() const { return *_walls; }
-  /// Facets of all faces that bound the domain.
-  const TriangleTree& boundary() const { return _part_on_boundary ? *_part_on_boundary : _walls->tree; }
-  /// The box of all faces that are not far field; of everything where there are none.
+  /// The facets of all faces, in the order of faces. Faces between regions have none.
+  const ModelFacets& facets() const { return *_facets; }
+  /// The facets of all faces that bound the domain.
+  const TriangleTree& boundary() const { return _part_on_boundary ? *_part_on_boundary : _facets->tree; }
+  /// The box of all faces that are not far field. If all are, the box of the model.
   const geometry::Box& body_box() const { return _body_box; }
 
 private:
-  /// Areas of all faces, each measured by one rank.
+  /// The areas of all faces; each rank measures a part of them.
   std::vector<double> measure_faces() const;
   void add_face(cad::FaceId id);
-  /// Takes the faces of the model before; `number` tells which face has become of each.
+  /// Takes over the faces of the model before. `number`: the new number of each face.
   void take_faces(std::vector<SampledFace> before, const std::vector<cad::FaceId>& number);
   void list_corners();
   void gather_triangles();
@@ -68,8 +69,8 @@ private:
   std::vector<int> _owners;  // ranks, by face
   std::vector<SampledFace> _faces;
   std::vector<cad::FaceCorner> _corners;
-  std::optional<TriangleTree> _part_on_boundary;  // facets that bound the domain, where not all do
-  std::optional<Walls> _walls;
+  std::optional<TriangleTree> _part_on_boundary;  // set if some facets do not bound the domain
+  std::optional<ModelFacets> _facets;
   geometry::Box _body_box;
 };
 

@@ -1,4 +1,4 @@
-// Sharp corners of faces: what lies between two edges that meet at a small angle is as narrow as a strip.
+// Sharp corners of faces: the face between two edges that meet at a small angle is narrow.
 #include "sizing/features/model_sources.hpp"
 #include "sizing/field/closed_corners.hpp"
 

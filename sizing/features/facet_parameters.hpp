@@ -1,4 +1,4 @@
-/// Where a point beside a facet is in the parameters of its face.
+/// The surface parameters of a point beside a facet.
 #pragma once
 
 #include "sizing/features/triangle_tree.hpp"
@@ -9,7 +9,7 @@ namespace aeroloom::sizing {
 
 using Parameters = std::array<geometry::Vec2, 3>;
 
-/// The parameters of a point in the plane of a facet, or beside it along its normal, from those of its
+/// The parameters of a point in the plane of a facet, or above it along the normal, from those of the
 /// corners.
 inline geometry::Vec2 parameters_at(const Triangle& corners, const Parameters& parameters,
                                     geometry::Vec3 point) {

@@ -1,5 +1,5 @@
-/// Lifting bodies of a model: wings, tails, flaps, slats, nacelles; where they begin and end, and how long
-/// they are. find_lifting_bodies() finds them (lifting.hpp).
+/// Lifting bodies of a model: wings, tails, flaps, slats, nacelles. Found by find_lifting_bodies()
+/// (lifting.hpp).
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -14,7 +14,7 @@ namespace aeroloom::sizing {
 struct LiftingStation {
   geometry::Vec3 trailing, leading;
   double chord = 0;      ///< the local chord
-  double thickness = 0;  ///< of the section, about
+  double thickness = 0;  ///< about that of the section
 };
 
 /// A line along an edge, with the local chord at each of its points.
@@ -23,23 +23,24 @@ struct EdgeLine {
   std::vector<double> chords;
 };
 
-/// What lies before one strip or sharp edge of the CAD.
+/// The part of a lifting body ahead of one trailing edge.
 struct LiftingElement {
-  cad::FaceId strip = cad::no_entity;    ///< the blunt trailing edge
-  cad::EdgeId edge = cad::no_entity;     ///< the sharp one
-  std::vector<LiftingStation> stations;  ///< from one end to the other, two at least
-  std::vector<EdgeLine> leading;  ///< in parts where sections change abruptly; may reach beyond stations
-  EdgeLine trailing;              ///< along the sharp edge, or a border of the strip
+  cad::FaceId blunt_face = cad::no_entity;  ///< the narrow face of a blunt trailing edge
+  cad::EdgeId edge = cad::no_entity;        ///< a sharp trailing edge
+  std::vector<LiftingStation> stations;     ///< from one end to the other, two at least
+  std::vector<EdgeLine>
+      leading;        ///< in several lines where sections change abruptly; may reach beyond stations
+  EdgeLine trailing;  ///< along the sharp edge, or one side of the narrow face
   std::vector<geometry::Vec3>
-      opposite;                ///< of a strip: by point of `trailing`, the nearest of its other border
-  std::set<cad::EdgeId> ends;  ///< where the skin meets other faces: roots and tips
+      opposite;  ///< of a narrow face: for each point of `trailing`, the nearest on the other side
+  std::set<cad::EdgeId> ends;                           ///< where the skin meets other faces: roots and tips
   std::array<std::set<cad::VertexId>, 2> end_vertices;  ///< of the trailing edge
 };
 
 struct LiftingBodies {
-  std::vector<LiftingElement> elements;  ///< strips by face, then sharp edges
-  double reference_chord = 0;  ///< mean aerodynamic chord of the largest: the integral of c^2 over that of c
-  double semispan = 0;  ///< half of what the body extends along the span of the largest; of half models all
+  std::vector<LiftingElement> elements;  ///< blunt trailing edges by face, then sharp ones
+  double reference_chord = 0;  ///< mean aerodynamic chord of the largest body, integral of c^2 over that of c
+  double semispan = 0;  ///< half the extent of the body along the span; the whole extent of half models
 };
 
 }  // namespace aeroloom::sizing

@@ -49,8 +49,8 @@ struct Section {
 };
 
 Section section_of(const Skin& skin, const SectionPlane& plane, double width) {
-  constexpr double gap_share = 0.02;     // of the reach: facets of two faces may leave a gap
-  constexpr double border_share = 0.02;  // of the reach: as near as this is on the border
+  constexpr double gap_fraction = 0.02;     // of the reach: facets of two faces may leave a gap
+  constexpr double border_fraction = 0.02;  // of the reach: as near as this is on the border
   std::vector<Piece> pieces;
   for (const Triangle& t : skin.facets) {
     if (const auto piece = cut(t, plane)) pieces.push_back(*piece);
@@ -59,11 +59,11 @@ Section section_of(const Skin& skin, const SectionPlane& plane, double width) {
   Section section;
   Vec3 end = plane.origin;
   for (const Piece& piece : pieces) {
-    if (piece.first > section.reach + std::max(2 * width, gap_share * section.reach)) break;
+    if (piece.first > section.reach + std::max(2 * width, gap_fraction * section.reach)) break;
     if (piece.last > section.reach) section.reach = piece.last, end = piece.end;
   }
   section.ends_early = std::any_of(skin.border.begin(), skin.border.end(), [&](const auto& segment) {
-    return distance_to_segment(end, segment[0], segment[1]) < border_share * section.reach;
+    return distance_to_segment(end, segment[0], segment[1]) < border_fraction * section.reach;
   });
   return section;
 }

@@ -1,4 +1,4 @@
-/// How long a lifting body is behind its leading edge: the local chord, seen from its trailing edge.
+/// The local chord of a lifting body: its length from the trailing to the leading edge.
 #pragma once
 
 #include "sizing/features/triangle_tree.hpp"
@@ -15,15 +15,15 @@ struct ChordPlace {
   double width = 0;            ///< of the edge
 };
 
-/// The facets that cover a body around its trailing edge.
+/// The facets of the skin of a body around its trailing edge.
 struct Skin {
   std::vector<Triangle> facets;
   std::vector<std::array<geometry::Vec3, 2>> border;  ///< segments where it ends: tips, roots
 };
 
-/// The shortest section through the place that leads round a nose, of those by planes across the edge that
-/// are tilted by up to 40 degrees. Where all end on the skin's border (a box beam), how far the skin reaches
-/// straight across the edge. 0 where there is no skin.
+/// The local chord at a place. Sections are cut by planes across the edge, tilted by up to 40 degrees. The
+/// shortest one that goes round a nose counts. If all end on the border of the skin (a box beam), it is the
+/// length of the skin straight across the edge. Zero without a skin.
 double local_chord(const Skin& skin, const ChordPlace& at);
 
 }  // namespace aeroloom::sizing

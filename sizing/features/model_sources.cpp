@@ -42,7 +42,7 @@ public:
         last = next;
       }
     }
-    ask_for_own_length();
+    add_length_source();
     return std::move(_sources);
   }
 
@@ -66,7 +66,7 @@ private:
     cover(middle, b, depth + 1);
   }
 
-  void ask_for_own_length() {
+  void add_length_source() {
     const cad::Edge& edge = _model.edge(_edge);
     if (_length >= _options.maximum) return;
     const double size = feature_size(_length, smallest_feature_size(_options), _options);

@@ -1,4 +1,4 @@
-/// Faces narrower than elements are meant to be, and which of their neighbours can take them in.
+/// Faces narrower than elements, and the neighbours that such a face can be joined with.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -10,11 +10,11 @@
 
 namespace aeroloom::sizing {
 
-/// A face that one of its neighbours takes in.
+/// A narrow face, and the neighbour that it is joined with.
 struct NarrowFace {
   cad::FaceId face = cad::no_entity, into = cad::no_entity;
   double width = 0;      ///< 2 area / perimeter
-  double degrees = 0;    ///< largest turn of the surface across the edges that vanish
+  double degrees = 0;    ///< the largest turn of the surface across the edges that vanish
   double deviation = 0;  ///< width * sin(turn): how far the mesh may leave the surface there
   geometry::Vec3 place;  ///< on an edge that vanishes
 
@@ -24,18 +24,19 @@ struct NarrowFace {
   }
 };
 
-/// Degrees the surface turns across an edge between two faces, at most; 180 where that is not known.
+/// The largest angle in degrees by which the surface turns across an edge between two faces; 180 if it is not
+/// known.
 double turn_across(const cad::Model& model, cad::FaceId a, cad::FaceId b, cad::EdgeId id);
 
-/// Faces narrower than `width` which have a neighbour in the same patch, between the same regions, that goes
-/// on from them smoothly: across every edge between the two the surface turns by less than 20 degrees and the
-/// deviation is at most `tolerance`. Of several neighbours the one with the longest common border; a blunt
-/// trailing edge has none. Not on the far field; an exact plane joins its like alone. By face, the same on
-/// every rank. Collective.
+/// Finds faces narrower than `width` that a smooth neighbour can take in. The neighbour is in the same patch
+/// and between the same regions. Across every edge between the two, the surface turns by less than 20
+/// degrees, and the deviation is at most `tolerance`. Of several neighbours the one with the longest common
+/// border is taken. Far field faces are not joined; an exact plane is joined with its like only. In the order
+/// of faces, the same on every rank. Collective.
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const cad::Model& model,
                                           double width, double tolerance);
 
-/// Groups for cad::join_faces: of those found, all that can vanish together.
+/// Groups of faces for cad::join_faces, of all faces found that can vanish together.
 std::vector<std::vector<cad::FaceId>> group_narrow_faces(const cad::Model& model,
                                                          std::vector<NarrowFace>& narrow, double tolerance);
 

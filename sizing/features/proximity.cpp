@@ -28,8 +28,8 @@ constexpr double wedge_slenderness = 8;
 constexpr int deepest_edge_split = 24;
 /// Rays that can be counted: more than any field has.
 constexpr double most_counted = 1e15;
-// Walls that meet in an edge run together where the gap, at their angle, closes within so many times the way
-// to it.
+// ModelFacets that meet in an edge run together where the gap, at their angle, closes within so many times
+// the way to it.
 constexpr double closing_reach = 2;
 // The middle of a facet's parameters is no point beside it where it is farther away, over the longest edge.
 constexpr double middle_off_facet = 0.25;
@@ -49,10 +49,6 @@ Vec3 unit_normal(const Triangle& t) {
   return normalized(cross(t[1] - t[0], t[2] - t[0]));
 }
 
-double area(const Triangle& t) {
-  return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
-}
-
 /// How long the parts of facets may be that see a gap.
 double edge_per_gap(double layers) {
   return edge_per_size / std::max(1.0, layers);
@@ -68,12 +64,12 @@ double coarseness(const Gaps::Part& part, double edge_per_gap) {
 /// The rays of one face.
 class FaceGapSearch::Rays {
 public:
-  Rays(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+  Rays(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const ModelFacets& all,
        const GapLimits& limits)
       : _model(model),
         _face(face),
         _facets(facets),
-        _walls(walls),
+        _all(all),
         _widest(limits.widest),
         _finest(limits.finest),
         _edge_per_gap(edge_per_gap(limits.layers)),
@@ -96,9 +92,9 @@ public:
     const std::vector<Gaps::Unseen> parts = _begun ? std::exchange(_gaps.unseen, {}) : whole_facets();
     _begun = true;
     double left = 0;
-    for (const Gaps::Unseen& part : parts) left += area(part.triangle);
+    for (const Gaps::Unseen& part : parts) left += area_of(part.triangle);
     for (const Gaps::Unseen& part : parts) {
-      const double own = area(part.triangle), rest = static_cast<double>(most - (_nodes - before));
+      const double own = area_of(part.triangle), rest = static_cast<double>(most - (_nodes - before));
       cover(part, std::llround(left > own ? std::ceil(rest * own / left) : rest));
       left -= own;
     }
@@ -209,12 +205,12 @@ private:
   Around look_around(Vec3 from, Vec3 normal, std::int32_t facet) {
     if (++_looks % looks_per_beat == 0) parallel::beat();
     const auto faces_back = [&](std::int32_t triangle) {
-      return dot(_walls.normals[triangle], normal) <= facing;
+      return dot(_all.normals[triangle], normal) <= facing;
     };
     const auto corners = [&](std::int32_t triangle) -> const Triangle& {
-      return _walls.facets[triangle].corners;
+      return _all.items[triangle].corners;
     };
-    const auto nearest = _walls.rays.nearest_crossings(from, normal, _widest, corners, faces_back, _nodes);
+    const auto nearest = _all.rays.nearest_crossings(from, normal, _widest, corners, faces_back, _nodes);
     const Seen ahead = judge(nearest[0], from, normal, facet, _meshed_beyond);
     const Seen behind = judge(nearest[1], from, -normal, facet, true);
     Around around{behind.gap, std::min(ahead.open, behind.open)};
@@ -226,42 +222,44 @@ private:
   /// Whether a crossing is a gap, on a side that is meshed or not. The direction is that of the ray.
   Seen judge(const RayTree::Crossing& crossing, Vec3 from, Vec3 direction, std::int32_t facet, bool meshed) {
     if (crossing.triangle < 0) return {};
-    const Wall& wall = _walls.facets[crossing.triangle];
+    const ModelFacet& opposite = _all.items[crossing.triangle];
     double away = crossing.distance;
-    if (is_edge_within(wedge_slenderness * away, from, wall.face)) return {};
+    if (is_edge_within(wedge_slenderness * away, from, opposite.face)) return {};
     const Seen closed{away, endless};
     if (!meshed) return closed;
-    const double off = _deviations[facet] + wall.deviation;
+    const double off = _deviations[facet] + opposite.deviation;
     if (away < gap_over_error * (off + _accuracy)) {
-      if (off <= 0 || is_edge_within(longest_facet(facet, wall), from, wall.face)) return closed;
-      away = distance_of_surfaces(from, direction, away, facet, wall);
+      if (off <= 0 || is_edge_within(longest_facet(facet, opposite), from, opposite.face)) return closed;
+      away = distance_of_surfaces(from, direction, away, facet, opposite);
       if (away < std::max(gap_over_error * _accuracy, surface_gap_over_error * off)) return closed;
     }
-    const double turn = norm(cross(_walls.normals[crossing.triangle], direction));
-    const bool closes = turn > 0 && is_edge_within(endless, from, wall.face, away / (closing_reach * turn));
+    const double turn = norm(cross(_all.normals[crossing.triangle], direction));
+    const bool closes =
+        turn > 0 && is_edge_within(endless, from, opposite.face, away / (closing_reach * turn));
     return {closed.gap, closes ? endless : away};
   }
 
-  /// Walls that run together towards a common edge, bent as their facets are, are nearer to each other than
-  /// those are off so far from it. What is found there is no gap but a cusp, or a fold of surfaces that cross
-  /// beside the edge.
-  double longest_facet(std::int32_t facet, const Wall& wall) const {
+  /// ModelFacets that run together towards a common edge, bent as their facets are, are nearer to each other
+  /// than those are off so far from it. What is found there is no gap but a cusp, or a fold of surfaces that
+  /// cross beside the edge.
+  double longest_facet(std::int32_t facet, const ModelFacet& opposite) const {
     const auto& [a, b, c] = _facets.triangles[facet];
     const Triangle own{_facets.points[a], _facets.points[b], _facets.points[c]};
-    return std::max(longest_edge(own).length, longest_edge(wall.corners).length);
+    return std::max(longest_edge(own).length, longest_edge(opposite.corners).length);
   }
 
   /// How far the opposite surface is from that of the face, beside the point on its facet; nothing where they
   /// cross, or where that is not known.
-  double distance_of_surfaces(Vec3 from, Vec3 direction, double away, std::int32_t facet, const Wall& wall) {
-    if (_model.sheet_count(_face) > 1 || _model.sheet_count(wall.face) > 1) return 0;
+  double distance_of_surfaces(Vec3 from, Vec3 direction, double away, std::int32_t facet,
+                              const ModelFacet& opposite) {
+    if (_model.sheet_count(_face) > 1 || _model.sheet_count(opposite.face) > 1) return 0;
     _nodes += nodes_per_projection;
     const auto& [a, b, c] = _facets.triangles[facet];
     const Vec2 own = parameters_at({_facets.points[a], _facets.points[b], _facets.points[c]},
                                    {_facets.uv[a], _facets.uv[b], _facets.uv[c]}, from);
     const Vec3 point = _model.face_point(_face, own);
     const cad::Projection foot = _model.project(
-        wall.face, point, parameters_at(wall.corners, wall.parameters, from + away * direction));
+        opposite.face, point, parameters_at(opposite.corners, opposite.parameters, from + away * direction));
     if (!foot.converged) return 0;
     const double apart = distance(point, foot.point);
     return dot(foot.point - point, direction) >= -facing * apart ? apart : 0;
@@ -271,15 +269,14 @@ private:
   bool is_edge_within(double reach, Vec3 point, cad::FaceId opposite, double least = 0) {
     const auto edges = _edges.find(opposite);
     if (edges == _edges.end()) return false;
-    const double away = edges->second.nearest(
-        point, reach, [](std::int32_t) { return true; }, _nodes);
+    const double away = edges->second.nearest(point, reach, &_nodes);
     return away < reach && away >= least;
   }
 
   const cad::Model& _model;
   cad::FaceId _face;
   const cad::Facets& _facets;
-  const Walls& _walls;
+  const ModelFacets& _all;
   std::map<cad::FaceId, SegmentTree>
       _edges;  // that the face shares with each neighbour; all of them with itself
   double _widest, _finest, _edge_per_gap;
@@ -310,27 +307,24 @@ std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, 
 
 namespace {
 
-std::vector<Triangle> corners_of(const std::vector<Wall>& walls) {
+std::vector<Triangle> corners_of(const std::vector<ModelFacet>& facets) {
   std::vector<Triangle> corners;
-  corners.reserve(walls.size());
-  for (const Wall& wall : walls) corners.push_back(wall.corners);
+  corners.reserve(facets.size());
+  for (const ModelFacet& facet : facets) corners.push_back(facet.corners);
   return corners;
 }
 
 }  // namespace
 
-Walls::Walls(std::vector<Wall> walls)
-    : tree(corners_of(walls)), rays(corners_of(walls)), facets(std::move(walls)) {
-  normals.reserve(facets.size());
-  for (const Wall& wall : facets) normals.push_back(unit_normal(wall.corners));
+ModelFacets::ModelFacets(std::vector<ModelFacet> all)
+    : tree(corners_of(all)), rays(corners_of(all)), items(std::move(all)) {
+  normals.reserve(items.size());
+  for (const ModelFacet& facet : items) normals.push_back(unit_normal(facet.corners));
 }
 
 FaceGapSearch::FaceGapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
-                             const Walls& walls, const GapLimits& limits)
-    : _rays(std::make_unique<Rays>(model, face, facets, walls, limits)) {}
-FaceGapSearch::~FaceGapSearch() = default;
-FaceGapSearch::FaceGapSearch(FaceGapSearch&&) noexcept = default;
-FaceGapSearch& FaceGapSearch::operator=(FaceGapSearch&&) noexcept = default;
+                             const ModelFacets& all, const GapLimits& limits)
+    : _rays(std::make_shared<Rays>(model, face, facets, all, limits)) {}
 
 std::int64_t FaceGapSearch::go_on(std::int64_t nodes, Gaps& gaps) {
   return _rays->cover(nodes, gaps);
@@ -354,7 +348,7 @@ std::int64_t count_rays(const Gaps& gaps, double layers) {
   double rays = 0;
   for (const Gaps::Part& part : gaps.narrow) {
     const double edge = edge_per_gap(layers) * part.gap;
-    rays += rays_per_area * area(part.triangle) / (edge * edge);
+    rays += rays_per_area * area_of(part.triangle) / (edge * edge);
   }
   return std::llround(std::min(rays, most_counted));
 }

@@ -1,4 +1,4 @@
-/// Distances to opposite walls: how thin a body or a gap is.
+/// How thin a body or a gap is: distances to opposite faces.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -14,114 +14,111 @@
 
 namespace aeroloom::sizing {
 
-/// Rays on a facet that is bisected down to an edge, times the square of that edge, over its area.
+/// The number of rays on a facet that is bisected to some edge length, times that length squared, over the
+/// area.
 inline constexpr double rays_per_area = 24;
 
-/// A point of a face with the distance to the wall opposite to it.
+/// A point of a face, and the distance to the face opposite to it.
 struct Gap {
   geometry::Vec3 point;
   double width;
-  bool is_meshed = true;  ///< whether what lies between is; if not, that is a thin part of a body
+  bool is_meshed = true;  ///< the space between is meshed; if not, it is a thin part of a body
 };
 
 /// Gaps that rays from one face have met.
 struct Gaps {
-  std::vector<Gap> seen;  ///< the narrower one on meshed sides of the face, and one through the body
-  /// On a side that is meshed, and where the walls do not run together towards a common edge: elements as
-  /// small as the gap resolve it. A wedge looks the same to elements of any size. Where facets are less than
-  /// twice their distance from the surface apart, the gap is that between the surfaces; none where these run
-  /// together towards a common edge nearer than the facets are long.
+  std::vector<Gap> seen;  ///< by ray: the narrower gap on meshed sides, and that through the body
+  /// Gaps on a meshed side whose faces do not run towards a common edge. Elements as small as the gap resolve
+  /// these; a wedge looks the same to elements of any size. If the gap is less than twice the distance of
+  /// facets from the surface, the distance of the surfaces counts. There is no gap if these run towards a
+  /// common edge nearer than the facets are long.
   std::vector<Gap> open;
-  /// A part of a facet that is longer than rays should be apart in the open gap there.
+  /// A part of a facet that is too long for the open gap seen from it.
   struct Part {
     Triangle triangle;
     double gap;
     std::int32_t facet;  ///< of the face
-    int depth;           ///< how often it was bisected for that
+    int depth;           ///< number of bisections for the open gap
   };
   std::vector<Part> narrow;
-  /// A part of a facet that was not looked at, for the work that would have been.
+  /// A part of a facet that was not searched, because the work was used up.
   struct Unseen {
     Triangle triangle;
     std::int32_t facet;  ///< of the face
-    int depth;           ///< how often that was bisected
+    int depth;           ///< number of bisections
   };
   std::vector<Unseen> unseen;
 };
 
-/// The distance of each facet's middle from the face's surface: nothing of a plane, at most a quarter of its
-/// longest edge.
+/// The distance of the middle of each facet from the surface of its face. It is zero on a plane, and at most
+/// a quarter of the longest edge.
 std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, const cad::Facets& facets);
 
-/// A facet as a wall.
-struct Wall {
+/// A facet of a face.
+struct ModelFacet {
   cad::FaceId face;
   Triangle corners;
   Parameters parameters;  ///< of its corners
   double deviation;       ///< its distance from the surface
 
   static constexpr auto fields() {
-    return std::tuple(&Wall::face, &Wall::corners, &Wall::parameters, &Wall::deviation);
+    return std::tuple(&ModelFacet::face, &ModelFacet::corners, &ModelFacet::parameters,
+                      &ModelFacet::deviation);
   }
 };
 
-/// The facets of all faces.
-struct Walls {
+/// The facets of all faces, in trees.
+struct ModelFacets {
   TriangleTree tree;
   RayTree rays;
   std::vector<geometry::Vec3> normals;  ///< unit; zero where a triangle has none
-  std::vector<Wall> facets;
+  std::vector<ModelFacet> items;
 
-  explicit Walls(std::vector<Wall> walls);
+  explicit ModelFacets(std::vector<ModelFacet> all);
 };
 
-/// Limits to the cost of a search for gaps, and the gaps that it looks for.
+/// Limits of a search for gaps.
 struct GapLimits {
   double widest;  ///< gaps wider than this are left out
-  double finest;  ///< no parts of facets are bisected whose edges are no longer than this
-  double layers;  ///< elements wanted across a gap, at most
+  double finest;  ///< parts of facets with edges up to this length are not bisected
+  double layers;  ///< the most elements wanted across a gap
 };
 
-/// Rays, and the nodes of trees that they have visited.
+/// The number of rays, and of visited tree nodes.
 struct LookedAt {
   std::int64_t rays, nodes;
 };
 
-/// Looks for gaps seen from one face, given by its facets: rays along its facets' normals, to both sides, to
-/// the nearest wall that faces back. Facets are bisected until their edges are no longer than four times the
-/// gap or `finest`. Wedges, where the opposite wall meets the face in an edge nearer than eight times the
-/// gap, are left out: sizes would fall to nothing there. A function of the model and the arguments alone,
-/// counts of nodes included, to which a projection on a surface adds as many as it takes time.
+/// Searches the gaps seen from one face. Rays leave its facets along the normals, to both sides, up to the
+/// nearest face that faces back. Facets are bisected until their edges are at most four times the gap, or
+/// `finest`. A wedge is left out: there the opposite face meets this one in an edge nearer than eight times
+/// the gap, and sizes would fall to nothing. The result and the counts of nodes depend on the model and the
+/// arguments alone. A projection on a surface counts as 100 nodes, for the time it takes.
 class FaceGapSearch {
 public:
   /// All arguments but the limits must outlive the search.
-  FaceGapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const Walls& walls,
+  FaceGapSearch(const cad::Model& model, cad::FaceId face, const cad::Facets& facets, const ModelFacets& all,
                 const GapLimits& limits);
-  ~FaceGapSearch();
-  FaceGapSearch(FaceGapSearch&&) noexcept;
-  FaceGapSearch& operator=(FaceGapSearch&&) noexcept;
 
-  /// Goes on until everything was looked at, or until about so many nodes of trees more were visited, which
-  /// are assigned to facets by area and to their parts; returns how many were.
+  /// Continues the search until everything was searched, or until about `nodes` more tree nodes were visited.
+  /// These are assigned to facets and their parts by area. Returns the number of visited nodes.
   std::int64_t go_on(std::int64_t nodes, Gaps& gaps);
 
-  /// Looks at the narrow parts of the face as closely as its open gaps are narrow, with rays `apart` times as
-  /// far from each other, and moves on from there: adds to the open gaps. The parts that are longest for the
-  /// gap seen in them come first, so what `most` leaves is looked at about as closely everywhere. Parts that
-  /// are longer than gaps ask for stay in gaps.narrow, for another look. Returns what it took.
+  /// Searches the narrow parts of the face more closely, as its open gaps need, with rays `apart` times as
+  /// far from each other. Adds to the open gaps. Parts that are longest for their gap come first, so that
+  /// `most` leaves all parts about equally fine. Parts that are still too long remain in gaps.narrow. Returns
+  /// the work done.
   LookedAt look_closer(double apart, const LookedAt& most, Gaps& gaps);
 
 private:
   class Rays;
-  std::unique_ptr<Rays> _rays;
+  std::shared_ptr<Rays> _rays;
 };
 
-/// The narrow part that is longest for the gap seen in it, where it is far longer than that asks for; null
-/// where none is.
+/// The narrow part that is longest for the gap seen in it, if it is far too long; null if there is none.
 const Gaps::Part* find_coarsest(const Gaps& gaps, double layers);
 
-/// About as many rays as it takes to look at the narrow parts of a face as closely as its open gaps are
-/// narrow, as far as those have been seen.
+/// About the number of rays that the narrow parts of a face need, as far as their gaps are known.
 std::int64_t count_rays(const Gaps& gaps, double layers);
 
 }  // namespace aeroloom::sizing

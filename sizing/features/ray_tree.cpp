@@ -58,15 +58,11 @@ double sides_of(const Box& box) {
   return 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
 }
 
-double area_of_triangle(const Triangle& t) {
-  return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
-}
-
 /// Calls `visit` for the boxes of the parts of a triangle.
 template <class Visit>
 void for_each_box(const Triangle& t, double emptiness, int cuts, const Visit& visit) {
   const Box box = box_around(t);
-  const double area = area_of_triangle(t);
+  const double area = area_of(t);
   if (cuts == 0 || !(area > 0) || sides_of(box) <= emptiness * area) return visit(box);
   for (const Triangle& half : bisect(t, longest_edge(t).from)) for_each_box(half, emptiness, cuts - 1, visit);
 }
@@ -154,7 +150,7 @@ RayTree::RayTree(std::span<const Triangle> triangles) {
   std::vector<Slender> left;
   double all_sides = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const double area = area_of_triangle(triangles[t]), sides = sides_of(box_around(triangles[t]));
+    const double area = area_of(triangles[t]), sides = sides_of(box_around(triangles[t]));
     all_sides += sides;
     if (area > 0 && sides > least_emptiness * area)
       left.push_back({static_cast<std::int32_t>(t), sides, direction_of(triangles[t])});

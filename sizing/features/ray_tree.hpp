@@ -1,4 +1,4 @@
-/// Triangles in trees for rays: which wall a line meets first.
+/// Triangles in trees for rays: the first triangle that a line meets.
 #pragma once
 
 #include "geometry/box_tree.hpp"
@@ -14,30 +14,30 @@
 
 namespace aeroloom::sizing {
 
-/// A box around a slender triangle that lies askew is mostly empty, and met by rays that miss the triangle.
-/// So where many slender triangles have about one direction, they and what is flat across it have a tree of
-/// their own, in a frame with an axis along them; slender ones left over are in several boxes, each around a
-/// part of one. For estimates: floating point.
+/// Trees of triangles, for estimates in floating point. The box of a slender triangle at an angle to the axes
+/// is mostly empty, so rays meet the box and miss the triangle. Therefore slender triangles of about one
+/// direction, and triangles flat across it, have a tree of their own, in a frame along that direction. Each
+/// of the remaining slender triangles is in several boxes.
 class RayTree {
 public:
   explicit RayTree(std::span<const Triangle> triangles);
 
-  /// A triangle that a line crosses, -1 none, and how far away.
+  /// A triangle that a line crosses, and its distance. The number is -1 if there is none.
   struct Crossing {
     std::int32_t triangle = -1;
     double distance = 0;
   };
-  /// The nearest of the triangles that a line crosses within `reach` of a point, ahead of it and behind it,
-  /// and that `counts(triangle)`; the lower one where two are as near. The direction is a unit vector;
-  /// `corners(triangle)` are those of the trees. No line slips between triangles that share an edge. Adds the
-  /// nodes that were visited to `nodes`.
+  /// The nearest crossings of a line, ahead of the point and behind it, within `reach`. Only triangles for
+  /// which `counts(triangle)` is true are met; of two at the same distance, the lower one. `direction`: a
+  /// unit vector. `corners(triangle)`: the corners with which the trees were made. No line passes between
+  /// triangles that share an edge. Adds the number of visited nodes to `nodes`.
   template <class Counts, class Corners>
   std::array<Crossing, 2> nearest_crossings(geometry::Vec3 point, geometry::Vec3 direction, double reach,
                                             const Corners& corners, const Counts& counts,
                                             std::int64_t& nodes) const;
-  /// Of the triangles that `counts(triangle)`, which is asked more than once of some, those that may come as
-  /// near as `within` to this one, itself included where it is one of them, and some others; ascending. Adds
-  /// the nodes that were visited to `nodes`.
+  /// Finds the triangles that may be as near as `within` to this one, and some others; ascending. A triangle
+  /// of the trees finds itself too. Only triangles for which `counts(triangle)` is true are found; it may be
+  /// called more than once for one. Adds the number of visited nodes to `nodes`.
   void find_near(const Triangle& triangle, double within, const std::function<bool(std::int32_t)>& counts,
                  std::vector<std::int32_t>& found, std::int64_t& nodes) const;
 
@@ -59,10 +59,10 @@ private:
     geometry::Vec3 point, inverse;
     double reach;
   };
-  /// Where on a line, from `low` to `high`, a box is.
+  /// The part of a line that lies in a box, from `low` to `high`.
   struct LineInterval {
     double low, high;
-    /// Whether something there may be as near as what was found on either side.
+    /// Whether a triangle there may be as near as the nearest found so far, on either side.
     bool matters(const std::array<Crossing, 2>& nearest, double slack) const {
       return low <= high && ((high >= -slack && low <= nearest[0].distance + slack) ||
                              (low <= slack && high >= -nearest[1].distance - slack));
@@ -79,8 +79,8 @@ private:
     }
     return stretch;
   }
-  /// Calls `meet(triangle)` for those in boxes that the line meets no farther than what is nearest by then,
-  /// the nearer boxes first.
+  /// Calls `meet(triangle)` for the triangles in boxes that the line meets, nearer boxes first. Boxes farther
+  /// than the nearest triangle so far are left out.
   template <class Meet>
   static void search(const Group& group, const Line& line, const std::array<Crossing, 2>& nearest,
                      std::int64_t& nodes, const Meet& meet);

@@ -1,4 +1,4 @@
-/// Segments in a tree of boxes: how far away the nearest one is.
+/// Segments in a tree of boxes, to find the one nearest to a point.
 #pragma once
 
 #include "geometry/box_tree.hpp"
@@ -10,7 +10,7 @@
 
 namespace aeroloom::sizing {
 
-/// Where on the segment, from 0 to 1, the point nearest to p is.
+/// The place on the segment from a to b that is nearest to p, from 0 at a to 1 at b.
 inline double part_along(geometry::Vec3 p, geometry::Vec3 a, geometry::Vec3 b) {
   const geometry::Vec3 along = b - a;
   const double square = dot(along, along);
@@ -21,11 +21,19 @@ inline double distance_to_segment(geometry::Vec3 p, geometry::Vec3 a, geometry::
   return distance(p, a + part_along(p, a, b) * (b - a));
 }
 
+/// Zero inside the box.
+inline double distance_to_box(geometry::Vec3 p, const geometry::Box& box) {
+  geometry::Vec3 apart;
+  for (int axis = 0; axis < 3; ++axis)
+    apart[axis] = std::max({box.low[axis] - p[axis], p[axis] - box.high[axis], 0.0});
+  return norm(apart);
+}
+
 class SegmentTree {
 public:
   struct Segment {
     geometry::Vec3 a, b;
-    std::int32_t tag;  ///< what it belongs to
+    std::int32_t tag;  ///< number of what the segment belongs to
   };
 
   SegmentTree() = default;
@@ -40,19 +48,14 @@ public:
     double away;
     std::int32_t tag = -1;  ///< -1: no segment is that near
   };
-  /// The nearest segment whose tag `counts(tag)`, or `bound` where none is nearer than that. Tags are asked
-  /// for in no particular order, and not for all.
+  /// The nearest segment for whose tag `counts(tag)` is true. Where none is nearer than `bound`, returns
+  /// `bound` and tag -1. Tags are tried in no particular order, and not all of them. Adds the number of
+  /// visited nodes to `nodes`, if given.
   template <class Counts>
-  Hit nearest_hit(geometry::Vec3 p, double bound, const Counts& counts) const {
-    std::int64_t nodes = 0;
-    return nearest_hit(p, bound, counts, nodes);
-  }
-  /// Adds the nodes that were visited to `nodes`.
-  template <class Counts>
-  Hit nearest_hit(geometry::Vec3 p, double bound, const Counts& counts, std::int64_t& nodes) const {
+  Hit nearest_hit(geometry::Vec3 p, double bound, const Counts& counts, std::int64_t* nodes = nullptr) const {
     std::int32_t tag = -1;
     const auto away_from = [&](const geometry::Box& box) {
-      ++nodes;
+      if (nodes != nullptr) ++*nodes;
       return distance_to_box(p, box);
     };
     _tree.search_nearest(away_from, bound, [&](std::int32_t place) {
@@ -62,25 +65,15 @@ public:
     });
     return {bound, tag};
   }
-  /// The distance to the nearest segment alone.
-  template <class Counts>
-  double nearest(geometry::Vec3 p, double bound, const Counts& counts) const {
-    return nearest_hit(p, bound, counts).away;
-  }
-  template <class Counts>
-  double nearest(geometry::Vec3 p, double bound, const Counts& counts, std::int64_t& nodes) const {
-    return nearest_hit(p, bound, counts, nodes).away;
+  /// The distance to the nearest of all segments, or `bound`.
+  double nearest(geometry::Vec3 p, double bound, std::int64_t* nodes = nullptr) const {
+    return nearest_hit(
+               p, bound, [](std::int32_t) { return true; }, nodes)
+        .away;
   }
 
 private:
   static constexpr int segments_per_leaf = 4;  // chosen, not measured
-
-  static double distance_to_box(geometry::Vec3 p, const geometry::Box& box) {
-    geometry::Vec3 apart;
-    for (int axis = 0; axis < 3; ++axis)
-      apart[axis] = std::max({box.low[axis] - p[axis], p[axis] - box.high[axis], 0.0});
-    return norm(apart);
-  }
 
   std::vector<Segment> _segments;
   geometry::BoxTree _tree;

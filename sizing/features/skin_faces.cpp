@@ -27,7 +27,7 @@ bool is_valley(const cad::Model& model, cad::FaceId face, cad::FaceId other, con
 }  // namespace
 
 std::set<cad::FaceId> skin_faces(const cad::Model& model, std::span<const cad::FaceId> first,
-                                 cad::FaceId strip, Kinks kinks) {
+                                 cad::FaceId except, Kinks kinks) {
   // Degrees: a skin goes on beyond an edge that turns by less, but for tips and noses
   // (docs/cad_repair.md).
   constexpr double largest_kink = 50;
@@ -38,7 +38,7 @@ std::set<cad::FaceId> skin_faces(const cad::Model& model, std::span<const cad::F
   std::set<cad::FaceId> skin;
   std::vector<cad::FaceId> next;
   const auto add = [&](cad::FaceId face) {
-    if (face != strip && !model.is_far_field(face) && skin.size() < most_faces_of_skin &&
+    if (face != except && !model.is_far_field(face) && skin.size() < most_faces_of_skin &&
         skin.insert(face).second)
       next.push_back(face);
   };

@@ -1,4 +1,4 @@
-/// The faces of a lifting body's skin.
+/// The faces of the skin of a lifting body.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -8,12 +8,12 @@
 
 namespace aeroloom::sizing {
 
-/// Kinks over which a skin goes on: all up to 50 degrees, or none that is a valley of more than 15: there
-/// another body begins (a fuselage below a wing).
+/// The kinks across which a skin continues: all up to 50 degrees, or only those that are no valley of more
+/// than 15. Beyond such a valley another body begins, for example the fuselage below a wing.
 enum class Kinks : bool { all, no_valleys };
 
-/// Those of `first` and what goes on from them, no far field, without `strip`; 64 at most.
+/// The faces `first` and those that continue them, at most 64. Far field faces and `except` are left out.
 std::set<cad::FaceId> skin_faces(const cad::Model& model, std::span<const cad::FaceId> first,
-                                 cad::FaceId strip, Kinks kinks);
+                                 cad::FaceId except, Kinks kinks);
 
 }  // namespace aeroloom::sizing

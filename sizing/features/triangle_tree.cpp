@@ -214,7 +214,7 @@ bool TriangleTree::contains(Vec3 point) const {
   return first == second ? first : odd_crossings(point, {0.2719, -0.6133, -0.7416});
 }
 
-double TriangleTree::share_behind(Vec3 low, double edge, std::span<const std::int32_t> triangles) const {
+double TriangleTree::fraction_behind(Vec3 low, double edge, std::span<const std::int32_t> triangles) const {
   const Vec3 middle = low + 0.5 * edge * Vec3{1, 1, 1};
   double nearest = 1e300, side = 0;
   Vec3 direction;

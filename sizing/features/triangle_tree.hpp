@@ -1,4 +1,4 @@
-/// Triangles in a tree of boxes: what overlaps a cube, and on which side of a closed surface a point lies.
+/// Triangles in a tree of boxes: which of them overlap a cube, and whether a point is inside the surface.
 #pragma once
 
 #include "geometry/box_tree.hpp"
@@ -16,25 +16,29 @@ namespace aeroloom::sizing {
 using Triangle = std::array<geometry::Vec3, 3>;
 
 struct LongestEdge {
-  int from = 0;  ///< corner; it leads to the next one
+  int from = 0;  ///< its first corner; the next corner ends it
   double length = 0;
 };
 LongestEdge longest_edge(const Triangle& t);
 
+inline double area_of(const Triangle& t) {
+  return 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
+}
+
 /// The halves of a triangle, cut in the middle of the edge from that corner to the next one.
 std::array<Triangle, 2> bisect(const Triangle& t, int from);
 
-/// A line that does not slip between triangles which share an edge or a corner: each corner is sheared by
-/// itself to where the line is the third axis, so those triangles have the same corners there too, and on
-/// which side of an edge the line is gets an exact sign. Woop, Benthin and Wald, J. Computer Graphics
-/// Techniques 2(1), 2013, https://jcgt.org/published/0002/01/05/.
+/// A line that cannot pass between triangles which share an edge or a corner. Each corner is sheared to a
+/// frame with the line as third axis. Shared corners have the same coordinates there. So the side of an edge
+/// on which the line passes has an exact sign. Woop, Benthin and Wald, J. Computer Graphics Techniques 2(1),
+/// 2013, https://jcgt.org/published/0002/01/05/.
 class ShearedLine {
 public:
-  /// The direction is a unit vector.
+  /// `direction`: a unit vector.
   ShearedLine(geometry::Vec3 point, geometry::Vec3 direction);
 
-  /// How far along the line a triangle is, border included, negative behind the point; infinity where the
-  /// line misses it, meets it in the point, or lies in its plane.
+  /// The distance along the line to a triangle, border included; negative behind the point. Infinite if the
+  /// line misses the triangle, meets it in the point, or lies in its plane.
   double place_of(const Triangle& t) const;
 
 private:
@@ -45,30 +49,30 @@ private:
   }
 
   geometry::Vec3 _point;
-  int _axis, _first, _second;  // the one that the line runs along most, and the others
+  int _axis, _first, _second;  // the axis that is nearest to the line, and the others
   geometry::Vec2 _shear;
   double _scale;
 };
 
-/// For estimates: floating point throughout, and the surface may have gaps of facets that do not match.
+/// A triangle surface for estimates. It uses floating point, and facets need not match at their edges.
 class TriangleTree {
 public:
   explicit TriangleTree(const std::vector<Triangle>& triangles);
 
-  /// The triangles that meet the inside of the cube (a few that only come close included); slender ones as
-  /// several that are the same.
+  /// Finds the triangles that meet the inside of the cube, and a few that only come close. A slender triangle
+  /// may be found several times.
   void find_overlapping(geometry::Vec3 low, double edge, std::vector<std::int32_t>& found) const;
-  /// As find_overlapping(), given those of a cube around this one.
+  /// As find_overlapping(), from the triangles of a larger cube around this one.
   void keep_overlapping(geometry::Vec3 low, double edge, std::span<const std::int32_t> candidates,
                         std::vector<std::int32_t>& found) const;
-  /// Whether the point lies inside, by the parity of crossings, majority of three directions.
+  /// Whether the point is inside: the parity of crossings, by majority of three directions.
   bool contains(geometry::Vec3 point) const;
-  /// The share of a cube that lies on the inner side of that of these triangles which is nearest to its
-  /// middle, as if that were a plane: right on average over cubes that a smooth surface cuts.
-  double share_behind(geometry::Vec3 low, double edge, std::span<const std::int32_t> triangles) const;
+  /// The fraction of a cube on the inner side of the nearest of these triangles, taken as a plane. This is
+  /// right on average over cubes that a smooth surface cuts.
+  double fraction_behind(geometry::Vec3 low, double edge, std::span<const std::int32_t> triangles) const;
 
 private:
-  /// How far along the ray the box begins; infinity where the ray misses it.
+  /// The distance along the ray to the box; infinite if the ray misses it.
   static double entry(const geometry::Box& box, geometry::Vec3 point, geometry::Vec3 inverse) {
     double enter = 0, leave = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
@@ -84,9 +88,9 @@ private:
 
   std::vector<Triangle> _triangles;  // in the order of the tree
   static constexpr std::int32_t in_one_box = -1;
-  std::vector<std::int32_t> _numbers;    // of those with several boxes, the same for each of them
-  std::vector<geometry::Box> _boxes;     // of those, or of a part
-  std::vector<geometry::Vec3> _normals;  // twice as long as their areas
+  std::vector<std::int32_t> _numbers;    // of triangles; equal for the boxes of one triangle
+  std::vector<geometry::Box> _boxes;     // of triangles or their parts
+  std::vector<geometry::Vec3> _normals;  // their length is twice the area
   geometry::BoxTree _tree;
 };
 

@@ -5,28 +5,30 @@
 
 namespace aeroloom::sizing {
 
-/// Degrees an element may turn on the far field where curvature_angle asks for less: enough to stay round.
+/// Degrees that an element may turn on the far field, if curvature_angle is smaller. It keeps the far field
+/// round.
 inline constexpr double far_field_angle = 20;
 
-/// How far samples are apart, at most, over the size asked for there.
+/// The largest distance of two samples, over the size asked for there.
 inline constexpr double spacing = 1.0;
-/// Bisections of one facet or curve interval, at most: what is still too long then is singular.
+/// The most bisections of one facet or curve interval. What is still too long then is singular.
 inline constexpr int deepest_bisection = 40;
 
 double radians_per_element(bool far_field, const SizingOptions& options);
 
-/// Limits to the sizes that curvature asks for on the body, or on the far field, which turns slowly and has
-/// no shape to keep.
+/// How far elements may deviate from a curved surface. The far field has larger limits, since its shape does
+/// not matter.
 struct CurvatureLimits {
-  double angle;      ///< an element turns by, at most; radians
-  double deviation;  ///< of triangles from the surface, at most; 0: any
+  double angle;      ///< largest turn of an element, radians
+  double deviation;  ///< largest distance of triangles from the surface; 0: any
 };
 CurvatureLimits curvature_limits(bool far_field, const SizingOptions& options);
 
 /// The largest size on a face of the body or of the far field.
 double largest_size(bool far_field, const SizingOptions& options);
 
-/// Of an element within the limits on a curve or surface of this curvature; `largest` where it is flat.
+/// The size of an element within the limits, on a curve or surface of this curvature. It is `largest` where
+/// the surface is flat.
 double size_for_curvature(double curvature, const CurvatureLimits& limits, double largest,
                           const SizingOptions& options);
 

@@ -1,4 +1,4 @@
-/// How many elements a flat facet has room for.
+/// The number of elements for which a flat facet has room.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -8,8 +8,8 @@
 
 namespace aeroloom::sizing {
 
-/// Integral of 1/h^2 over the facet, by its parts that are at most a few sizes large; 4 / sqrt(3) of it is
-/// the number of triangles there.
+/// The integral of 1/h^2 over the facet. Long facets are cut to a few sizes first. The number of triangles
+/// there is 4 / sqrt(3) times the integral.
 double integrate_facet(const SizeField& field, const std::array<geometry::Vec3, 3>& facet);
 
 }  // namespace aeroloom::sizing

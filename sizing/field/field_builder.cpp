@@ -26,8 +26,8 @@ namespace {
 constexpr double leaf_edge_per_size = 2.0;
 /// Leaves before the division of coarse ones over the most there may be: a division makes eight of one.
 constexpr std::int64_t growth_by_division = 8;
-/// More sources, or leaves of the field to start from, are shared by several pages; chosen, not measured.
-constexpr std::int64_t cells_per_page = 500;
+/// More sources, or leaves of the field to start from, are shared by several subtrees; chosen, not measured.
+constexpr std::int64_t cells_per_subtree = 500;
 /// Masters are not looked through for equal ones before there are so many: to do so takes a sort of all.
 /// Chosen, not measured.
 constexpr std::size_t least_masters = 1 << 20;
@@ -92,12 +92,12 @@ std::optional<SizeField> FieldBuilder::build_within(std::vector<SizeSource> sour
   const ScopedCpu own(ScopedCpu::As::task);
   sources = thin_sources(_root, sources);
   _cells = SplitCubes(divide_root(sources));
-  _sources = send_to_pages(_cells.pages(), std::move(sources));
+  _sources = send_to_owners(_cells.subtrees(), std::move(sources));
   split_at_sources();
   if (_previous != nullptr) split_as_before();
   _cells.balance();
   if (_cells.leaf_count() > most_leaves) return std::nullopt;
-  const SharedSeeds at_sources(_cells.pages(), seeds_at_sources());
+  const SharedSeeds at_sources(_cells.subtrees(), seeds_at_sources());
   if (!split_where_coarse(SeedTree({&at_sources}, _slope), most_leaves / growth_by_division))
     return std::nullopt;
   _cells.balance();
@@ -122,11 +122,11 @@ void FieldBuilder::require_positive(std::span<const SizeSource> own) const {
   require(smallest > 0, "a source must have a positive, finite size", smallest);
 }
 
-Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {
+Subtrees FieldBuilder::divide_root(std::span<const SizeSource> own) const {
   if (_previous != nullptr) {
     const CellSpans leaves = _previous->_octree.leaves();
     const IndexRange own_leaves = even_part(leaves.size(), _communicator.rank(), _communicator.size());
-    return {_communicator, leaves.part(own_leaves), cells_per_page};
+    return {_communicator, leaves.part(own_leaves), cells_per_subtree};
   }
   std::vector<Cell> cells;
   for (const SizeSource& source : own) cells.push_back(cell_of(source));
@@ -137,11 +137,14 @@ Pages FieldBuilder::divide_root(std::span<const SizeSource> own) const {
     keys.push_back(cell.key);
     levels.push_back(static_cast<std::uint8_t>(cell.level));
   }
-  return {_communicator, {keys, levels}, cells_per_page};
+  return {_communicator, {keys, levels}, cells_per_subtree};
 }
 
-std::vector<SizeSource> FieldBuilder::send_to_pages(const Pages& pages, std::vector<SizeSource> own) const {
-  const auto owner = [&](const SizeSource& source) { return pages.owner(pages.find(cell_of(source).key)); };
+std::vector<SizeSource> FieldBuilder::send_to_owners(const Subtrees& subtrees,
+                                                     std::vector<SizeSource> own) const {
+  const auto owner = [&](const SizeSource& source) {
+    return subtrees.owner(subtrees.find(cell_of(source).key));
+  };
   return thin_sources(_root, parallel::deliver(_communicator, std::move(own), owner));
 }
 
@@ -159,12 +162,12 @@ void FieldBuilder::split_at_sources() {
 
 void FieldBuilder::split_as_before() {
   const auto [keys, levels] = _previous->_octree.leaves();
-  const IndexRange own = _cells.own_pages();
+  const IndexRange own = _cells.own_subtrees();
   if (own.size() == 0) return;
-  const Pages& pages = _cells.pages();
-  const auto first = std::lower_bound(keys.begin(), keys.end(), pages.key(own.first));
+  const Subtrees& subtrees = _cells.subtrees();
+  const auto first = std::lower_bound(keys.begin(), keys.end(), subtrees.key(own.first));
   const auto last =
-      own.last < pages.count() ? std::lower_bound(first, keys.end(), pages.key(own.last)) : keys.end();
+      own.last < subtrees.count() ? std::lower_bound(first, keys.end(), subtrees.key(own.last)) : keys.end();
   for (auto key = first; key < last; ++key) {
     const int level = levels[static_cast<std::size_t>(key - keys.begin())];
     if (level > 0) _cells.split(*key, level - 1);
@@ -207,14 +210,14 @@ std::vector<FieldBuilder::PointSize> FieldBuilder::sizes_at_masters(const Octree
 SeedTree FieldBuilder::plant_seeds(const Octree& octree, const SharedSeeds& at_sources) const {
   std::vector<PointSize> at_masters;
   parallel::agree(_communicator, [&] { at_masters = sizes_at_masters(octree); });
-  const Pages& pages = _cells.pages();
-  const auto owner = [&](const PointSize& at) { return pages.owner(pages.find(at.key)); };
+  const Subtrees& subtrees = _cells.subtrees();
+  const auto owner = [&](const PointSize& at) { return subtrees.owner(subtrees.find(at.key)); };
   at_masters = parallel::deliver(_communicator, std::move(at_masters), owner);
   keep_smallest(at_masters);
   std::vector<SizeSeed> seeds;
   seeds.reserve(at_masters.size());
   for (const PointSize& at : at_masters) seeds.push_back({grid_point(at.key), 0, at.size});
-  const SharedSeeds shared(pages, seeds);
+  const SharedSeeds shared(subtrees, seeds);
   return SeedTree({&at_sources, &shared}, _slope);
 }
 
@@ -224,14 +227,14 @@ Octree FieldBuilder::grow_octree() const {
   octree.levels = parallel::NodeArray<std::uint8_t>::gathered(_communicator, own.levels);
   // Keys and table follow from the levels.
   const auto write_keys = [&](parallel::Rank rank, std::size_t first, std::span<std::uint64_t> to) {
-    std::uint64_t next = _cells.pages().first_key(rank);
+    std::uint64_t next = _cells.subtrees().first_key(rank);
     for (std::uint64_t& key : to) {
       key = next;
       next += cells_in_leaf(octree.levels[first++]);
     }
   };
   octree.keys = parallel::NodeArray<std::uint64_t>::composed(_communicator, own.keys, write_keys);
-  octree.table = LeafTable(_cells.pages(), own, octree.leaves());
+  octree.table = LeafTable(_cells.subtrees(), own, octree.leaves());
   return octree;
 }
 

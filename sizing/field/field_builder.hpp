@@ -1,4 +1,4 @@
-/// Builds size fields: octree, sizes at its nodes, hanging nodes.
+/// Builds size fields: the octree, the sizes at its corners, and the hanging corners.
 #pragma once
 
 #include "sizing/field/seed_tree.hpp"
@@ -14,38 +14,39 @@
 
 namespace aeroloom::sizing {
 
-/// Where neighbours differ by more, sizes are no field any more.
+/// The largest growth ratio of neighbouring sizes that is accepted.
 inline constexpr double largest_growth = 10;
 
 /// Throws std::invalid_argument, naming the option, unless 0 < minimum <= maximum, growth > 1,
 /// 0 < curvature_angle < 180 and surface_maximum is 0 or at least the minimum.
 void check_options(const SizingOptions& options);
 
-/// One build of a field by all ranks, the same on each and for any number of them. A source asks for its size
-/// in the whole cell around it whose edge is at most that size; elsewhere the size is that of the cheapest
-/// source, size + ln(growth) * distance from that cell. The root is shared as pages: a rank has the sources
-/// and makes the leaves in its own. Sizes at corners of leaves are found by ranges of the Morton curve. What
-/// is looked up everywhere, leaves, the cells of sources, is held once per node.
+/// Builds one field on all ranks. The result is the same on every rank and for any number of ranks. A source
+/// asks for its size in the whole cell around it whose edge is at most that size. Elsewhere the size is the
+/// least of size + ln(growth) * distance from that cell, over all sources. Each rank makes the leaves in its
+/// own subtrees of the octree. Sizes at corners are found by ranges of the Morton curve. Leaves and seeds are
+/// needed everywhere and held once on each node.
 class FieldBuilder {
 public:
   /// Collective, as all that follows.
   FieldBuilder(const parallel::Communicator& communicator, const geometry::Box& domain,
                const SizingOptions& options);
-  /// Starts from a field of these ranks that the new one must nowhere exceed.
+  /// Starts from a field of the same ranks. The new field exceeds it nowhere.
   explicit FieldBuilder(const SizeField& previous);
 
-  /// The field under the sources of all ranks, whose sizes may lie below the minimum. Called once.
+  /// The field of the sources of all ranks. Their sizes may lie below the minimum. Call it once.
   SizeField build(std::vector<SizeSource> sources);
-  /// Builds the field; nothing, at less cost, where the field has clearly more than `most_leaves`.
+  /// As build(), but returns nothing if the field would clearly have more than `most_leaves` leaves. That
+  /// costs less than the field.
   std::optional<SizeField> build_within(std::vector<SizeSource> sources, std::int64_t most_leaves);
 
 private:
-  /// A source's cell.
+  /// The cell around a source.
   struct Cell {
     std::uint64_t key;  ///< of its low corner
     int level;
   };
-  /// A point of the finest grid, by its key, with a size asked for there.
+  /// A point of the finest grid, given by its key, and a size asked for there.
   struct PointSize {
     std::uint64_t key;
     double size;
@@ -56,28 +57,29 @@ private:
   Cell cell_of(const SizeSource& source) const;
   /// Throws std::invalid_argument on all ranks where one has an impossible source.
   void require_positive(std::span<const SizeSource> own) const;
-  /// The root in pages, by these sources, or by the leaves of the field it starts from.
-  Pages divide_root(std::span<const SizeSource> own) const;
-  /// Gives sources to the ranks in whose pages their cells begin; of those of one cell the smallest is kept.
-  std::vector<SizeSource> send_to_pages(const Pages& pages, std::vector<SizeSource> own) const;
+  /// Divides the root into subtrees, by these sources or by the leaves of the field to start from.
+  Subtrees divide_root(std::span<const SizeSource> own) const;
+  /// Sends each source to the rank that owns the subtree where its cell begins. Of the sources in one cell
+  /// the smallest is kept.
+  std::vector<SizeSource> send_to_owners(const Subtrees& subtrees, std::vector<SizeSource> own) const;
   void split_at_sources();
-  /// As the field that it starts from is.
+  /// Splits cells as in the field to start from.
   void split_as_before();
   std::vector<SizeSeed> seeds_at_sources() const;
-  /// Keeps the smallest of the sizes at one point; points along the curve.
+  /// Keeps the smallest of the sizes at each point; sorts points along the Morton curve.
   static void keep_smallest(std::vector<PointSize>& sizes);
-  /// Corners that hanging corners of leaves hang on, with the smallest size that the sources of this rank ask
-  /// for in those leaves.
+  /// The masters of hanging corners of the leaves in which sources of this rank lie. Each has the smallest
+  /// size that those sources ask for.
   std::vector<PointSize> sizes_at_masters(const Octree& octree) const;
-  /// The tree of the sources' cells, given, and of those.
+  /// The tree of the seeds at sources, and of seeds at masters of hanging corners.
   SeedTree plant_seeds(const Octree& octree, const SharedSeeds& at_sources) const;
   Octree grow_octree() const;
-  /// False where that would take more cubes than that.
+  /// Returns false where it would split more than `most_cubes` cubes.
   bool split_where_coarse(const SeedTree& seeds, std::int64_t most_cubes);
-  /// The bound that no size may exceed at a point.
+  /// The largest size allowed at a point.
   double bound_at(GridPoint p) const;
   std::vector<float> sizes_at_corners(const Octree& octree, const SeedTree& seeds, IndexRange range) const;
-  /// With the sizes at corners of this rank's leaves as they are held.
+  /// `own_sizes`: the packed sizes at corners of the leaves of this rank.
   SizeField finish(const Octree& octree, std::vector<float> own_sizes) const;
 
   parallel::Communicator _communicator;

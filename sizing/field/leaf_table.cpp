@@ -50,9 +50,9 @@ private:
   std::vector<std::int32_t> _entries = std::vector<std::int32_t>(branches, 0);
 };
 
-/// A rank's part of a table, with branches of pages in place of the first node.
+/// A rank's part of a table, with branches of subtrees in place of the first node.
 struct PartOfTable {
-  std::vector<std::int32_t> branches;  ///< of its pages, in their order
+  std::vector<std::int32_t> branches;  ///< of its subtrees, in their order
   std::vector<std::int32_t> entries;   ///< of the nodes below
 
   /// From numbers among this rank's leaves and nodes to those among all.
@@ -64,39 +64,39 @@ struct PartOfTable {
   }
 };
 
-PartOfTable tabulate(const Pages& pages, IndexRange own, CellSpans leaves) {
+PartOfTable tabulate(const Subtrees& subtrees, IndexRange own, CellSpans leaves) {
   Nodes nodes;
   PartOfTable part;
   std::size_t leaf = 0;
-  for (std::size_t page = own.first; page < own.last; ++page) {
-    const std::uint64_t low = pages.key(page);
-    const std::uint64_t end = low + (1ULL << 3 * (finest_level - pages.level(page)));
-    const int level = branch_level(pages.level(page));
+  for (std::size_t subtree = own.first; subtree < own.last; ++subtree) {
+    const std::uint64_t low = subtrees.key(subtree);
+    const std::uint64_t end = low + (1ULL << 3 * (finest_level - subtrees.level(subtree)));
+    const int level = branch_level(subtrees.level(subtree));
     std::fill_n(nodes.entries().begin(), branches, 0);
     for (; leaf < leaves.size() && leaves.keys[leaf] < end; ++leaf)
       nodes.put(low, level, leaves.keys[leaf], leaves.levels[leaf], leaf);
     part.branches.insert(
         part.branches.end(), nodes.entries().begin(),
-        nodes.entries().begin() + static_cast<std::ptrdiff_t>(branches_of(pages.level(page))));
+        nodes.entries().begin() + static_cast<std::ptrdiff_t>(branches_of(subtrees.level(subtree))));
   }
   part.entries.assign(nodes.entries().begin() + branches, nodes.entries().end());
   return part;
 }
 
-/// The nodes above pages; entries where pages are remain open.
-Nodes above_pages(const Pages& pages) {
+/// The nodes above subtrees; entries where subtrees are remain open.
+Nodes above_subtrees(const Subtrees& subtrees) {
   Nodes nodes;
-  for (std::size_t page = 0; page < pages.count(); ++page)
-    nodes.place(0, 2, pages.key(page), pages.level(page));
+  for (std::size_t subtree = 0; subtree < subtrees.count(); ++subtree)
+    nodes.place(0, 2, subtrees.key(subtree), subtrees.level(subtree));
   return nodes;
 }
 
-/// Puts the branches of all pages, one page after another, into the nodes above.
-void fill_in_pages(const Pages& pages, const std::vector<std::int32_t>& of_pages, Nodes& above) {
-  auto next = of_pages.begin();
-  for (std::size_t page = 0; page < pages.count(); ++page) {
-    const std::size_t at = above.place(0, 2, pages.key(page), pages.level(page));
-    const auto end = next + static_cast<std::ptrdiff_t>(branches_of(pages.level(page)));
+/// Puts the branches of all subtrees, one subtree after another, into the nodes above.
+void fill_in_subtrees(const Subtrees& subtrees, const std::vector<std::int32_t>& of_subtrees, Nodes& above) {
+  auto next = of_subtrees.begin();
+  for (std::size_t subtree = 0; subtree < subtrees.count(); ++subtree) {
+    const std::size_t at = above.place(0, 2, subtrees.key(subtree), subtrees.level(subtree));
+    const auto end = next + static_cast<std::ptrdiff_t>(branches_of(subtrees.level(subtree)));
     std::copy(next, end, above.entries().begin() + static_cast<std::ptrdiff_t>(at));
     next = end;
   }
@@ -111,27 +111,27 @@ LeafTable::LeafTable(CellSpans leaves) {
   _entries = parallel::NodeArray<std::int32_t>(std::move(nodes.entries()));
 }
 
-// A rank's nodes come after those above all pages and those of lower ranks; within its part they count
+// A rank's nodes come after those above all subtrees and those of lower ranks; within its part they count
 // from 1.
-LeafTable::LeafTable(const Pages& pages, CellSpans own, CellSpans all) {
-  const parallel::Communicator& communicator = pages.communicator();
+LeafTable::LeafTable(const Subtrees& subtrees, CellSpans own, CellSpans all) {
+  const parallel::Communicator& communicator = subtrees.communicator();
   const auto first_leaf = [&](parallel::Rank rank) {
     return static_cast<std::size_t>(
-        std::lower_bound(all.keys.begin(), all.keys.end(), pages.first_key(rank)) - all.keys.begin());
+        std::lower_bound(all.keys.begin(), all.keys.end(), subtrees.first_key(rank)) - all.keys.begin());
   };
-  PartOfTable part = tabulate(pages, pages.of_rank(communicator.rank()), own);
-  Nodes above = above_pages(pages);
-  // The branches of pages count leaves and nodes of all.
+  PartOfTable part = tabulate(subtrees, subtrees.of_rank(communicator.rank()), own);
+  Nodes above = above_subtrees(subtrees);
+  // The branches of subtrees count leaves and nodes of all.
   const auto nodes = static_cast<std::int64_t>(part.entries.size() / branches);
   const auto nodes_before = above.count() + static_cast<std::size_t>(communicator.exclusive_scan(nodes));
   part.renumber(first_leaf(communicator.rank()), nodes_before - 1);
-  fill_in_pages(pages, communicator.all_gather_items<std::int32_t>(part.branches), above);
+  fill_in_subtrees(subtrees, communicator.all_gather_items<std::int32_t>(part.branches), above);
   const std::vector<std::int32_t>& top = above.entries();
   if (communicator.is_root()) part.entries.insert(part.entries.begin(), top.begin(), top.end());
   const auto write = [&](parallel::Rank rank, std::size_t first, std::span<std::int32_t> to) {
     const IndexRange leaves{first_leaf(rank),
                             rank + 1 < communicator.size() ? first_leaf(rank + 1) : all.size()};
-    PartOfTable other = tabulate(pages, pages.of_rank(rank), all.part(leaves));
+    PartOfTable other = tabulate(subtrees, subtrees.of_rank(rank), all.part(leaves));
     if (rank == 0) to = {std::copy(top.begin(), top.end(), to.begin()), to.end()};
     other.renumber(leaves.first, (rank == 0 ? above.count() : first / branches) - 1);
     std::copy(other.entries.begin(), other.entries.end(), to.begin());

@@ -1,9 +1,8 @@
-/// The octree behind the size field: which cells are split, the leaves along the curve, and how a point finds
-/// its leaf.
+/// The octree of a size field: its split cells, its leaves along the Morton curve, and the leaf of a point.
 #pragma once
 
 #include "parallel/communication/node_array.hpp"
-#include "sizing/field/pages.hpp"
+#include "sizing/field/subtrees.hpp"
 
 #include <array>
 #include <cstdint>
@@ -12,66 +11,67 @@
 
 namespace aeroloom::sizing {
 
-/// An octree as the sets of its split cells, one ascending list of level keys per level (a level key has
-/// three bits per level). Splitting a cell splits its ancestors once balance() has run. Each rank has the
-/// cells in its own pages; those that hold several pages are all split.
+/// An octree, held as the sets of its split cells: one ascending list of level keys for each level. A level
+/// key has three bits for each level. balance() also splits all ancestors of a split cell. Each rank holds
+/// the cells of its own subtrees. A cell that holds several subtrees is always split.
 class SplitCubes {
 public:
-  /// On this rank alone.
+  /// The whole octree on this rank.
   SplitCubes() = default;
-  explicit SplitCubes(Pages pages);
+  explicit SplitCubes(Subtrees subtrees);
 
-  /// Splits the cell of `level` that holds the finest cell `key`, in a page of this rank.
+  /// Splits the cell of `level` that holds the finest cell `key`. It must lie in a subtree of this rank.
   void split(std::uint64_t key, int level) {
-    if (level >= _pages.level(_pages.find(key))) _cells[level].push_back(key >> 3 * (finest_level - level));
+    if (level >= _subtrees.level(_subtrees.find(key)))
+      _cells[level].push_back(key >> 3 * (finest_level - level));
   }
-  /// Splits what it takes to have leaves of at most one level apart across faces, edges and corners.
-  /// Collective, as leaf_count().
+  /// Splits cells until leaves that touch differ by at most one level. Collective, as leaf_count().
   void balance();
 
-  const Pages& pages() const { return _pages; }
-  /// The pages of this rank.
-  IndexRange own_pages() const { return _pages.of_rank(_pages.rank()); }
+  const Subtrees& subtrees() const { return _subtrees; }
+  /// The subtrees of this rank.
+  IndexRange own_subtrees() const { return _subtrees.of_rank(_subtrees.rank()); }
 
-  /// Leaves along the Morton curve: key of the low corner, level.
+  /// Leaves along the Morton curve: keys of the low corners, and levels.
   struct Leaves {
     std::vector<std::uint64_t> keys;
     std::vector<std::uint8_t> levels;
 
     operator CellSpans() const { return {keys, levels}; }
   };
-  /// The leaves in this rank's pages. After balance().
+  /// The leaves in the subtrees of this rank. Call balance() first.
   Leaves leaves() const;
-  /// How many there are on all ranks, once balanced.
+  /// The leaves on all ranks. Call balance() first.
   std::int64_t leaf_count() const;
 
 private:
-  /// A cell of a level to be split in another rank's page.
-  struct Request {
+  /// A cell that is to be split in the subtree of another rank.
+  struct RemoteCell {
     std::uint64_t cell;
     std::int64_t owner;
 
-    static constexpr auto fields() { return std::tuple(&Request::cell, &Request::owner); }
+    static constexpr auto fields() { return std::tuple(&RemoteCell::cell, &RemoteCell::owner); }
   };
-  /// Splits cells of a level around one of them, that included, by their places among the 27.
+  /// Splits cells around `parent`, itself included. Bit i of `wanted` stands for cell i of the 27.
   void split_around(std::uint64_t parent, int level, std::uint32_t wanted);
 
   std::array<std::vector<std::uint64_t>, finest_level> _cells;
-  std::array<std::vector<std::uint64_t>, finest_level> _above;  // cells that hold several pages
-  std::vector<Request> _of_others;
-  Pages _pages;
+  std::array<std::vector<std::uint64_t>, finest_level> _above;  // cells that hold several subtrees
+  std::vector<RemoteCell> _of_others;
+  Subtrees _subtrees;
 };
 
-/// Finds the leaf of a finest cell: a tree with 64 branches per node, two octree levels each.
+/// Finds the leaf that holds a finest cell. It is a tree with 64 branches for each node, two octree levels at
+/// once.
 class LeafTable {
 public:
   LeafTable() = default;
-  /// Of all leaves of the root.
+  /// From all leaves of the root.
   explicit LeafTable(CellSpans leaves);
-  /// Each rank gives the leaves in its pages, and knows all; held once per node. Collective.
-  LeafTable(const Pages& pages, CellSpans own, CellSpans all);
+  /// Each rank gives the leaves in its own subtrees, and all leaves. Held once on each node. Collective.
+  LeafTable(const Subtrees& subtrees, CellSpans own, CellSpans all);
 
-  /// Index of the leaf that holds the finest cell with this key.
+  /// The index of the leaf that holds the finest cell with this key.
   std::int32_t find(std::uint64_t key) const {
     std::int32_t entry = 0;
     for (int shift = top_shift;; shift -= 6) {
@@ -95,7 +95,7 @@ struct Octree {
   LeafTable table;
 
   CellSpans leaves() const { return {keys.items(), levels.items()}; }
-  /// From here on held once per node. Collective.
+  /// Holds the leaves and their table once on each node. Collective.
   void share();
 };
 
@@ -104,8 +104,8 @@ struct OctreeNodes {
   std::vector<GridPoint> points;
   std::vector<std::int32_t> corners;  ///< (leaves of the range,8) node per corner, corners in Morton order
 
-  /// A node in the middle of an edge or face of a leaf next to it. Its masters are that edge's or face's
-  /// corners, which in a balanced octree hang nowhere themselves.
+  /// A hanging node: it lies in the middle of an edge or face of a larger leaf. The corners of that edge or
+  /// face are its masters. In a balanced octree no master hangs itself.
   struct Hanging {
     std::int32_t node;
     std::int32_t count;  ///< of masters: 2 or 4
@@ -114,10 +114,11 @@ struct OctreeNodes {
   };
   std::vector<Hanging> hanging;  ///< ascending node
 };
-/// Of a range of all leaves.
+/// Collects the corners of a range of the leaves.
 OctreeNodes collect_nodes(CellSpans leaves, const LeafTable& table, IndexRange range);
 
-/// The corners of a leaf that hang on larger leaves beside it: their masters, some more than once.
+/// The masters of all corners of a leaf that hang on larger leaves beside it. Some masters come more than
+/// once.
 std::vector<GridPoint> masters_of_corners(CellSpans leaves, const LeafTable& table, std::int32_t leaf);
 
 }  // namespace aeroloom::sizing

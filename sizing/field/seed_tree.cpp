@@ -50,8 +50,8 @@ struct SeedTree::Layer {
   std::vector<std::uint64_t> keys;
 };
 
-SharedSeeds::SharedSeeds(const Pages& pages, const std::vector<SizeSeed>& own)
-    : _communicator(pages.communicator()), _firsts{0} {
+SharedSeeds::SharedSeeds(const Subtrees& subtrees, const std::vector<SizeSeed>& own)
+    : _communicator(subtrees.communicator()), _firsts{0} {
   std::vector<std::uint64_t> keys;
   std::vector<std::uint8_t> levels;
   std::vector<double> sizes;

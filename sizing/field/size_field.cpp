@@ -25,7 +25,7 @@ double fraction(double t, std::uint32_t cell, std::uint32_t leaf_edge) {
 /// Those of the options that are lengths.
 constexpr std::array lengths{&SizingOptions::minimum,          &SizingOptions::maximum,
                              &SizingOptions::surface_maximum,  &SizingOptions::feature_minimum,
-                             &SizingOptions::strip_minimum,    &SizingOptions::gap_minimum,
+                             &SizingOptions::narrow_minimum,   &SizingOptions::gap_minimum,
                              &SizingOptions::chordal_deviation};
 
 double blend(double a, double b, double t) {

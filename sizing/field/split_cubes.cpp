@@ -44,11 +44,11 @@ void for_each_parent(const std::vector<std::uint64_t>& cells, const Visit& visit
 
 }  // namespace
 
-SplitCubes::SplitCubes(Pages pages) : _pages(std::move(pages)) {
-  for (std::size_t page = 0; page < _pages.count(); ++page) {
-    for (int level = _pages.level(page) - 1; level >= 0; --level) {
-      const std::uint64_t cell = _pages.key(page) >> 3 * (finest_level - level);
-      // Pages come along the curve, so cells above them do.
+SplitCubes::SplitCubes(Subtrees subtrees) : _subtrees(std::move(subtrees)) {
+  for (std::size_t subtree = 0; subtree < _subtrees.count(); ++subtree) {
+    for (int level = _subtrees.level(subtree) - 1; level >= 0; --level) {
+      const std::uint64_t cell = _subtrees.key(subtree) >> 3 * (finest_level - level);
+      // Subtrees come along the curve, so cells above them do.
       if (!_above[level].empty() && _above[level].back() == cell) break;
       _above[level].push_back(cell);
     }
@@ -60,9 +60,9 @@ void SplitCubes::split_around(std::uint64_t parent, int level, std::uint32_t wan
   const std::uint32_t range = 1U << level;
   const int below = 3 * (finest_level - level);
   const GridPoint c = grid_point(parent);
-  const std::size_t home = _pages.find(parent << below);
-  const int to_page = 3 * (level - _pages.level(home));
-  const bool is_at_home = to_page >= 0 && _pages.owner(home) == _pages.rank();
+  const std::size_t home = _subtrees.find(parent << below);
+  const int to_subtree = 3 * (level - _subtrees.level(home));
+  const bool is_at_home = to_subtree >= 0 && _subtrees.owner(home) == _subtrees.rank();
   for (int place = 0; place < 27; ++place) {
     if ((wanted >> place & 1) == 0) continue;
     const GridPoint p{c.x + static_cast<std::uint32_t>(place % 3) - 1,
@@ -70,14 +70,14 @@ void SplitCubes::split_around(std::uint64_t parent, int level, std::uint32_t wan
                       c.z + static_cast<std::uint32_t>(place / 9) - 1};
     if (p.x >= range || p.y >= range || p.z >= range) continue;
     const std::uint64_t cell = morton_key(p);
-    if (is_at_home && cell >> to_page == parent >> to_page) {
+    if (is_at_home && cell >> to_subtree == parent >> to_subtree) {
       _cells[level].push_back(cell);
       continue;
     }
-    const std::size_t page = _pages.find(cell << below);
-    if (level < _pages.level(page)) continue;  // it holds several pages
-    const parallel::Rank owner = _pages.owner(page);
-    if (owner == _pages.rank()) {
+    const std::size_t subtree = _subtrees.find(cell << below);
+    if (level < _subtrees.level(subtree)) continue;  // it holds several subtrees
+    const parallel::Rank owner = _subtrees.owner(subtree);
+    if (owner == _subtrees.rank()) {
       _cells[level].push_back(cell);
     } else {
       _of_others.push_back({cell, owner});
@@ -91,14 +91,14 @@ void SplitCubes::balance() {
     const auto split_neighbours = [&](std::uint64_t parent, std::uint32_t wanted) {
       split_around(parent, level - 1, wanted);
     };
-    // Cubes that hold several pages are known to every rank, and each sees to its own pages.
+    // Cubes that hold several subtrees are known to every rank, and each sees to its own subtrees.
     for_each_parent(_above[level], split_neighbours);
     _of_others.clear();
     for_each_parent(_cells[level], split_neighbours);
-    if (_pages.ranks() == 1) continue;
-    for (const Request& request : parallel::deliver(_pages.communicator(), std::exchange(_of_others, {}),
-                                                    [](const Request& r) { return r.owner; }))
-      _cells[level - 1].push_back(request.cell);
+    if (_subtrees.ranks() == 1) continue;
+    for (const RemoteCell& other : parallel::deliver(_subtrees.communicator(), std::exchange(_of_others, {}),
+                                                     [](const RemoteCell& r) { return r.owner; }))
+      _cells[level - 1].push_back(other.cell);
   }
   keep_each_key_once(_cells[0]);
 }
@@ -106,8 +106,8 @@ void SplitCubes::balance() {
 std::int64_t SplitCubes::leaf_count() const {
   std::int64_t split = 0;
   for (const std::vector<std::uint64_t>& cells : _cells) split += static_cast<std::int64_t>(cells.size());
-  const std::int64_t pages = static_cast<std::int64_t>(_pages.count());
-  return 7 * (_pages.ranks() > 1 ? _pages.communicator().sum(split) : split) + pages;
+  const std::int64_t subtrees = static_cast<std::int64_t>(_subtrees.count());
+  return 7 * (_subtrees.ranks() > 1 ? _subtrees.communicator().sum(split) : split) + subtrees;
 }
 
 SplitCubes::Leaves SplitCubes::leaves() const {
@@ -123,10 +123,10 @@ SplitCubes::Leaves SplitCubes::leaves() const {
       result.levels.push_back(static_cast<std::uint8_t>(level));
     }
   };
-  const IndexRange own = own_pages();
-  for (std::size_t page = own.first; page < own.last; ++page) {
-    const int level = _pages.level(page);
-    visit(visit, _pages.key(page) >> 3 * (finest_level - level), level);
+  const IndexRange own = own_subtrees();
+  for (std::size_t subtree = own.first; subtree < own.last; ++subtree) {
+    const int level = _subtrees.level(subtree);
+    visit(visit, _subtrees.key(subtree) >> 3 * (finest_level - level), level);
   }
   return result;
 }

@@ -2,11 +2,11 @@
 
 #include "geometry/disjoint_sets.hpp"
 #include "parallel/communication/collective_error.hpp"
-#include "sizing/features/lifting_seeds.hpp"
 #include "sizing/features/segment_tree.hpp"
 #include "sizing/features/skin_faces.hpp"
+#include "sizing/features/trailing_candidates.hpp"
 #include "sizing/lifting/lifting_section.hpp"
-#include "sizing/sources/surface_demand.hpp"
+#include "sizing/sources/surface_request.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,15 +25,16 @@ constexpr double thickest = 0.4;
 /// Of the chord: a blunt edge that is wider is an end of something else. Chosen, not measured.
 constexpr double widest = 0.05;
 
-/// Makes an element of a seed.
+/// Makes an element of a candidate.
 class Surveyor {
 public:
   /// `goes_on` tells at which ends another trailing edge begins.
-  Surveyor(const SampledModel& sampled, Vec3 flow, TrailingSeed seed, std::array<bool, 2> goes_on)
-      : _model(sampled.model()), _flow(flow), _element(std::move(seed.element)), _goes_on(goes_on) {
-    const std::set<FaceId> faces = skin_faces(_model, seed.neighbours, _element.strip, Kinks::no_valleys);
-    for (const Wall& wall : sampled.walls().facets)
-      if (faces.contains(wall.face)) _skin.push_back(wall);
+  Surveyor(const SampledModel& sampled, Vec3 flow, TrailingCandidate candidate, std::array<bool, 2> goes_on)
+      : _model(sampled.model()), _flow(flow), _element(std::move(candidate.element)), _goes_on(goes_on) {
+    const std::set<FaceId> faces =
+        skin_faces(_model, candidate.neighbours, _element.blunt_face, Kinks::no_valleys);
+    for (const ModelFacet& facet : sampled.facets().items)
+      if (faces.contains(facet.face)) _skin.push_back(facet);
     list_ends(faces);
     measure_lengths();
   }
@@ -43,8 +44,8 @@ public:
     constexpr int first_stations = 17;  // to start with; chosen, not measured
     std::vector<std::pair<double, LiftingStation>> found;
     for (int i = 0; i < first_stations; ++i) {
-      const double share = beside_end + (1 - 2 * beside_end) * i / (first_stations - 1);
-      if (const auto station = station_at(share)) found.emplace_back(share, *station);
+      const double fraction = beside_end + (1 - 2 * beside_end) * i / (first_stations - 1);
+      if (const auto station = station_at(fraction)) found.emplace_back(fraction, *station);
     }
     if (2 * found.size() < first_stations) return std::nullopt;
     for (std::size_t i = 0; i + 1 < found.size(); ++i) {
@@ -66,9 +67,10 @@ private:
       for (const auto& loop : _model.face(face).loops) {
         for (const cad::Coedge& use : loop) {
           const cad::Edge& edge = _model.edge(use.edge);
-          const bool inside = edge.degenerate ||
-                              std::all_of(edge.faces.begin(), edge.faces.end(),
-                                          [&](FaceId f) { return f == _element.strip || faces.contains(f); });
+          const bool inside =
+              edge.degenerate || std::all_of(edge.faces.begin(), edge.faces.end(), [&](FaceId f) {
+                return f == _element.blunt_face || faces.contains(f);
+              });
           if (!inside) _element.ends.insert(use.edge);
         }
       }
@@ -82,15 +84,15 @@ private:
       _lengths.push_back(_lengths.back() + distance(points[i - 1], points[i]));
   }
 
-  /// The plane along the flow at a share of the trailing edge's length, and how wide that is.
+  /// The plane along the flow at a fraction of the trailing edge's length, and how wide that is.
   struct Place {
     CuttingPlane plane;
     Vec3 along;  ///< the trailing edge
     double width = 0;
   };
-  Place place_at(double share) const {
+  Place place_at(double fraction) const {
     const auto& points = _element.trailing.points;
-    const double length = share * _lengths.back();
+    const double length = fraction * _lengths.back();
     const auto above = std::upper_bound(_lengths.begin() + 1, _lengths.end() - 1, length);
     const auto i = static_cast<std::size_t>(above - _lengths.begin()) - 1;
     const double part = (length - _lengths[i]) / (_lengths[i + 1] - _lengths[i]);
@@ -107,8 +109,8 @@ private:
     return place;
   }
 
-  std::optional<LiftingStation> station_at(double share) const {
-    const Place place = place_at(share);
+  std::optional<LiftingStation> station_at(double fraction) const {
+    const Place place = place_at(fraction);
     const auto nose = find_nose(_model, _skin, place.plane, 2 * place.width);
     if (!nose) return std::nullopt;
     const double chord = distance(nose->place, place.plane.origin);
@@ -136,10 +138,10 @@ private:
     const auto beyond = [&](int side, const LiftingStation& end, const LiftingStation& next) {
       // In chords; a body's side or a tip is not farther away. Chosen, not measured.
       constexpr double step = 0.01, most = 0.5, near = 0.03;
-      const double share = side == 0 ? beside_end : 1 - beside_end, way = side == 0 ? -1 : 1;
+      const double fraction = side == 0 ? beside_end : 1 - beside_end, way = side == 0 ? -1 : 1;
       const double farthest = _goes_on[side] ? beside_end * _lengths.back() / end.chord : most;
       std::vector<Vec3> points;
-      Place place = place_at(share);
+      Place place = place_at(fraction);
       Vec3 last = end.leading;
       const double span = distance(end.trailing, next.trailing);
       Vec3 stride = step * end.chord / span * (end.leading - next.leading);
@@ -196,7 +198,7 @@ private:
   const cad::Model& _model;
   Vec3 _flow;
   LiftingElement _element;
-  std::vector<Wall> _skin;
+  std::vector<ModelFacet> _skin;
   std::array<bool, 2> _goes_on;
   std::vector<double> _lengths;  // of the trailing edge up to each of its points
 };
@@ -276,12 +278,13 @@ void add_reference(const cad::Model& model, const geometry::Box& body, Vec3 flow
       !is_half_model(model) && (has_partner || is_alone) ? 0.5 * body.size()[axis] : body.size()[axis];
 }
 
-/// Whether there is a seed with a face that is wanted. All are where the list is empty.
-bool is_wanted(const std::optional<TrailingSeed>& seed, const std::vector<bool>& wanted) {
-  if (!seed || wanted.empty()) return seed.has_value();
-  const cad::FaceId strip = seed->element.strip;
-  return (strip != cad::no_entity && wanted[strip]) ||
-         std::any_of(seed->neighbours.begin(), seed->neighbours.end(), [&](FaceId f) { return wanted[f]; });
+/// Whether there is a candidate with a face that is wanted. All are where the list is empty.
+bool is_wanted(const std::optional<TrailingCandidate>& candidate, const std::vector<bool>& wanted) {
+  if (!candidate || wanted.empty()) return candidate.has_value();
+  const cad::FaceId blunt_face = candidate->element.blunt_face;
+  return (blunt_face != cad::no_entity && wanted[blunt_face]) ||
+         std::any_of(candidate->neighbours.begin(), candidate->neighbours.end(),
+                     [&](FaceId f) { return wanted[f]; });
 }
 
 }  // namespace
@@ -291,36 +294,36 @@ LiftingBodies find_lifting_bodies(const SampledModel& sampled, Vec3 flow,
   const parallel::Communicator& communicator = sampled.communicator();
   const cad::Model& model = sampled.model();
   std::vector<bool> wanted;
-  std::vector<std::int32_t> strips, edges;
+  std::vector<std::int32_t> faces, edges;
   parallel::agree(communicator, [&] {
     require_like(model, "sizing.lifting", named);
     if (!named.empty()) wanted = faces_like(model, named);
     for (FaceId f = communicator.rank(); f < model.face_count(); f += communicator.size())
-      if (is_wanted(blunt_seed(model, f, flow), wanted)) strips.push_back(f);
+      if (is_wanted(blunt_candidate(model, f, flow), wanted)) faces.push_back(f);
     for (cad::EdgeId e = communicator.rank(); e < model.edge_count(); e += communicator.size())
-      if (is_wanted(sharp_seed(model, e, flow), wanted)) edges.push_back(e);
+      if (is_wanted(sharp_candidate(model, e, flow), wanted)) edges.push_back(e);
   });
-  const std::vector<std::int32_t> all_strips = communicator.gather_sorted(strips),
+  const std::vector<std::int32_t> all_faces = communicator.gather_sorted(faces),
                                   all_edges = communicator.gather_sorted(edges);
   LiftingBodies bodies;
   parallel::agree(communicator, [&] {
-    std::vector<TrailingSeed> seeds;
-    seeds.reserve(all_strips.size() + all_edges.size());
-    for (const FaceId f : all_strips) seeds.push_back(*blunt_seed(model, f, flow));
-    for (const cad::EdgeId e : all_edges) seeds.push_back(*sharp_seed(model, e, flow));
+    std::vector<TrailingCandidate> candidates;
+    candidates.reserve(all_faces.size() + all_edges.size());
+    for (const FaceId f : all_faces) candidates.push_back(*blunt_candidate(model, f, flow));
+    for (const cad::EdgeId e : all_edges) candidates.push_back(*sharp_candidate(model, e, flow));
     std::map<cad::VertexId, int> users;
-    for (const TrailingSeed& seed : seeds) {
-      for (const auto& vertices : seed.element.end_vertices)
+    for (const TrailingCandidate& candidate : candidates) {
+      for (const auto& vertices : candidate.element.end_vertices)
         for (const cad::VertexId vertex : vertices) ++users[vertex];
     }
-    for (TrailingSeed& seed : seeds) {
+    for (TrailingCandidate& candidate : candidates) {
       std::array<bool, 2> goes_on;
       for (int side = 0; side < 2; ++side) {
-        const auto& vertices = seed.element.end_vertices[side];
+        const auto& vertices = candidate.element.end_vertices[side];
         goes_on[side] = std::any_of(vertices.begin(), vertices.end(),
                                     [&](cad::VertexId vertex) { return users[vertex] > 1; });
       }
-      if (auto element = Surveyor(sampled, flow, std::move(seed), goes_on).survey())
+      if (auto element = Surveyor(sampled, flow, std::move(candidate), goes_on).survey())
         bodies.elements.push_back(std::move(*element));
     }
     if (!bodies.elements.empty()) add_reference(model, sampled.body_box(), flow, bodies);

@@ -1,9 +1,9 @@
-/// Lifting bodies of a model (lifting_bodies.hpp): how they are found.
+/// Finds the lifting bodies of a model (lifting_bodies.hpp).
 ///
-/// A trailing edge is a blunt strip, or a sharp edge of the CAD, behind which the body ends against the flow.
-/// From each of its places a plane along the flow cuts the skin in front of it: the point of the section that
-/// is farthest away is the leading edge, its distance the local chord. What is found depends on the geometry
-/// and the direction of the flow alone.
+/// A trailing edge is blunt, a narrow face, or it is a sharp CAD edge. Behind it the body ends against the
+/// flow. At each place of it, a plane along the flow cuts the skin ahead. The farthest point of this section
+/// is the leading edge, its distance the local chord. The result depends on the geometry and on the direction
+/// of the flow alone.
 #pragma once
 
 #include "sizing/choice/sampled_model.hpp"
@@ -14,10 +14,10 @@
 
 namespace aeroloom::sizing {
 
-/// Finds the lifting bodies of a model. `flow`: a unit vector. `named`: patterns of the names of faces or
-/// patches; only trailing edges of these faces are taken, of all where there are none. For the model before
-/// any of its faces were joined. The same on every rank; collective. Throws parallel::CollectiveError where
-/// the CAD library fails.
+/// Finds the lifting bodies of a model. `flow`: a unit vector. `named`: patterns of names of faces or
+/// patches; only trailing edges of these faces count, or all if there are none. The model must have no joined
+/// faces yet. The same on every rank. Collective. Throws parallel::CollectiveError where the CAD library
+/// fails.
 LiftingBodies find_lifting_bodies(const SampledModel& sampled, geometry::Vec3 flow,
                                   const std::vector<std::string>& named = {});
 

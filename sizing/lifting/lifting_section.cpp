@@ -23,10 +23,10 @@ struct CutFacet {
   double first, last;  ///< ahead, first <= last
 };
 
-std::vector<CutFacet> cut_skin(const std::vector<Wall>& skin, const CuttingPlane& plane) {
+std::vector<CutFacet> cut_skin(const std::vector<ModelFacet>& skin, const CuttingPlane& plane) {
   std::vector<CutFacet> cuts;
-  for (const Wall& wall : skin) {
-    const Triangle& t = wall.corners;
+  for (const ModelFacet& facet : skin) {
+    const Triangle& t = facet.corners;
     std::array<double, 3> away;
     for (int i = 0; i < 3; ++i) away[i] = dot(t[i] - plane.origin, plane.normal);
     CutFacet cut;
@@ -34,9 +34,10 @@ std::vector<CutFacet> cut_skin(const std::vector<Wall>& skin, const CuttingPlane
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
       if ((away[i] >= 0) == (away[j] >= 0)) continue;
-      const double share = away[i] / (away[i] - away[j]);
-      cut.ends[found++] = {t[i] + share * (t[j] - t[i]),
-                           wall.parameters[i] + share * (wall.parameters[j] - wall.parameters[i]), wall.face};
+      const double fraction = away[i] / (away[i] - away[j]);
+      cut.ends[found++] = {t[i] + fraction * (t[j] - t[i]),
+                           facet.parameters[i] + fraction * (facet.parameters[j] - facet.parameters[i]),
+                           facet.face};
     }
     if (found < 2) continue;
     const double a = dot(cut.ends[0].point - plane.origin, plane.ahead),
@@ -49,7 +50,7 @@ std::vector<CutFacet> cut_skin(const std::vector<Wall>& skin, const CuttingPlane
 
 /// What hangs together with the cut nearest to a place. Facets of two faces may leave a gap between them.
 std::vector<CutFacet> connected(std::vector<CutFacet> cuts, Vec3 origin, double gap) {
-  constexpr double gap_share = 0.005;  // of what the cuts extend over; chosen, not measured
+  constexpr double gap_fraction = 0.005;  // of what the cuts extend over; chosen, not measured
   double farthest = 0;
   const auto nearer = [&](const CutFacet& a, const CutFacet& b) {
     const auto away = [&](const CutFacet& cut) {
@@ -58,7 +59,7 @@ std::vector<CutFacet> connected(std::vector<CutFacet> cuts, Vec3 origin, double 
     return away(a) < away(b);
   };
   for (const CutFacet& cut : cuts) farthest = std::max(farthest, distance(cut.ends[0].point, origin));
-  const double near = std::max(gap, gap_share * farthest);
+  const double near = std::max(gap, gap_fraction * farthest);
   const auto touch = [&](const CutFacet& a, const CutFacet& b) {
     for (const CutPoint& p : a.ends) {
       for (const CutPoint& q : b.ends)
@@ -135,7 +136,7 @@ Vec3 highest_point(const cad::Model& model, const CuttingPlane& plane, const std
 
 }  // namespace
 
-std::optional<Nose> find_nose(const cad::Model& model, const std::vector<Wall>& skin,
+std::optional<Nose> find_nose(const cad::Model& model, const std::vector<ModelFacet>& skin,
                               const CuttingPlane& plane, double gap) {
   const std::vector<CutFacet> cuts = connected(cut_skin(skin, plane), plane.origin, gap);
   double reach = 0;
@@ -155,7 +156,7 @@ std::optional<Nose> find_nose(const cad::Model& model, const std::vector<Wall>& 
   return nose;
 }
 
-std::optional<Vec3> find_nose_near(const cad::Model& model, const std::vector<Wall>& skin,
+std::optional<Vec3> find_nose_near(const cad::Model& model, const std::vector<ModelFacet>& skin,
                                    const CuttingPlane& plane, Vec3 guess, double reach) {
   std::vector<CutFacet> cuts = cut_skin(skin, plane);
   std::erase_if(cuts, [&](const CutFacet& cut) {

@@ -14,9 +14,9 @@ using cad::FaceId;
 using Kind = cad::BluntEdgeFinding::Kind;
 
 /// Of the chord near by, at an end of an edge: less is a section through a tip. Chosen, not measured.
-constexpr double least_end_share = 0.5;
+constexpr double least_end_fraction = 0.5;
 
-/// The faces on both sides of a strip and those that go on from them, over kinks.
+/// The faces on both sides of a blunt trailing edge and those that go on from them, over kinks.
 std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
   std::vector<FaceId> neighbours;
   for (const auto& border : strip.borders) {
@@ -25,13 +25,13 @@ std::set<FaceId> skin_of(const cad::Model& model, const cad::BluntEdge& strip) {
   return skin_faces(model, neighbours, strip.face, Kinks::all);
 }
 
-/// Facets of those faces, and their border but for the strip itself.
-Skin cover(const SampledModel& sampled, const std::set<FaceId>& faces, FaceId strip) {
+/// Facets of those faces, and their border, without the blunt face itself.
+Skin cover(const SampledModel& sampled, const std::set<FaceId>& faces, FaceId blunt_face) {
   constexpr int intervals = 32;  // of each edge of a border; chosen, not measured
   const cad::Model& model = sampled.model();
   Skin skin;
-  for (const Wall& wall : sampled.walls().facets) {
-    if (faces.contains(wall.face)) skin.facets.push_back(wall.corners);
+  for (const ModelFacet& facet : sampled.facets().items) {
+    if (faces.contains(facet.face)) skin.facets.push_back(facet.corners);
   }
   for (const FaceId face : faces) {
     for (const auto& loop : model.face(face).loops) {
@@ -39,7 +39,7 @@ Skin cover(const SampledModel& sampled, const std::set<FaceId>& faces, FaceId st
         const cad::Edge& edge = model.edge(use.edge);
         const bool inside =
             edge.degenerate || std::all_of(edge.faces.begin(), edge.faces.end(),
-                                           [&](FaceId f) { return f == strip || faces.contains(f); });
+                                           [&](FaceId f) { return f == blunt_face || faces.contains(f); });
         if (inside) continue;
         const double step = (edge.last_parameter - edge.first_parameter) / intervals;
         geometry::Vec3 last = model.edge_point(use.edge, edge.first_parameter);
@@ -64,14 +64,14 @@ TrailingEdge measure(const SampledModel& sampled, cad::BluntEdge strip) {
     chords[i] = local_chord(skin, {at.place, at.along, at.into, at.width});
   }
   const auto beyond = [](double near, double farther) {
-    return std::max(least_end_share * near, 2 * near - farther);
+    return std::max(least_end_fraction * near, 2 * near - farther);
   };
   const std::size_t last = stations.size() - 1;
   chords[0] = beyond(chords[1], chords[2]);
   chords[last] = beyond(chords[last - 1], chords[last - 2]);
   edge.chord = *std::min_element(chords.begin(), chords.end());
   for (std::size_t i = 0; i < stations.size(); ++i)
-    edge.share = std::max(edge.share, chords[i] > 0 ? stations[i].width / chords[i] : 1);
+    edge.fraction = std::max(edge.fraction, chords[i] > 0 ? stations[i].width / chords[i] : 1);
   return edge;
 }
 

@@ -1,4 +1,4 @@
-/// Blunt trailing edges of a model with the chord of what ends in them.
+/// Blunt trailing edges of a model, with the local chord ahead of each.
 #pragma once
 
 #include "cad/model/topology/blunt_edges.hpp"
@@ -8,15 +8,16 @@
 
 namespace aeroloom::sizing {
 
-/// A strip that can be closed, and what that would mean.
+/// A narrow face of a blunt trailing edge that can be closed, and what closing would mean.
 struct TrailingEdge {
   cad::BluntEdge strip;
-  double chord = 0;  ///< the local chord (local_chord()), the shortest along the strip
-  double share = 0;  ///< of the local chord that the strip is wide, at most
+  double chord = 0;     ///< the shortest local chord along it (local_chord())
+  double fraction = 0;  ///< the largest width over the local chord
 };
 
-/// Trailing edges narrower than `width` at some place, by face; the same on every rank. Before the sampler's
-/// facets go on to a joined model. Collective. Throws CollectiveError where the CAD library fails.
+/// Finds trailing edges that are narrower than `width` at some place. In the order of faces, the same on
+/// every rank. The model must have no joined faces yet. Collective. Throws CollectiveError where the CAD
+/// library fails.
 std::vector<TrailingEdge> find_trailing_edges(const SampledModel& sampled, double width);
 
 }  // namespace aeroloom::sizing

@@ -10,7 +10,7 @@ namespace {
 
 class CellsWhere {
 public:
-  CellsWhere(const RootCube& root, const AskInCube& ask, RankOf part, double limit, std::int64_t most)
+  CellsWhere(const RootCube& root, const RequestInCube& ask, RankOf part, double limit, std::int64_t most)
       : _root(root), _ask(ask), _part(part), _limit(limit), _most(most) {}
 
   std::vector<SizeSource> find() {
@@ -26,7 +26,7 @@ private:
     if (static_cast<std::int64_t>(_found.size()) > _most) return;
     const double half = 0.5 * edge;
     const Vec3 middle = low + Vec3{half, half, half};
-    const CubeDemand asked = _ask(middle, half);
+    const CubeRequest asked = _ask(middle, half);
     if (asked.least == no_size) return;
     const int wanted = _root.level(std::min(asked.least, asked.resolution));
     if (!is_mine && level >= wanted - levels_of_subtree) {
@@ -43,7 +43,7 @@ private:
   }
 
   const RootCube& _root;
-  const AskInCube& _ask;
+  const RequestInCube& _ask;
   RankOf _part;
   double _limit;
   std::int64_t _most;
@@ -53,8 +53,8 @@ private:
 
 }  // namespace
 
-std::vector<SizeSource> sources_where(const RootCube& root, const AskInCube& ask, RankOf part, double limit,
-                                      std::int64_t most) {
+std::vector<SizeSource> sources_where(const RootCube& root, const RequestInCube& ask, RankOf part,
+                                      double limit, std::int64_t most) {
   return CellsWhere(root, ask, part, limit, most).find();
 }
 

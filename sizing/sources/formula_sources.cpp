@@ -1,7 +1,6 @@
 // Sources of a size that is a formula of the place.
-#include "sizing/sources/formula_sources.hpp"
-
 #include "sizing/sources/cells_where.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include <algorithm>
 #include <array>
@@ -73,9 +72,9 @@ std::vector<SizeSource> sources_of_formula(const RootCube& root, const FormulaSi
   const double at_body = space.coarser * largest_extent_of(space.body) / cells_along;
   const auto size_at = [&](Vec3 p) { return size_of_formula(formula, space, p); };
   const auto ask = [&](Vec3 middle, double half) {
-    if (!meets(space.domain, middle, half)) return CubeDemand{};
+    if (!meets(space.domain, middle, half)) return CubeRequest{};
     const double at_middle = size_at(middle);
-    CubeDemand asked;
+    CubeRequest asked;
     asked.least = at_middle;
     for (const Vec3 to : corner_directions())
       asked.least = std::min(asked.least, size_at(middle + 0.5 * half * to));

@@ -8,15 +8,15 @@
 
 namespace aeroloom::sizing {
 
-/// h(x, y, z) as muparser reads it: + - * / ^, comparisons, && || and a ? b : c, the functions of mathematics
-/// (sqrt, exp, ln, sin, abs, min, max, ...), pi. Cheap to copy; copies share what was parsed, so they belong
-/// to one thread.
+/// A formula h(x, y, z), read by muparser. It knows + - * / ^, comparisons, && ||, a ? b : c, pi and
+/// functions (sqrt, exp, ln, sin, abs, min, max, ...). Cheap to copy. Copies share the parsed formula, so all
+/// must be used in one thread.
 class SizeExpression {
 public:
-  /// Throws std::invalid_argument with the symbol and its position where that is no formula of x, y and z.
+  /// Throws std::invalid_argument, with the symbol and its position, if the text is no formula of x, y and z.
   explicit SizeExpression(const std::string& text);
 
-  /// The value, in the model's unit of length. Throws std::runtime_error, naming the place, unless it is
+  /// The value, in the unit of length of the model. Throws std::runtime_error, naming the place, if it is not
   /// positive and finite.
   double operator()(geometry::Vec3 place) const;
   const std::string& text() const;
@@ -26,7 +26,7 @@ private:
   std::shared_ptr<Parsed> _parsed;
 };
 
-/// Of muparser, as it was compiled against.
+/// The version of muparser that this was compiled with.
 std::string muparser_version();
 
 }  // namespace aeroloom::sizing

@@ -1,4 +1,4 @@
-/// Shapes of the places where a case asks for sizes: all that is asked of each.
+/// Shapes of the places where a case requests sizes.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -75,19 +75,19 @@ struct ConeShape {
   ConeShape scaled(double factor) const;
 };
 
-/// The sheet that a line, or the trailing edges of faces, leave behind. The model tells where those are, so
-/// that it answers scaled() alone; surface_demand.hpp makes the sheet.
+/// The sheet that flows off a line, or off the trailing edges of faces. It answers scaled() alone, since only
+/// the model knows where trailing edges are; surface_request.hpp makes the sheet.
 struct WakeShape {
   std::vector<std::string> behind;         ///< patterns of faces' or patches' names; none: `from` and `to`
   std::optional<geometry::Vec3> from, to;  ///< ends of the line
   geometry::Vec3 direction;                ///< of any length but 0
   double length = 0;
-  std::optional<double> end_size;  ///< where it ends, linear up to there; none: one size everywhere
+  std::optional<double> end_size;  ///< at the end, linear in between; none: one size everywhere
 
   WakeShape scaled(double factor) const;
 };
 
-/// A shape whose inside, or all of it, is filled with elements of one size.
+/// A shape that is filled with elements of one size.
 using SolidShape = std::variant<PointShape, LineShape, SphereShape, BoxShape, CylinderShape, ConeShape>;
 /// Any shape, in the order of the key `shape`.
 using SizeShape =

@@ -20,7 +20,7 @@ constexpr double bend_radius = 2.5;
 constexpr double kept_fraction = 0.1;
 /// Levels of points that are put on a side are no less than a part of the largest, and not zero.
 constexpr double off_plane = 1e-3, not_zero = 1e-300;
-/// Small parts are given away one by one; where so many are left the cut is no good anyway.
+/// Small parts join a neighbour one by one. With more of them than this the cut is given up.
 constexpr std::size_t most_absorbed = 64;
 
 /// A mesh vertex the cut has to pass, and how far the plane misses it.

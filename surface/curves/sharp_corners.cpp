@@ -1,6 +1,5 @@
 #include "surface/curves/sharp_corners.hpp"
 
-#include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 #include "sizing/field/closed_corners.hpp"
 

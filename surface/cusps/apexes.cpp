@@ -28,7 +28,7 @@ constexpr double widest_apex_of_facets = std::numbers::pi;
 constexpr double same_place = 1e-3;
 /// Sizes that fit around an apex at the ring of its fan, at least. Chosen, not measured.
 constexpr double least_around = 4;
-/// The disk that gives way grows by this factor, so often, until it is one. Chosen, not measured.
+/// The region to replace grows by this factor, at most so often, until it is a disk. Chosen, not measured.
 constexpr double growth_of_disk = 1.3;
 constexpr int most_disks = 5;
 
@@ -60,8 +60,8 @@ std::int32_t nearest_point(const std::vector<Vec3>& points, Vec3 place) {
   return static_cast<std::int32_t>(std::min_element(points.begin(), points.end(), nearer) - points.begin());
 }
 
-/// By vertex: whether it gives way. Those nearer than `radius` that hang together with the nearest of all.
-/// Empty where one of them has to stay, on the border or another apex.
+/// Per vertex, whether it is removed: those nearer than `radius` that are connected to the nearest one. Empty
+/// where one of them has to stay, on the border or at another apex.
 std::vector<char> vertices_within(const FaceMesh& mesh, Vec3 place, double radius) {
   std::vector<char> near(mesh.points.size(), 0), within(mesh.points.size(), 0);
   for (std::size_t v = 0; v < near.size(); ++v) near[v] = distance(mesh.points[v], place) < radius;
@@ -91,7 +91,7 @@ bool gives_way(const std::array<std::int32_t, 3>& triangle, const std::vector<ch
   return within[triangle[0]] || within[triangle[1]] || within[triangle[2]];
 }
 
-/// The border of the triangles that give way, one loop; nothing where they have another.
+/// The border of the triangles to remove, as one loop; empty where it is no single loop.
 std::vector<std::int32_t> ring_around(const FaceMesh& mesh, const std::vector<char>& within) {
   std::map<std::array<std::int32_t, 2>, int> sides;
   for (const auto& t : mesh.triangles) {
@@ -113,7 +113,7 @@ std::vector<std::int32_t> ring_around(const FaceMesh& mesh, const std::vector<ch
   return ring;
 }
 
-/// Takes the vertices that give way out, and their triangles; the others keep their order.
+/// Removes the marked vertices and their triangles; the others keep their order.
 void remove(const std::vector<char>& within, FaceMesh& mesh, std::vector<std::int32_t>& ring) {
   std::erase_if(mesh.triangles, [&](const auto& t) { return gives_way(t, within); });
   std::vector<std::int32_t> number(mesh.points.size(), -1);

@@ -265,8 +265,9 @@ private:
 std::vector<Cusp> without_open(const CurveMesh& curves, const mesh::DistributedMesh& surface,
                                std::vector<Cusp> cusps) {
   Closure closure(curves.points.size(), cusps);
-  // Which cusp opens first depends on their order, and theirs on the ranks.
-  std::vector<CurveTriangle> triangles = surface.communicator.gather_sorted(closure.collect(curves, surface));
+  // Sorted, since their order decides which cusp opens first.
+  const std::vector<CurveTriangle> triangles =
+      surface.communicator.gather_sorted(closure.collect(curves, surface));
   const std::vector<char>& open = closure.open_needed(triangles);
   std::vector<Cusp> rest;
   for (std::size_t i = 0; i < cusps.size(); ++i) {

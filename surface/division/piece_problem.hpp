@@ -14,6 +14,8 @@ struct PieceProblem {
   FaceVertices vertices;  ///< on the borders of the piece
   double load = 1;        ///< predicted triangles
 
+  double facets() const { return static_cast<double>(surface.triangles.size()); }
+
   static constexpr auto fields() {
     return std::tuple(&PieceProblem::surface, &PieceProblem::vertices, &PieceProblem::load);
   }

@@ -50,8 +50,8 @@ std::vector<TaskDistributor::Row> TaskDistributor::tabulate(const PieceProblems&
   std::vector<Row> rows;
   for (const auto& [key, problem] : problems) {
     const auto cost = costs.find(key);
-    rows.push_back({key, problem.load, static_cast<double>(problem.surface.triangles.size()),
-                    cost == costs.end() ? 0 : cost->second, _communicator.rank()});
+    rows.push_back(
+        {key, problem.load, problem.facets(), cost == costs.end() ? 0 : cost->second, _communicator.rank()});
   }
   rows = _communicator.gather_sorted(rows, &Row::key);
   return rows;
@@ -92,8 +92,7 @@ void TaskDistributor::divide(PieceProblems::value_type& entry, int level, Coarse
   auto& [key, problem] = entry;
   const std::int32_t group = group_of(key, level);
   const double begin = parallel::cpu_seconds();
-  const double load =
-      division_cost(problem.load, static_cast<double>(problem.surface.triangles.size()), group, _options);
+  const double load = division_cost(problem.load, problem.facets(), group, _options);
   DividedProblem pieces = divide_problem(_model, std::move(problem), group, sizes, _options);
   for (std::size_t i = 0; i < pieces.problems.size(); ++i) {
     PieceKey part = key;
@@ -124,7 +123,7 @@ PieceProblems TaskDistributor::divide_heavy(PieceProblems problems, const std::v
   auto owners = parallel::assign_largest_first(loads, _loads);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     _loads[owners[i]] += loads[i];
-    // A piece problem that is not divided stays with whoever has it: nothing travels in vain.
+    // A problem that is not divided stays on its rank: nothing is sent without need.
     if (!is_to_divide(rows[i], level)) owners[i] = rows[i].at;
   }
   problems = send_to_owners(std::move(problems), rows, owners);

@@ -1,5 +1,4 @@
-#include "cad/repair/caps.hpp"
-
+#include "cad/repair/plane_loops.hpp"
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/cad/model_checks.hpp"
 

@@ -1,4 +1,4 @@
-#include "cad/domain/sharpen.hpp"
+#include "cad/domain/trailing_edges.hpp"
 #include "cad/model/patches.hpp"
 #include "cad/model/topology/joined_faces.hpp"
 #include "tests/cad/blunt_shapes.hpp"

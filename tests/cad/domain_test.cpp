@@ -242,7 +242,7 @@ TEST(Domain, IsExportedWithItsFarField) {
   options.transport = TransportDimensions{};
   const Domain direct = prepare_domain(options);
   const real::TemporaryFile step("domain.step", "");
-  export_step(options, ExportedPart::domain, step.path());
+  export_step(options, ExportedShape::domain, step.path());
   DomainOptions again;
   again.file = step.path();
   again.kind = DomainKind::fluid;
@@ -257,7 +257,7 @@ TEST(Domain, AStepFileBringsBackTheNamesItWasGiven) {
   options.transport = TransportDimensions{};
   const Domain direct = prepare_domain(options);
   const real::TemporaryFile step("transport.step", "");
-  export_step(options, ExportedPart::geometry, step.path());
+  export_step(options, ExportedShape::geometry, step.path());
   DomainOptions again;
   again.file = step.path();
   const Domain read = prepare_domain(again);

@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/faceted_domain.hpp"
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/faceted/make_facet_complex.hpp"
 #include "cad/model/facets/corner_parameters.hpp"
 #include "cad/model/model_data.hpp"
@@ -183,7 +183,7 @@ TEST(FacetedModel, NoFaceHasBothSidesOfACurve) {
   const auto next = [&](std::int32_t p) { return (p + 12) % (24 * 12); };
   complex.curves = {{{0, next(0), next(next(0))}}};
   complex.vertices = {0, next(next(0))};
-  const FacetedPart part = make_faceted_part(complex);
+  const FacetedGeometry part = make_faceted_geometry(complex);
   EXPECT_GE(part.faces().size(), 2u);
   std::int32_t triangles = 0;
   for (const FacetedFace& face : part.faces()) triangles += face.count;
@@ -197,7 +197,7 @@ TEST(FacetedModel, FacesAreDividedAlongNeedles) {
   FacetComplex complex = complex_of(torus_soup(sections, around));
   complex.curves = {{{0, 1, 2, 3, 4, 5}}};
   complex.vertices = {0, 5};
-  const FacetedPart part = make_faceted_part(complex);
+  const FacetedGeometry part = make_faceted_geometry(complex);
   EXPECT_GE(part.faces().size(), 2u);
   const auto& points = part.complex().points;
   for (const FacetedEdge& edge : part.edges()) {

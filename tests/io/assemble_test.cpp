@@ -24,8 +24,9 @@ bool is_mine(const Communicator& world, std::size_t item, std::size_t count) {
 }
 
 /// The mesh as a file might have it: sparse ids, some cells and faces the other way round or crosswise.
-RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole) {
-  RawMesh raw;
+RawMesh raw_of(const Communicator& world, const examples::MixedMesh& whole,
+               const std::string& path = "file") {
+  RawMesh raw({world, path});
   raw.patches = whole.patches;
   raw.regions = whole.regions;
   for (std::size_t v = 0; v < whole.points.size(); ++v) {
@@ -62,7 +63,7 @@ TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(4, 3);
   for (const int parts : {1, 4}) {
-    const Assembled result = assemble(world, raw_of(world, whole), "file", parts);
+    const Assembled result = assemble(raw_of(world, whole), parts);
     EXPECT_EQ(result.mesh.part_count, parts);
     EXPECT_EQ(result.mesh.vertex_count, static_cast<GlobalIndex>(whole.points.size()));
     EXPECT_EQ(result.turned_cells, 21);
@@ -74,7 +75,7 @@ TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
     EXPECT_EQ(result.mesh.region_cells, examples::distribute(world, whole, 3).region_cells);
     expect_sound(result.mesh);
     expect_sound(repartition(result.mesh, 3));
-    for (const FilePart& part : result.mesh.parts) {
+    for (const MeshPart& part : result.mesh.parts) {
       for (LocalIndex v = 0; v < part.vertex_count(); ++v) {
         const geometry::Vec3 p = whole.points[static_cast<std::size_t>(part.numbers[v])];
         EXPECT_TRUE(part.point(v).x == p.x && part.point(v).y == p.y && part.point(v).z == p.z);
@@ -86,12 +87,12 @@ TEST(Assemble, WholeMeshInTheOrderOfTheFile) {
 TEST(Assemble, OneMeshWhateverTheRanks) {
   const Communicator world = Communicator::world(), self = Communicator::self();
   const examples::MixedMesh whole(4, 3);
-  const Assembled mine = assemble(world, raw_of(world, whole), "file", 5);
-  const Assembled all = assemble(self, raw_of(self, whole), "file", 5);
+  const Assembled mine = assemble(raw_of(world, whole), 5);
+  const Assembled all = assemble(raw_of(self, whole), 5);
   const FileMesh cut = repartition(mine.mesh, 4), cut_alone = repartition(all.mesh, 4);
   for (const auto& [some, every] : {std::pair(&mine.mesh, &all.mesh), std::pair(&cut, &cut_alone)}) {
-    for (const FilePart& part : some->parts) {
-      const FilePart& other = every->parts[static_cast<std::size_t>(part.id)];
+    for (const MeshPart& part : some->parts) {
+      const MeshPart& other = every->parts[static_cast<std::size_t>(part.id)];
       EXPECT_TRUE(std::equal(part.coordinates.begin(), part.coordinates.end(), other.coordinates.begin(),
                              other.coordinates.end()));
       EXPECT_TRUE(
@@ -113,7 +114,7 @@ TEST(Assemble, WhatTheFileLeavesOpenGetsAName) {
   const examples::MixedMesh whole(3, 3);
   RawMesh raw = raw_of(world, whole);
   raw.faces = {}, raw.face_patches = {}, raw.patches = {};
-  const Assembled result = assemble(world, std::move(raw), "file", 2);
+  const Assembled result = assemble(std::move(raw), 2);
   ASSERT_EQ(result.mesh.patches.size(), 3U);
   EXPECT_EQ(result.mesh.patches[0].name, "boundary_of_lower layer");
   EXPECT_EQ(result.mesh.patches[1].name, "lower layer_to_upper");
@@ -158,17 +159,17 @@ TEST(Assemble, ACellThatAnotherRankRepeatsIsRefused) {
     for (const int v : cell.corners) raw.cells[s].push_back(7 * v + 1000);
     raw.cell_regions[s].push_back(cell.region);
   }
-  EXPECT_THROW(assemble(world, std::move(raw), "twice.mesh", 1), parallel::CollectiveError);
+  EXPECT_THROW(assemble(std::move(raw), 1), parallel::CollectiveError);
 }
 
 TEST(Assemble, BadFilesAreRefusedWithThePlace) {
   const Communicator world = Communicator::world();
   const examples::MixedMesh whole(3, 3);
   const auto expect_refused = [&](const std::string& reason, const std::function<void(RawMesh&)>& spoil) {
-    RawMesh raw = raw_of(world, whole);
+    RawMesh raw = raw_of(world, whole, "bad.mesh");
     if (world.is_root()) spoil(raw);
     try {
-      assemble(world, std::move(raw), "bad.mesh", 2);
+      assemble(std::move(raw), 2);
       ADD_FAILURE() << "accepted: " << reason;
     } catch (const parallel::CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::input) << error.what();
@@ -190,9 +191,9 @@ TEST(Assemble, BadFilesAreRefusedWithThePlace) {
       raw.cell_regions[2].push_back(0);
     }
   });
-  RawMesh empty;
+  RawMesh empty({world, "empty.mesh"});
   empty.regions = {"fluid"};
-  EXPECT_THROW(assemble(world, std::move(empty), "empty.mesh", 1), parallel::CollectiveError);
+  EXPECT_THROW(assemble(std::move(empty), 1), parallel::CollectiveError);
 }
 
 }  // namespace

@@ -25,10 +25,10 @@ TEST_F(FileFormats, WhatIsReadIsTheMeshThatWasWritten) {
     const std::string file = path("some" + std::string(format.ends.front()));
     write_mesh(mesh, format.format, file, {});
     if (format.read == nullptr) {
-      EXPECT_THROW(read_mesh(world, file, 1), parallel::CollectiveError);
+      EXPECT_THROW(read_mesh({world, file}, 1), parallel::CollectiveError);
       continue;
     }
-    const Assembled read = read_mesh(world, file, 2);
+    const Assembled read = read_mesh({world, file}, 2);
     EXPECT_EQ(read.mesh.vertex_count, mesh.vertex_count) << format.name;
     EXPECT_EQ(read.turned_cells + read.dropped_points + read.unnamed_faces + read.left_out_faces, 0)
         << format.name;
@@ -110,7 +110,7 @@ TEST_F(FileFormats, SurfacesStandBesideVtuWhereTheyAreWanted) {
 
 TEST_F(FileFormats, RunsOfAFileAreCutAnewIntoParts) {
   write_mesh(examples::mixed_mesh(world, 4, 3), FileFormat::su2b, path("whole.su2b"), {});
-  const Assembled file = read_mesh(world, path("whole.su2b"), 3);
+  const Assembled file = read_mesh({world, path("whole.su2b")}, 3);
   write_mesh(file.mesh, FileFormat::msh_parts, path("asked.msh"), {.parts = 3, .recut = true});
   write_mesh(file.mesh, FileFormat::msh_parts, path("kept.msh"), {.parts = 3});
   write_mesh(repartition(file.mesh, 3), FileFormat::msh_parts, path("cut.msh"), {});
@@ -124,7 +124,7 @@ TEST_F(FileFormats, RunsOfAFileAreCutAnewIntoParts) {
 
 TEST_F(FileFormats, AnEndThatNobodyKnowsIsRefusedWithTheKnownOnes) {
   try {
-    read_mesh(world, path("mesh.stl"), 1);
+    read_mesh({world, path("mesh.stl")}, 1);
     ADD_FAILURE() << "read";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_NE(std::string(error.what()).find(".vtkhdf"), std::string::npos) << error.what();

@@ -34,7 +34,7 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
   EXPECT_EQ(outer.faces, (std::array<GlobalIndex, 2>{all.faces[0] - 32, all.faces[1]}));
   GlobalIndex owned = 0;
   double volume = 0;
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     owned += part.owned_count;
     for (const CellShape shape : cell_shapes) {
       for (LocalIndex c = 0; c < part.cells[static_cast<std::size_t>(shape)].count(); ++c) {
@@ -113,7 +113,7 @@ TEST(FileMesh, FacesComeByPatchWhateverTheirOrder) {
 std::vector<double> volumes(const FileMesh& mesh) {
   const Communicator& world = mesh.pieces->communicator;
   std::vector<double> sums(3 * mesh.regions.size(), 0);
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {
       for (const Run& run : part.cells[static_cast<std::size_t>(shape)].runs) {
         for (LocalIndex c = run.begin; c < run.end; ++c)
@@ -142,7 +142,7 @@ TEST(FileMesh, RepartitionedMeshIsTheSameMesh) {
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_NEAR(before[i], after[i], 1e-9);
     const mesh::FaceLinks links = mesh::link_faces(*cut.pieces);
     EXPECT_EQ(links.defects.open_faces + links.defects.stray_faces + links.defects.crowded_faces, 0);
-    for (const FilePart& part : cut.parts) {
+    for (const MeshPart& part : cut.parts) {
       EXPECT_NEAR(static_cast<double>(part.cell_count()), static_cast<double>(mesh.cell_count()) / parts,
                   by_region ? 40 : 1.5);
       if (!by_region) continue;

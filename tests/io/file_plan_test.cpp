@@ -11,8 +11,8 @@ namespace aeroloom::io {
 namespace {
 
 /// Parts of ten items, by the ranks that hold them.
-std::vector<PartPlace> parts_on(const std::vector<int>& ranks) {
-  std::vector<PartPlace> places;
+std::vector<PartLocation> parts_on(const std::vector<int>& ranks) {
+  std::vector<PartLocation> places;
   for (const int rank : ranks)
     places.push_back({.id = static_cast<std::int32_t>(places.size()), .rank = rank, .items = 10, .work = 40});
   return places;
@@ -58,10 +58,10 @@ TEST(FilePlanLocal, BringsAFewFilesAtOnce) {
   // Every file has a part elsewhere.
   std::vector<int> ranks;
   for (int i = 0; i < 60; ++i) ranks.insert(ranks.end(), {0, 0, 1, 1, 1, 0});
-  const std::vector<PartPlace> places = parts_on(ranks);
+  const std::vector<PartLocation> places = parts_on(ranks);
   const FilePlan plan = plan_files(places, 30, 2);
   std::vector<std::vector<mesh::GlobalIndex>> brought(plan.rounds, std::vector<mesh::GlobalIndex>(2, 0));
-  for (const PartPlace& place : places) {
+  for (const PartLocation& place : places) {
     const PlannedFile& file = plan.plan_of(place.id);
     ASSERT_LT(file.round, plan.rounds);
     if (file.writer != place.rank) brought[file.round][static_cast<std::size_t>(file.writer)] += place.items;
@@ -74,7 +74,7 @@ TEST(FilePlanLocal, BringsAFewFilesAtOnce) {
 }
 
 TEST(FilePlanLocal, GivesFilesOfNothingToAHolder) {
-  std::vector<PartPlace> places = parts_on({1, 1, 0, 0});
+  std::vector<PartLocation> places = parts_on({1, 1, 0, 0});
   places[2].items = places[2].work = places[3].items = places[3].work = 0;
   const FilePlan plan = plan_files(places, 15, 3);
   ASSERT_EQ(plan.files.size(), 2u);

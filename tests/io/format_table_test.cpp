@@ -147,7 +147,7 @@ TEST_F(FormatTable, WhatFilesHoldIsWhatTheRowSays) {
       EXPECT_EQ(bytes.find("interface") != std::string::npos, row.content.interfaces) << row.name;
       continue;
     }
-    const FileMesh read = read_mesh(world, file, 2).mesh;
+    const FileMesh read = read_mesh({world, file}, 2).mesh;
     EXPECT_EQ(read.regions.size(), row.content.regions ? 2U : 1U) << row.name;
     EXPECT_EQ(interface_faces(read), row.content.interfaces ? interface_faces(mesh) : 0) << row.name;
   }
@@ -209,7 +209,7 @@ TEST_F(FormatTable, LaterPartsOfAnEarlierMeshGo) {
     };
     const auto few = written(2), many = written(4);
     EXPECT_EQ(few.size() + 2, many.size()) << row.name;
-    row.remove_later_parts(world, file, 3);
+    row.remove_later_parts({world, file}, 3);
     world.barrier();
     EXPECT_EQ(examples::files_below(folder).size() + 1, many.size()) << row.name;
     world.barrier();

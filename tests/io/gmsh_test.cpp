@@ -37,7 +37,7 @@ void expect_same(const FileMesh& found, const FileMesh& expected) {
 TEST_F(Msh, ComesBackAsItWas) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
   write_msh(mesh, path("mesh.msh"));
-  const Assembled back = assemble(world, read_msh(world, path("mesh.msh")), path("mesh.msh"), 3);
+  const Assembled back = assemble(read_msh({world, path("mesh.msh")}), 3);
   expect_same(back.mesh, mesh);
   EXPECT_EQ(back.turned_cells + back.dropped_points + back.unnamed_faces, 0);
 }
@@ -46,7 +46,7 @@ TEST_F(Msh, PartsComeBackAsOneMesh) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 4);
   write_msh_parts(mesh, path("mesh.msh"));
   for (const char* name : {"mesh_1.msh", "mesh_*.msh"}) {
-    const Assembled back = assemble(world, read_msh(world, path(name)), path(name), 4);
+    const Assembled back = assemble(read_msh({world, path(name)}), 4);
     expect_same(back.mesh, mesh);
     EXPECT_EQ(back.turned_cells + back.dropped_points + back.unnamed_faces, 0);
   }
@@ -58,7 +58,7 @@ TEST_F(Msh, PartsComeBackAsOneMesh) {
     if (world.is_root()) fs::remove(path(lost));
     world.barrier();
     try {
-      read_msh(world, path("mesh_1.msh"));
+      read_msh({world, path("mesh_1.msh")});
       ADD_FAILURE() << "a part is missing";
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -96,7 +96,7 @@ FileMesh awkward_mesh(const Communicator& world) {
 TEST_F(Msh, AwkwardNamesComeBack) {
   const FileMesh mesh = awkward_mesh(world);
   write_msh(mesh, path("mesh.msh"));
-  const RawMesh raw = read_msh(world, path("mesh.msh"));
+  const RawMesh raw = read_msh({world, path("mesh.msh")});
   EXPECT_EQ(raw.patches, mesh.patches);
   const std::string bytes = examples::bytes_of(path("mesh.msh"));
   EXPECT_NE(bytes.find('"' + std::string(127, 'x') + "\"\n"), std::string::npos);
@@ -201,14 +201,14 @@ $EndNodeData
 
 TEST_F(Msh, TextOfOtherOriginIsRead) {
   write_text(world, path("small.msh"), small);
-  RawMesh raw = read_msh(world, path("small.msh"));
+  RawMesh raw = read_msh({world, path("small.msh")});
   EXPECT_EQ(raw.patches, (std::vector<mesh::Patch>{{"Symmetry", mesh::PatchType::symmetry}}));
   EXPECT_EQ(raw.regions, std::vector<std::string>{"gas"});
   if (world.is_root()) {
     EXPECT_EQ(raw.point_ids, (std::vector<mesh::GlobalIndex>{10, 30, 20, 40}));
     EXPECT_EQ(raw.coordinates, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
   }
-  const Assembled whole = assemble(world, std::move(raw), path("small.msh"), 1);
+  const Assembled whole = assemble(std::move(raw), 1);
   EXPECT_EQ(whole.mesh.cell_count(), 1);
   EXPECT_EQ(whole.unnamed_faces, 3);
 }
@@ -230,7 +230,7 @@ TEST_F(Msh, WhatIsNotReadIsSaid) {
   for (const auto& [content, expected] : cases) {
     write_text(world, path("bad.msh"), content);
     try {
-      read_msh(world, path("bad.msh"));
+      read_msh({world, path("bad.msh")});
       ADD_FAILURE() << expected;
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::input);
@@ -240,7 +240,7 @@ TEST_F(Msh, WhatIsNotReadIsSaid) {
     world.barrier();
   }
   try {
-    read_msh(world, path("absent.msh"));
+    read_msh({world, path("absent.msh")});
     ADD_FAILURE();
   } catch (const CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -249,9 +249,7 @@ TEST_F(Msh, WhatIsNotReadIsSaid) {
 
 TEST_F(Msh, DamageIsSurvived) {
   write_msh(examples::mixed_mesh(world, 2, 2), path("good.msh"));
-  const auto read = [&](const std::string& damaged) {
-    assemble(world, read_msh(world, damaged), damaged, 2);
-  };
+  const auto read = [&](const std::string& damaged) { assemble(read_msh({world, damaged}), 2); };
   const std::string binary = examples::bytes_of(path("good.msh"));
   EXPECT_GT(damage::survive(world, binary, path("bad.msh"), read).refused, 20);
   damage::Options options;

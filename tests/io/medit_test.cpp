@@ -45,7 +45,7 @@ protected:
     examples::put_bytes(world, file, bytes);
     std::string text;
     try {
-      assemble(world, read_medit(world, file), file, 1);
+      assemble(read_medit({world, file}), 1);
     } catch (const parallel::CollectiveError& error) {
       text = error.what();
       EXPECT_EQ(error.kind(), parallel::FailureKind::input);
@@ -61,11 +61,11 @@ TEST_F(Medit, WrittenAndReadAgain) {
   for (const char* name : {"round.meshb", "round.mesh", "wide.meshb"}) {
     const std::string file = path(name);
     write_medit(mesh, file, {std::string(name) == "wide.meshb"});
-    const Assembled read = assemble(world, read_medit(world, file), file, 2);
+    const Assembled read = assemble(read_medit({world, file}), 2);
     expect_same(mesh, read);
     // Coordinates come back with every bit.
     const examples::MixedMesh whole(4, 3);
-    for (const FilePart& part : read.mesh.parts) {
+    for (const MeshPart& part : read.mesh.parts) {
       for (mesh::LocalIndex v = 0; v < part.vertex_count(); ++v) {
         const geometry::Vec3 p = part.point(v);
         EXPECT_NE(std::find(whole.points.begin(), whole.points.end(), p), whole.points.end());
@@ -165,7 +165,7 @@ TEST_F(Medit, VersionsAndByteOrders) {
     for (const bool swapped : {false, true}) {
       const std::string file = path("imported.meshb");
       examples::put_bytes(world, file, ImportedFile(version, swapped).bytes);
-      const Assembled read = assemble(world, read_medit(world, file), file, 1);
+      const Assembled read = assemble(read_medit({world, file}), 1);
       EXPECT_EQ(read.mesh.vertex_count, 4);
       EXPECT_EQ(read.mesh.cell_count(), 1);
       EXPECT_EQ(read.mesh.regions, std::vector<std::string>{"region_7"});
@@ -185,7 +185,7 @@ TEST_F(Medit, TextWithCommentsAndOtherSections) {
       "# by hand\nMeshVersionFormatted\n1\nDimension\n3 Vertices 4 0 0 0 1\n1 0 0 1 0 1. 0 1 # here\n0 0 1e0 "
       "1\n"
       "Ridges 1\n1\nTetrahedra\n1\n2 1 3 4 5\n\nRequiredVertices\n2\n1\n2\nTriangles\n1 1 2 3 8\nEnd\n");
-  const Assembled read = assemble(world, read_medit(world, file), file, 1);
+  const Assembled read = assemble(read_medit({world, file}), 1);
   EXPECT_EQ(read.mesh.cell_count(), 1);
   EXPECT_EQ(read.turned_cells, 1);
   EXPECT_EQ(read.mesh.regions, std::vector<std::string>{"region_5"});
@@ -245,7 +245,7 @@ TEST_F(Medit, WhatCannotBeWrittenOrOpened) {
     }
   }
   try {
-    read_medit(world, "/no/such/file.meshb");
+    read_medit({world, "/no/such/file.meshb"});
     ADD_FAILURE() << "was read";
   } catch (const parallel::CollectiveError& error) {
     EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -259,8 +259,9 @@ TEST_F(Medit, HostileFiles) {
     for (const bool wide : {false, true}) {
       write_medit(mesh, good, {wide});
       const std::string bytes = examples::bytes_of(good);
-      damage::survive(world, bytes, hostile,
-                      [&](const std::string& file) { assemble(world, read_medit(world, file), file, 2); });
+      damage::survive(world, bytes, hostile, [&](const std::string& file) {
+        assemble(read_medit({world, file}), 2);
+      });
       if (ending == ".mesh") break;
     }
   }
@@ -271,11 +272,11 @@ TEST_F(Medit, NamesOfAnotherMeshAreLeftAlone) {
   write_medit(examples::mixed_mesh(world, 2, 2), file);
   examples::put_bytes(world, medit_names_path(file),
                       "tetrahedra 1 lower\ntetrahedra 2 upper\ntriangles 1 hull slip\n");
-  RawMesh raw = read_medit(world, file);
+  RawMesh raw = read_medit({world, file});
   EXPECT_EQ(raw.regions[0], "region_1");
   EXPECT_EQ(raw.patches[0], (mesh::Patch{"patch_1", mesh::PatchType::wall}));
   examples::put_bytes(world, medit_names_path(file), "tetrahedra 1 lower\ntetrahedra 2 upper\n");
-  raw = read_medit(world, file);
+  raw = read_medit({world, file});
   EXPECT_EQ(raw.regions, (std::vector<std::string>{"lower", "upper"}));
   EXPECT_EQ(raw.patches[0].name, "patch_1");
 }
@@ -285,8 +286,9 @@ TEST_F(Medit, HostileNames) {
   write_medit(examples::mixed_mesh(world, 2, 2), file);
   const std::string names = examples::bytes_of(medit_names_path(file));
   world.barrier();
-  damage::survive(world, names, medit_names_path(file),
-                  [&](const std::string&) { assemble(world, read_medit(world, file), file, 2); });
+  damage::survive(world, names, medit_names_path(file), [&](const std::string&) {
+    assemble(read_medit({world, file}), 2);
+  });
 }
 
 TEST_F(Medit, PlacesBeyondFourGibibytes) {
@@ -315,7 +317,7 @@ TEST_F(Medit, PlacesBeyondFourGibibytes) {
     stream << tail;
   }
   world.barrier();
-  const Assembled read = assemble(world, read_medit(world, file), file, 1);
+  const Assembled read = assemble(read_medit({world, file}), 1);
   EXPECT_EQ(read.mesh.cell_count(), 1);
   EXPECT_EQ(read.mesh.vertex_count, 4);
 }

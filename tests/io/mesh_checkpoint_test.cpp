@@ -17,12 +17,12 @@ protected:
     CheckpointDraft draft;
     for (const mesh::Piece& piece : mesh.pieces)
       draft.items.push_back({piece.id, [&piece] { return parallel::to_wire(piece); }});
-    write_checkpoint(world, path("c"), {}, draft);
+    write_checkpoint({world, path("c")}, {}, draft);
   }
 
   mesh::DistributedMesh read(mesh::DistributedMesh names) {
     names.pieces.clear();
-    for (const CheckpointContent::Item& item : read_checkpoint(world, path("c")).items)
+    for (const CheckpointContent::Item& item : read_checkpoint({world, path("c")}).items)
       names.pieces.push_back(parallel::from_wire<mesh::Piece>(item.bytes));
     return names;
   }

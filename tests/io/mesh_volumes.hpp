@@ -10,7 +10,7 @@
 namespace aeroloom::io::examples {
 
 /// Quadrilaterals count as two triangles.
-inline double volume_of(const FilePart& part, CellShape shape, mesh::LocalIndex cell) {
+inline double volume_of(const MeshPart& part, CellShape shape, mesh::LocalIndex cell) {
   const mesh::LocalIndex* v = part.cells[static_cast<std::size_t>(shape)].item(cell);
   const auto p = [&](int k) { return part.point(v[k]) - part.point(v[0]); };
   double volume = 0;
@@ -25,7 +25,7 @@ inline double volume_of(const FilePart& part, CellShape shape, mesh::LocalIndex 
 inline std::array<double, cell_shape_count> volumes_of(const FileMesh& mesh) {
   const parallel::Communicator& communicator = mesh.pieces->communicator;
   std::array<double, cell_shape_count> volumes{};
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {
       const auto s = static_cast<std::size_t>(shape);
       for (mesh::LocalIndex c = 0; c < part.cells[s].count(); ++c) volumes[s] += volume_of(part, shape, c);

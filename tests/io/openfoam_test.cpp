@@ -25,7 +25,7 @@ using parallel::Communicator;
 class OpenFoam : public examples::ScratchFolder {};
 
 struct OrderedPart {
-  const FilePart* part;
+  const MeshPart* part;
   FoamFaces order;
 };
 

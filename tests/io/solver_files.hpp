@@ -32,7 +32,7 @@ struct Contents {
 };
 
 /// A sixth of the divergence integral over a face.
-inline double volume_below(const FilePart& part, const std::vector<mesh::LocalIndex>& corners) {
+inline double volume_below(const MeshPart& part, const std::vector<mesh::LocalIndex>& corners) {
   const geometry::Vec3 a = part.point(corners[0]);
   double volume = 0;
   for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -50,7 +50,7 @@ inline Contents contents_of(const FileMesh& mesh) {
     contents.faces[mesh.patches[p].name] = mesh.patch_faces[p];
     contents.types[mesh.patches[p].name] = mesh.patches[p].type;
   }
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const Block& block : part.faces) {
       for (const Run& run : block.runs) {
         if (mesh.patches[run.id].type == mesh::PatchType::interior) continue;

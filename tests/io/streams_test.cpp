@@ -1,3 +1,4 @@
+#include "io/shared_path.hpp"
 #include "io/streams/range_reader.hpp"
 #include "io/streams/range_writer.hpp"
 #include "io/streams/text_lines.hpp"
@@ -95,16 +96,16 @@ TEST_F(Streams, PlainFilesAloneAreRead) {
   EXPECT_THROW(RangeReader("/dev/zero"), std::filesystem::filesystem_error);
 }
 
-TEST(ShareLocal, OfAnyCountIsWhole) {
+TEST(LocalRangeLocal, OfAnyCountIsWhole) {
   for (const std::int64_t count :
        {std::int64_t{0}, std::int64_t{2}, std::int64_t{10}, std::int64_t{1} << 62}) {
     for (const int size : {1, 3, 7}) {
       std::int64_t next = 0;
       for (int rank = 0; rank < size; ++rank) {
-        const Share share = Share::of(count, rank, size);
-        EXPECT_EQ(share.begin, next);
-        EXPECT_LE(share.count(), count / size + 1);
-        next = share.end;
+        const LocalRange range = LocalRange::of(count, rank, size);
+        EXPECT_EQ(range.begin, next);
+        EXPECT_LE(range.count(), count / size + 1);
+        next = range.end;
       }
       EXPECT_EQ(next, count);
     }

@@ -26,7 +26,7 @@ using parallel::FailureKind;
 struct Format {
   const char* suffix;
   void (*write)(const FileMesh&, const std::string&);
-  RawMesh (*read)(const Communicator&, const std::string&);
+  RawMesh (*read)(const SharedPath&);
 };
 constexpr std::array<Format, 2> formats = {{{".su2", write_su2, read_su2}, {".su2b", write_su2b, read_su2b}}};
 
@@ -37,7 +37,7 @@ protected:
     const std::string file = path("text.su2");
     examples::put_bytes(world, file, text);
     try {
-      read_su2(world, file);
+      read_su2({world, file});
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), FailureKind::input) << error.what();
       EXPECT_NE(std::string(error.what()).find(file + ", line "), std::string::npos) << error.what();
@@ -58,7 +58,7 @@ TEST_F(Su2, TextAndBinaryReadBackTheSame) {
   for (const Format& format : formats) {
     const std::string file = path(std::string("mixed") + format.suffix);
     format.write(mesh, file);
-    const Assembled read = assemble(world, format.read(world, file), file, 4);
+    const Assembled read = assemble(format.read({world, file}), 4);
     EXPECT_EQ(read.turned_cells, 0) << format.suffix;
     EXPECT_EQ(read.unnamed_faces, 0) << format.suffix;
     EXPECT_EQ(read.dropped_points, 0) << format.suffix;
@@ -113,7 +113,7 @@ TEST_F(Su2, ConditionsOfAllTypesComeBack) {
   write_markers(path("types.su2b"), mesh, patches, marker_names(mesh, patches));
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
-  set_marker_types(world, path("types.su2"), read);
+  set_marker_types({world, path("types.su2")}, read);
   EXPECT_EQ(read, mesh.patches);
 }
 
@@ -121,10 +121,10 @@ TEST_F(Su2, ConditionsOfAnotherMeshAreLeftAlone) {
   examples::put_bytes(world, path("shared_markers.cfg"),
                       "MARKER_EULER= ( hull, tail )\nMARKER_FAR= ( out )\n");
   std::vector<mesh::Patch> patches = {{"hull"}, {"out"}, {"Inflow 2"}};
-  set_marker_types(world, path("shared.su2"), patches);
+  set_marker_types({world, path("shared.su2")}, patches);
   EXPECT_EQ(patches, (std::vector<mesh::Patch>{{"hull"}, {"out"}, {"Inflow 2", mesh::PatchType::inlet}}));
   patches.push_back({"tail"});
-  set_marker_types(world, path("shared.su2"), patches);
+  set_marker_types({world, path("shared.su2")}, patches);
   EXPECT_EQ(patches[0].type, mesh::PatchType::slip);
   EXPECT_EQ(patches[1].type, mesh::PatchType::farfield);
   EXPECT_EQ(patches[2].type, mesh::PatchType::inlet);
@@ -142,7 +142,7 @@ TEST_F(Su2, ConditionsOfThousandsOfMarkersComeBack) {
   write_markers(path("many.su2"), mesh, patches, marker_names(mesh, patches));
   std::vector<mesh::Patch> read = mesh.patches;
   for (mesh::Patch& patch : read) patch.type = mesh::PatchType::wall;
-  set_marker_types(world, path("many.su2"), read);
+  set_marker_types({world, path("many.su2")}, read);
   EXPECT_EQ(read, mesh.patches);
 }
 
@@ -236,7 +236,7 @@ TEST_F(Su2, BinaryFilesOfEitherOrderAndWidthAreRead) {
   examples::put_bytes(world, wide, widened(bytes_of(path("own.su2b"))));
   if (world.is_root()) fs::copy_file(path("own_markers.cfg"), path("own.wide_markers.cfg"));
   world.barrier();
-  const Assembled read = assemble(world, read_su2b(world, wide), wide, 2);
+  const Assembled read = assemble(read_su2b({world, wide}), 2);
   examples::expect_same(examples::contents_of(read.mesh), expected(mesh));
 }
 
@@ -251,9 +251,9 @@ TEST_F(Su2, TextOfOthersIsRead) {
       "0 0";
   const std::string file = path("others.su2");
   examples::put_bytes(world, file, text);
-  const RawMesh raw = read_su2(world, file);
+  const RawMesh raw = read_su2({world, file});
   EXPECT_EQ(raw.patches, (std::vector<mesh::Patch>{{"hull"}, {"far"}}));
-  const Assembled read = assemble(world, read_su2(world, file), file, 1);
+  const Assembled read = assemble(read_su2({world, file}), 1);
   EXPECT_EQ(read.mesh.cell_count(), 1);
   EXPECT_EQ(read.mesh.vertex_count, 4);
   EXPECT_EQ(read.mesh.boundary_count(FaceShape::triangle), 4);
@@ -291,7 +291,7 @@ TEST_F(Su2, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_TRUE(error_of(std::string(3 << 20, 'x')).starts_with("line 1: the line is too long"));
   for (const Format& format : formats) {
     try {
-      format.read(world, path("nowhere"));
+      format.read({world, path("nowhere")});
       ADD_FAILURE() << "no error";
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), FailureKind::files);
@@ -306,9 +306,7 @@ TEST_F(Su2, DamagedFilesAreErrorsOrMeshes) {
     format.write(mesh, file);
     const std::string good = bytes_of(file);
     world.barrier();
-    const auto read = [&](const std::string& damaged) {
-      assemble(world, format.read(world, damaged), damaged, 2);
-    };
+    const auto read = [&](const std::string& damaged) { assemble(format.read({world, damaged}), 2); };
     const damage::Options cuts{.truncations = 50, .flips = 0, .fields = 0, .pieces = 0};
     const damage::Options all{.truncations = 0, .flips = 120, .fields = 30, .pieces = 30};
     // Text may lack the end of its last line; without its last digit it is that of another mesh.

@@ -24,7 +24,7 @@ protected:
   /// The kind and text of the error that reading gives.
   std::string error_of(const std::string& file, FailureKind kind = FailureKind::input) const {
     try {
-      read_ugrid(world, file);
+      read_ugrid({world, file});
     } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), kind) << error.what();
       return error.what();
@@ -47,7 +47,7 @@ TEST_F(Ugrid, AllKindsReadBackTheSame) {
        {"lb8.ugrid", "b8.ugrid", "lb8l.ugrid", "b8l.ugrid", "lb8.ugrid64", "b8.ugrid64"}) {
     const std::string file = path(std::string("mixed.") + suffix);
     write_ugrid(mesh, file);
-    const Assembled read = assemble(world, read_ugrid(world, file), file, 4);
+    const Assembled read = assemble(read_ugrid({world, file}), 4);
     EXPECT_EQ(read.turned_cells, 0) << suffix;
     EXPECT_EQ(read.unnamed_faces, 0) << suffix;
     EXPECT_EQ(read.dropped_points, 0) << suffix;
@@ -117,7 +117,7 @@ TEST_F(Ugrid, PlanesOfSymmetryAreKnownByTheirAxis) {
                       : geometry::Vec3{p.z, p.x, y};
     }
     write_ugrid(examples::distribute(world, whole, 2), path("plane.lb8.ugrid"));
-    const auto table = read_mapbc(world, path("plane.mapbc"));
+    const auto table = read_mapbc({world, path("plane.mapbc")});
     EXPECT_EQ(table.at(2).type, mesh::PatchType::symmetry);
     EXPECT_NE(bytes_of(path("plane.mapbc")).find("2 666" + std::to_string(axis + 1) + " symmetry"),
               std::string::npos);
@@ -131,9 +131,9 @@ TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
   world.barrier();
   if (world.is_root()) fs::remove(path("bare.mapbc"));
   world.barrier();
-  EXPECT_EQ(read_ugrid(world, file).patches[1], (mesh::Patch{"patch_2", mesh::PatchType::wall}));
+  EXPECT_EQ(read_ugrid({world, file}).patches[1], (mesh::Patch{"patch_2", mesh::PatchType::wall}));
   examples::put_bytes(world, path("bare.mapbc"), "3\n1 3000 shell\n3 5050 shell \n\n2 6662\n");
-  const RawMesh raw = read_ugrid(world, file);
+  const RawMesh raw = read_ugrid({world, file});
   ASSERT_EQ(raw.patches.size(), 3U);
   EXPECT_EQ(raw.patches[0], (mesh::Patch{"shell", mesh::PatchType::slip}));
   EXPECT_EQ(raw.patches[1], (mesh::Patch{"patch_2", mesh::PatchType::symmetry}));
@@ -141,7 +141,7 @@ TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
   for (const char* other : {"3\n1 3000 a\n2 5050 b\n7 6662 c\n", "2\n1 3000 a\n2 5050 b\n",
                             "4\n1 3000 a\n2 5050 b\n3 3000 c\n4 3000 d\n"}) {
     examples::put_bytes(world, path("bare.mapbc"), other);
-    EXPECT_EQ(read_ugrid(world, file).patches[0], (mesh::Patch{"patch_1", mesh::PatchType::wall}));
+    EXPECT_EQ(read_ugrid({world, file}).patches[0], (mesh::Patch{"patch_1", mesh::PatchType::wall}));
   }
   examples::put_bytes(world, path("bare.mapbc"), "2\n1 4000 shell\n1 4000 hull\n");
   EXPECT_NE(error_of(file).find("bare.mapbc, line 3"), std::string::npos);
@@ -152,7 +152,7 @@ TEST_F(Ugrid, PatchesHaveNamesWithoutMapbcToo) {
 TEST_F(Ugrid, NumbersOfUsm3dAreConditionsToo) {
   const std::string file = path("old.mapbc");
   examples::put_bytes(world, file, "8\n1 0 a\n2 1 b\n3 2 c\n4 3 d\n5 4 e\n6 5 f\n7 1001 g\n8 1002 h\n");
-  const auto table = read_mapbc(world, file);
+  const auto table = read_mapbc({world, file});
   using mesh::PatchType;
   const std::array types = {PatchType::farfield, PatchType::symmetry, PatchType::outlet, PatchType::farfield,
                             PatchType::wall,     PatchType::slip,     PatchType::inlet,  PatchType::outlet};
@@ -215,7 +215,7 @@ TEST_F(Ugrid, WhatIsWrongIsSaidWithItsPlace) {
 }
 
 TEST_F(Ugrid, DamagedFilesAreErrorsOrMeshes) {
-  const auto read = [&](const std::string& file) { assemble(world, read_ugrid(world, file), file, 2); };
+  const auto read = [&](const std::string& file) { assemble(read_ugrid({world, file}), 2); };
   for (const char* suffix : {"lb8.ugrid", "b8l.ugrid"}) {
     const std::string file = path(std::string("damaged.") + suffix);
     write_ugrid(examples::mixed_mesh(world, 1, 2), file);

@@ -22,7 +22,7 @@ void write(const parallel::Communicator& world, const std::string& folder, int s
 }
 
 void read(const parallel::Communicator& world, const std::string& file) {
-  const io::Assembled read = io::assemble(world, io::read_vtk(world, file), file, 2);
+  const io::Assembled read = io::assemble(io::read_vtk({world, file}), 2);
   if (!world.is_root()) return;
   std::printf("points %lld turned %lld unnamed %lld\n", static_cast<long long>(read.mesh.vertex_count),
               static_cast<long long>(read.turned_cells), static_cast<long long>(read.unnamed_faces));

@@ -18,7 +18,10 @@ protected:
   damage::Outcome survive(const std::string& good, const std::string& name, const damage::Options& options) {
     return damage::survive(
         world, good, path(name),
-        [&](const std::string& file) { assemble(world, read_vtk(world, file), file, 2); }, options);
+        [&](const std::string& file) {
+          assemble(read_vtk({world, file}), 2);
+        },
+        options);
   }
   /// Fewer than for readers of our own, for each case runs in a process of its own; and few on several ranks,
   /// which do nothing different but wait for each other.

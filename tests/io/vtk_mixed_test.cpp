@@ -37,7 +37,7 @@ TEST_F(VtkMixed, ComesBackTheSame) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
   for (const Compression compression : {Compression::none, Compression::lz4, Compression::zlib}) {
     write_volume(mesh, folder, "mesh", compression);
-    const Assembled read = assemble(world, read_vtk(world, path("mesh.pvtu")), path("mesh.pvtu"), 4);
+    const Assembled read = assemble(read_vtk({world, path("mesh.pvtu")}), 4);
     EXPECT_EQ(read.turned_cells, 0);
     EXPECT_EQ(read.dropped_points, 0);
     EXPECT_EQ(read.unnamed_faces, 0);

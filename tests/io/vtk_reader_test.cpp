@@ -44,7 +44,7 @@ protected:
     write_index(index, sources);
   }
   Assembled read(const std::string& name, int parts = 2) {
-    return assemble(world, read_vtk(world, path(name)), path(name), parts);
+    return assemble(read_vtk({world, path(name)}), parts);
   }
   void expect_error(const std::string& name, parallel::FailureKind kind, const std::string& reason) {
     try {
@@ -130,8 +130,8 @@ TEST_F(VtkReader, APartWithoutPointsHasFacesOfOthers) {
 
 TEST_F(VtkReader, MakesOneMeshWhateverTheRanks) {
   on_root([&] { write_parts("parts.pvtu", 4, {.label = "CellEntityIds"}); });
-  const RawMesh mine = read_vtk(world, path("parts.pvtu"));
-  const RawMesh all = read_vtk(Communicator::self(), path("parts.pvtu"));
+  const RawMesh mine = read_vtk({world, path("parts.pvtu")});
+  const RawMesh all = read_vtk({Communicator::self(), path("parts.pvtu")});
   EXPECT_EQ(world.all_gather_items(std::span(mine.point_ids)), all.point_ids);
   EXPECT_EQ(world.all_gather_items(std::span(mine.coordinates)), all.coordinates);
   for (std::size_t s = 0; s < cell_shape_count; ++s) {

@@ -41,7 +41,7 @@ class VtkWriter : public examples::ScratchFolder {
 protected:
   void write_cube(const Communicator& communicator, int n, int pieces, const std::string& where) {
     const auto mesh = mesh::examples::cube(communicator, n, pieces);
-    write_volume(mesh::number_mesh(mesh), where, "mesh");
+    write_volume(file_mesh_of(mesh::number_mesh(mesh)), where, "mesh");
     const auto surface = mesh::examples::cube_surface(communicator, n, pieces);
     write_surface(mesh::number_mesh(surface), where, "surface");
   }
@@ -99,7 +99,7 @@ TEST_F(VtkWriter, CompressedFilesAreSmallerAndHoldTheSame) {
     std::vector<double> coordinates, ids, connectivity;
   };
   const auto read = [&](Compression compression, const char* name) {
-    write_volume(numbered, folder, name, compression);
+    write_volume(file_mesh_of(numbered), folder, name, compression);
     vtkNew<vtkXMLPUnstructuredGridReader> reader;
     reader->SetFileName((folder / (std::string(name) + ".pvtu")).c_str());
     reader->Update();
@@ -230,7 +230,7 @@ TEST_F(VtkWriter, LeavesOrphansOut) {
     piece.vertex_dimension.push_back(mesh::CadDimension::region);
     piece.vertex_entity.push_back(0);
   }
-  write_volume(mesh::number_mesh(mesh), folder, "mesh");
+  write_volume(file_mesh_of(mesh::number_mesh(mesh)), folder, "mesh");
   vtkNew<vtkXMLPUnstructuredGridReader> reader;
   reader->SetFileName((folder / "mesh.pvtu").c_str());
   reader->Update();
@@ -264,7 +264,7 @@ TEST_F(VtkWriter, RemovesPartsOfAnEarlierRunAndNothingElse) {
 
 TEST_F(VtkWriter, EscapesWhatXmlReserves) {
   const auto mesh = mesh::examples::two_tets(world);
-  write_volume(mesh::number_mesh(mesh), folder, "a<&\"b");
+  write_volume(file_mesh_of(mesh::number_mesh(mesh)), folder, "a<&\"b");
   vtkNew<vtkXMLPUnstructuredGridReader> reader;
   reader->SetFileName((folder / "a<&\"b.pvtu").c_str());
   reader->Update();
@@ -295,7 +295,7 @@ TEST_F(VtkWriter, SaysWhenAFileCannotGrow) {
   setrlimit(RLIMIT_FSIZE, &small);
   std::string message;
   try {
-    write_volume(numbered, folder, "mesh");
+    write_volume(file_mesh_of(numbered), folder, "mesh");
   } catch (const parallel::CollectiveError& error) {
     message = error.what();
     EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -311,7 +311,7 @@ TEST_F(VtkWriter, SaysWhenAFileCannotGrow) {
 
 TEST_F(VtkWriter, WritesAnEmptyMesh) {
   mesh::DistributedMesh mesh(world);
-  write_volume(mesh::number_mesh(mesh), folder, "mesh");
+  write_volume(file_mesh_of(mesh::number_mesh(mesh)), folder, "mesh");
   EXPECT_TRUE(fs::exists(folder / "mesh.pvtu"));
 }
 

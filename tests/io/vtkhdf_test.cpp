@@ -27,7 +27,7 @@ class Vtkhdf : public examples::ScratchFolder {
 protected:
   std::string message_of_reading(const std::string& path) const {
     try {
-      read_vtkhdf(world, path);
+      read_vtkhdf({world, path});
     } catch (const parallel::CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::input);
       return error.what();
@@ -40,7 +40,7 @@ protected:
 std::array<std::array<double, cell_shape_count>, 2> volumes_of(const FileMesh& mesh) {
   const Communicator& communicator = mesh.pieces->communicator;
   std::array<std::array<double, cell_shape_count>, 2> volumes{};
-  for (const FilePart& part : mesh.parts) {
+  for (const MeshPart& part : mesh.parts) {
     for (const CellShape shape : cell_shapes) {
       const Block& block = part.cells[static_cast<std::size_t>(shape)];
       for (const Run& run : block.runs) {
@@ -62,8 +62,7 @@ TEST_F(Vtkhdf, ReadsBackWhatItWrote) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 5);
   write_vtkhdf(mesh, folder / "mesh.vtkhdf");
   EXPECT_FALSE(fs::exists(folder / "mesh.vtkhdf.unfinished"));
-  const Assembled read =
-      assemble(world, read_vtkhdf(world, folder / "mesh.vtkhdf"), folder / "mesh.vtkhdf", 3);
+  const Assembled read = assemble(read_vtkhdf({world, folder / "mesh.vtkhdf"}), 3);
   EXPECT_EQ(read.turned_cells, 0);
   EXPECT_EQ(read.dropped_points, 0);
   EXPECT_EQ(read.unnamed_faces, 0);
@@ -95,16 +94,16 @@ TEST_F(Vtkhdf, ReadsTheSameOnAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   write_vtkhdf(examples::mixed_mesh(world, 3, 4), folder / "mesh.vtkhdf");
   const std::string path = folder / "mesh.vtkhdf";
-  write_vtkhdf(assemble(world, read_vtkhdf(world, path), path, 2).mesh, folder / "again");
+  write_vtkhdf(assemble(read_vtkhdf({world, path}), 2).mesh, folder / "again");
   if (!world.is_root()) return;
   const auto self = Communicator::self();
-  write_vtkhdf(assemble(self, read_vtkhdf(self, path), path, 2).mesh, folder / "alone");
+  write_vtkhdf(assemble(read_vtkhdf({self, path}), 2).mesh, folder / "alone");
   EXPECT_TRUE(examples::bytes_of(folder / "again") == examples::bytes_of(folder / "alone"));
 }
 
 TEST_F(Vtkhdf, SaysWhatItCannotRead) {
   write_vtkhdf_surface(examples::mixed_mesh(world), folder / "surface.vtkhdf");
-  const RawMesh surface = read_vtkhdf(world, folder / "surface.vtkhdf");  // faces alone: assemble refuses
+  const RawMesh surface = read_vtkhdf({world, folder / "surface.vtkhdf"});  // faces alone: assemble refuses
   EXPECT_EQ(surface.patches, examples::MixedMesh(2, 1).patches);
   if (world.is_root()) {
     std::ofstream(folder / "text") << "no HDF5 at all, however long the text may be that stands here";
@@ -115,7 +114,7 @@ TEST_F(Vtkhdf, SaysWhatItCannotRead) {
   EXPECT_NE(message_of_reading(folder / "empty").find("empty: no HDF5 file"), std::string::npos);
   for (const char* missing : {"nothing", ""}) {
     try {
-      read_vtkhdf(world, folder / missing);
+      read_vtkhdf({world, folder / missing});
       FAIL();
     } catch (const parallel::CollectiveError& error) {
       EXPECT_EQ(error.kind(), parallel::FailureKind::files);
@@ -135,7 +134,10 @@ TEST_F(Vtkhdf, SurvivesDamagedFiles) {
   options.every = damage::stride(11);  // each takes a dozen processes
   const damage::Outcome outcome = damage::survive(
       world, good, folder / "damaged.vtkhdf",
-      [&](const std::string& path) { assemble(world, read_vtkhdf(world, path), path, 0); }, options);
+      [&](const std::string& path) {
+        assemble(read_vtkhdf({world, path}), 0);
+      },
+      options);
   EXPECT_GT(outcome.refused, outcome.cases / 10);
 }
 

@@ -21,7 +21,7 @@ using namespace aeroloom;
 void tell(const parallel::Communicator& world, const std::string& path) {
   if (world.is_root()) fmt::print("file {}\n", path);
   try {
-    const io::Assembled read = io::assemble(world, io::read_vtkhdf(world, path), path, 2);
+    const io::Assembled read = io::assemble(io::read_vtkhdf({world, path}), 2);
     if (!world.is_root()) return;
     fmt::print("vertices {}\ncells {} {} {}\n", read.mesh.vertex_count,
                read.mesh.cell_count(io::CellShape::tetrahedron), read.mesh.cell_count(io::CellShape::pyramid),

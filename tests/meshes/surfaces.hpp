@@ -347,8 +347,8 @@ inline std::vector<SurfaceTriangle> numbered_triangles(const Surface& surface) {
       triangle.points[k] = surface.points[surface.triangles[t][k]];
     }
     triangle.face = surface.face[t];
-    triangle.front = surface.sides[surface.face[t]].front;
-    triangle.back = surface.sides[surface.face[t]].back;
+    triangle.inside = surface.sides[surface.face[t]].front;
+    triangle.outside = surface.sides[surface.face[t]].back;
     result.push_back(triangle);
   }
   return result;

@@ -35,7 +35,7 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   const cad::Model model = cad::Model::from_bytes(cad::prepare_domain(domain).model.serialise());
   sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 60'000);
   sizes.feature_minimum = 0.5 * sizes.minimum;  // small for a test: trailing edges stay unresolved
-  sizes.strip_minimum = 0;
+  sizes.narrow_minimum = 0;
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;

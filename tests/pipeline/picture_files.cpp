@@ -19,7 +19,7 @@ namespace aeroloom::pipeline {
 namespace {
 
 std::vector<report::Picture> pictures_of_mesh(const parallel::Communicator& world, const std::string& file) {
-  const mesh::DistributedMesh volume = imported::import_mesh(world, file, 100'000);
+  const mesh::DistributedMesh volume = imported::import_mesh({world, file}, 100'000);
   const mesh::NumberedMesh surface = mesh::number_mesh(mesh::boundary_mesh(mesh::number_mesh(volume)));
   const std::clock_t begin = std::clock();
   std::vector<report::Picture> pictures =

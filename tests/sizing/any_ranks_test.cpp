@@ -7,7 +7,7 @@
 #include "sizing/choice/narrow_regions.hpp"
 #include "sizing/choice/predict_counts.hpp"
 #include "sizing/features/narrow_faces.hpp"
-#include "sizing/lifting/level_demands.hpp"
+#include "sizing/lifting/level_requests.hpp"
 #include "sizing/lifting/lifting.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
 #include "tests/cad/primitives.hpp"
@@ -46,9 +46,9 @@ public:
   Findings& operator<<(const PredictedCounts& counts) {
     return *this << counts.triangles << counts.tetrahedra;
   }
-  Findings& operator<<(const FeatureShare& features) {
-    return *this << features.aspect << features.floor << features.share << std::int64_t{features.limited}
-                 << features.resolved_share << features.gap_floor << features.gap_share;
+  Findings& operator<<(const FeatureResolution& features) {
+    return *this << features.aspect << features.floor << features.ratio << std::int64_t{features.limited}
+                 << features.resolved_ratio << features.gap_floor << features.gap_ratio;
   }
   Findings& operator<<(const SizingOptions& options) {
     return *this << options.minimum << options.maximum << options.surface_maximum << options.curvature_angle;
@@ -104,7 +104,7 @@ TEST(OnAnyRanks, CountsOfTetrahedra) {
     const SizingOptions options{0.02, 0.2, 12, 1.3, 0};
     FieldFactory factory(SampledModel(ranks, model), 0, Fields::several);
     findings << predict_counts(factory.sampled(), factory.build_field(options))
-             << factory.build_rough_field(options).counts
+             << factory.build_coarse_field(options).counts
              << factory.estimate_tetrahedra(options, 4, 1'000'000'000).value_or(-1)
              << count_triangles(factory.sampled(), factory.build_field(options));
     for (const BoundedFace& face : factory.faces_bounded_by_minimum(options))
@@ -119,9 +119,9 @@ TEST(OnAnyRanks, StripsAndNarrowFaces) {
     for (const Model& model : {cad::shapes::split_cylinder(3, 2), cad::shapes::tapered_wedge(0.01, 0.001),
                                cad::shapes::creased_prism(10)}) {
       FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
-      for (const Strip& strip : strips_narrower_than(factory.sampled(), 0.06, 0.05))
+      for (const NarrowRegion& strip : narrow_regions_below(factory.sampled(), 0.06, 0.05))
         findings << strip.face << strip.width << strip.place;
-      for (const double elements : elements_along_strips(factory.sampled(), aspects, options))
+      for (const double elements : elements_along_narrow_regions(factory.sampled(), aspects, options))
         findings << elements;
       const std::vector<Vec3> places{{0, 0, 0}, {1, 0.5, 0.2}};
       for (const double size : factory.sizes_without_features(places, options)) findings << size;
@@ -163,11 +163,11 @@ TEST(OnAnyRanks, SharesOfFeatures) {
     options.feature_minimum = options.minimum;
     FieldFactory blunt(SampledModel(ranks, cad::shapes::blunt_wedge(0.004)), 0, Fields::several);
     for (const double budget : {1.0, 1.5, 1e9})
-      findings << share_of_features(blunt, options, budget, 1, 1'000'000'000);
+      findings << choose_feature_resolution(blunt, options, budget, 1, 1'000'000'000);
     FieldFactory thin(SampledModel(ranks, cad::shapes::tapered_wedge(0.01, 0.0005)), 0, Fields::several);
-    findings << share_of_features(thin, options, 4, 1, 60'000);
+    findings << choose_feature_resolution(thin, options, 4, 1, 60'000);
     FieldFactory slot(SampledModel(ranks, plate(0.02)), 1, Fields::several);
-    findings << share_of_features(slot, options, 1e9, 1, 1'000'000'000);
+    findings << choose_feature_resolution(slot, options, 1e9, 1, 1'000'000'000);
   });
 }
 
@@ -192,18 +192,18 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
     const Vec3 flow{1, 0, 0};
     FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
     for (const TrailingEdge& edge : find_trailing_edges(factory.sampled(), 1))
-      findings << edge.strip.face << edge.strip.narrowest << edge.chord << edge.share;
+      findings << edge.strip.face << edge.strip.narrowest << edge.chord << edge.fraction;
     const LiftingBodies bodies = find_lifting_bodies(factory.sampled(), flow);
     findings << bodies.reference_chord << bodies.semispan;
     for (const LiftingElement& element : bodies.elements) {
-      findings << element.strip << element.edge;
+      findings << element.blunt_face << element.edge;
       for (const LiftingStation& station : element.stations)
         findings << station.trailing << station.leading << station.chord << station.thickness;
     }
     const LevelSizes level = sizes_of(Level::a);
     GivenSizes given = level_bounds(model, bodies, level);
     given.growth = 2.5, given.curvature_angle = 60, given.surface_maximum = 1;
-    factory.demand(level_lines(model, bodies, level, flow));
+    factory.request_lines(level_lines(model, bodies, level, flow));
     const SizeField field = factory.build_field(with_given({}, given));
     findings << field.leaf_count();
     for (const LiftingElement& element : bodies.elements) {
@@ -219,7 +219,8 @@ TEST(OnAnyRanks, RefusalsAreThoseOfAllRanks) {
   FieldFactory factory(SampledModel(world, model), 0, Fields::several);
   EXPECT_THROW(factory.build_field({1e-7, 1e-7, 15, 1.3, 0}), std::invalid_argument);
   EXPECT_THROW(choose_sizes(factory, 0), std::invalid_argument);
-  EXPECT_THROW(share_of_features(factory, {0.05, 0.5, 15, 1.3, 0}, 0.5, 1, 1000), std::invalid_argument);
+  EXPECT_THROW(choose_feature_resolution(factory, {0.05, 0.5, 15, 1.3, 0}, 0.5, 1, 1000),
+               std::invalid_argument);
 }
 
 }  // namespace

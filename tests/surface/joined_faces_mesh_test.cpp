@@ -42,8 +42,7 @@ struct Meshed {
 
 Meshed mesh_model(const Communicator& communicator, const Model& model, const SurfaceOptions& options) {
   const sizing::SizeField field = sizing::build_size_field(communicator, model, {size, size, 30, 1.3, 0});
-  SurfaceMesh surface = mesh_surface(model, field, options);
-  return {std::move(surface)};
+  return {mesh_surface(model, field, options)};
 }
 
 void expect_sound(const Meshed& meshed) {

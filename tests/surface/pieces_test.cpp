@@ -32,8 +32,7 @@ struct Meshed {
 
 Meshed mesh_model(const cad::Model& model, const sizing::SizeField& field, const SurfaceOptions& options,
                   const FaceDivider& divider = {}) {
-  SurfaceMesh surface = mesh_surface_with_cuts(model, field, {options, divider});
-  return {std::move(surface)};
+  return {mesh_surface_with_cuts(model, field, {options, divider})};
 }
 
 std::string hash_of(const Meshed& meshed) {

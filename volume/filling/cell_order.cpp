@@ -1,6 +1,6 @@
 #include "volume/filling/cell_order.hpp"
 
-#include "sizing/field/morton.hpp"
+#include "geometry/morton.hpp"
 
 #include <algorithm>
 
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> order_along_curve(std::span<const Vec3> points,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto& c = cells[i];
     const Vec3 q = scale * (0.25 * (points[c[0]] + points[c[1]] + points[c[2]] + points[c[3]]) - box.low);
-    const std::uint64_t key = sizing::morton_key(
+    const std::uint64_t key = geometry::morton_key(
         {static_cast<std::uint32_t>(q.x), static_cast<std::uint32_t>(q.y), static_cast<std::uint32_t>(q.z)});
     order[i] = {key, static_cast<std::uint32_t>(i)};
     for (int pass = 0; pass < passes; ++pass) ++first[pass][(key >> (pass * bits) & mask) + 1];

@@ -196,7 +196,7 @@ private:
         if (triangle >= 0) return region_beside(c, face, triangle);
       }
     }
-    throw std::runtime_error("nothing tells the region around a point that TetGen added");
+    throw std::runtime_error("the region around a point that TetGen added was not found");
   }
 
   const ZoneProblem& _problem;

@@ -267,9 +267,9 @@ void RetryPolicy::merge_around(std::span<const DisputedPlace> places, Changed& c
   for (const LeafOfPlace& leaf : leaves_around(places, 2)) zones[leaf.place].push_back(leaf.zone);
   for (std::size_t i = 0; i < places.size(); ++i) {
     geometry::sort_unique(zones[i]);
-    std::vector<ZoneIndex> left = zones[i];  // another place may have merged some of them
-    std::erase_if(left, [&](ZoneIndex z) { return is_gone(z); });
-    if (left.size() == zones[i].size() && left.size() < 2) {
+    std::vector<ZoneIndex> remaining = zones[i];  // another place may have merged some of them
+    std::erase_if(remaining, [&](ZoneIndex z) { return is_gone(z); });
+    if (remaining.size() == zones[i].size() && remaining.size() < 2) {
       const Vec3 where = _report.disagreements[_report.disagreements.size() - places.size() + i].place;
       throw parallel::CollectiveError(
           parallel::FailureKind::input,
@@ -277,9 +277,9 @@ void RetryPolicy::merge_around(std::span<const DisputedPlace> places, Changed& c
                       "there, or another piece size (VolumeOptions::piece_tets)",
                       geometry::place_text(where)));
     }
-    for (const ZoneIndex z : left) touch_all(z, changed);
-    for (const ZoneIndex z : left) {
-      if (z != left.front()) merge(left.front(), z);
+    for (const ZoneIndex z : remaining) touch_all(z, changed);
+    for (const ZoneIndex z : remaining) {
+      if (z != remaining.front()) merge(remaining.front(), z);
     }
   }
 }

@@ -43,7 +43,7 @@ public:
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
         fmt::format("{} zones were filled {} times again in {} rounds, and their tetrahedra still do not fit "
-                    "together: what they know of each other is too little. Remedy: a wider "
+                    "together: their halos are too narrow. Remedy: a wider "
                     "VolumeOptions::halo ({:g}), or larger pieces (VolumeOptions::piece_tets)",
                     _zones, _again, rounds, halo));
   }
@@ -79,7 +79,7 @@ public:
   std::vector<ZoneIndex> change_failed(const std::vector<ZoneFailure>& failures,
                                        const std::vector<DemotedLeaf>& demoted,
                                        const FailureDiagnostics& diagnostics);
-  /// Where zones disagree, gives the leaves to the lowest zone, and after several rounds merges the zones.
+  /// Where zones disagree, reassigns leaves to the lowest zone, and after several rounds merges the zones.
   /// Returns the zones to be filled again. `faces` are those of this rank's zones. Throws CollectiveError.
   /// Collective.
   std::vector<ZoneIndex> resolve_disputes(std::span<const ZoneFace> faces);

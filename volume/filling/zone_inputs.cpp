@@ -190,7 +190,7 @@ private:
       local[k] = static_cast<mesh::LocalIndex>(at - vertex_keys.begin());
       is_own = is_own || _input.problem.owners[local[k]] == Owner::mine;
     }
-    if (known < 3 && is_own) throw std::logic_error("a zone does not know a point of the core's border");
+    if (known < 3 && is_own) throw std::logic_error("a zone lacks a point of the core's border");
     if (known < 3) return;
     _input.problem.borders.push_back(local);
     _input.problem.border_regions.push_back(t.region);

@@ -15,11 +15,11 @@ GhostLayer::GhostLayer(const LatticeTree& tree)
     });
   }
   geometry::sort_unique(_ghosts);
-  std::vector<Wanted> asked;
-  asked.reserve(_ghosts.size());
+  std::vector<Wanted> requests;
+  requests.reserve(_ghosts.size());
   for (const BlockIndex b : _ghosts)
-    asked.push_back({tree.number(b), static_cast<std::int32_t>(place(b)), tree.communicator().rank()});
-  _wanted = mesh::deliver(tree.communicator(), std::move(asked),
+    requests.push_back({tree.number(b), static_cast<std::int32_t>(place(b)), tree.communicator().rank()});
+  _wanted = mesh::deliver(tree.communicator(), std::move(requests),
                           [&](const Wanted& wanted) { return tree.owner(wanted.block); });
   for (Wanted& wanted : _wanted) wanted.block = tree.index(wanted.block) - _first;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "geometry/vec.hpp"
-#include "sizing/field/morton.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <array>

@@ -199,7 +199,7 @@ BlockIndex LatticeTree::find(BlockNumber number) const {
 }
 
 void LatticeTree::throw_not_local() {
-  throw std::logic_error("a block of the lattice is asked for that is not local to this rank");
+  throw std::logic_error("a block of the lattice was requested that is not local to this rank");
 }
 
 GridCube LatticeTree::leaf(BlockIndex b, int child) const {

@@ -91,7 +91,7 @@ public:
   int leaf_level(BlockIndex b) const { return _blocks.levels[b] + _split[b]; }
   GridCube leaf(BlockIndex b, int child) const;
   GridCube leaf(const Leaf& which) const { return leaf(which.block, which.child); }
-  /// All leaves of a block, a bit each.
+  /// All leaves of a block, as bits.
   std::uint8_t all_leaves(BlockIndex b) const { return _split[b] ? 0xff : 1; }
 
   BlockIndex block_at(sizing::GridPoint p) const { return required(any_at(p)); }
@@ -108,7 +108,7 @@ public:
     const BlockIndex b = block_at(p);
     return {b, child_at(b, p)};
   }
-  /// Whether a cube that touches a block of this rank is split. It is where its low corner is not local.
+  /// Whether a cube that touches a block of this rank is split. True if its low corner is not local.
   bool is_split(const GridCube& cube) const;
 
   /// The smallest cube that contains the part of a box inside the root.

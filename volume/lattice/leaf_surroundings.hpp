@@ -61,7 +61,7 @@ public:
   bool has_point(const HalfPlace& at) const;
   /// How many edges of a face of a leaf have a point in the middle. Face 2 a is the lower one along axis a.
   int points_on_edges(const HalfPlace& leaf, int side) const;
-  /// The running number of the point at a half place; -1 where its leaf would be outside the root.
+  /// The lattice_number() of the point at a half place; -1 where its leaf would be outside the root.
   std::int64_t number(const HalfPlace& at) const;
   /// Where a half place is in a leaf that it touches.
   std::array<Along, 3> place_in(const Leaf& leaf, const HalfPlace& at) const;

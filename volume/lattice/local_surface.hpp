@@ -41,7 +41,7 @@ public:
 private:
   struct Sight {
     std::int32_t triangle = -1;
-    int side = 0;  ///< of the triangle, on which the point is
+    int side = 0;  ///< of the triangle on which the point is: the sign of orient3d
   };
   /// The triangle that the line from p to q crosses first; q is a point of `target`.
   std::optional<Sight> first_on_way(geometry::Vec3 p, geometry::Vec3 q, std::int32_t target,

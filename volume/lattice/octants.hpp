@@ -15,7 +15,6 @@ struct Octants {
   std::vector<std::uint8_t> levels;  ///< 0: the root; geometry::finest_level: the finest
 
   std::size_t size() const { return keys.size(); }
-  geometry::GridCube cube(std::size_t i) const { return {geometry::grid_point(keys[i]), levels[i]}; }
   /// The index of the leaf that contains the finest cube with this key; -1: none does.
   std::int64_t find(std::uint64_t key) const {
     const auto after = std::upper_bound(keys.begin(), keys.end(), key);

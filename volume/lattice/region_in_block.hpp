@@ -1,4 +1,4 @@
-/// The region of points in a large block, found with the triangles that meet the block alone.
+/// Finds the region of points in a large block from the triangles that meet the block alone.
 #pragma once
 
 #include "volume/lattice/lattice.hpp"

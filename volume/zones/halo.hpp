@@ -25,7 +25,7 @@ struct HaloZone {
 
 /// Finds the zones whose halos reach into a block. Points and triangles of a block are in the halo of a zone
 /// if they are within `width` times largest_size_around() of its leaves. The size at the point alone would be
-/// too small where sizes jump. A cube with far finer blocks counts as part of each zone that planes give it.
+/// too small where sizes jump. A cube with far finer blocks counts as part of each zone that it may touch.
 class ZonesAround {
 public:
   /// Blocks finer than a block by more levels count as one cube. Chosen, not measured.

@@ -16,9 +16,8 @@ namespace aeroloom::volume {
 using ZoneIndex = std::int32_t;
 inline constexpr ZoneIndex no_zone = -1;
 
-/// Expected tetrahedra of the shell: so many for each lattice point and each surface triangle, and so many
-/// less for each triangle of the core's border. A border triangle has half a point, which shares half of its
-/// tetrahedra with the core.
+/// Expected tetrahedra of the shell per lattice point and per surface triangle, and the reduction per border
+/// triangle of the core: half a point stands there, and half of its tetrahedra are in the core.
 inline constexpr double tetrahedra_per_point = 5.75, tetrahedra_per_triangle = 2,
                         fewer_per_border = 0.5 * tetrahedra_per_point - 2;
 

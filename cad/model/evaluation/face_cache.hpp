@@ -1,4 +1,4 @@
-/// What has been computed of the faces of a model. Seen by this folder only.
+/// Keeps results that were computed for the faces of a model. Internal to cad/model/.
 #pragma once
 
 #include "cad/model/evaluation/face_integrals.hpp"
@@ -12,18 +12,17 @@
 
 namespace aeroloom::cad {
 
-/// Beside the data of a model, which do not change: integrals over its faces, and triangulations that will be
-/// asked for again, each from when somebody first asks. No answer depends on what is here. Models with the
-/// same faces share one. Not for several threads at a time.
+/// Keeps integrals over faces, and triangulations that will be asked for again. Results are the same with or
+/// without the cache. Models with the same faces share one. Not thread-safe.
 class FaceCache {
 public:
   explicit FaceCache(std::size_t faces) : _faces(faces) {}
-  /// The integrals over some faces of another model, in this order.
+  /// Takes over the integrals of some faces of another model, in this order.
   FaceCache(const FaceCache& other, std::span<const FaceId> faces) {
     for (const FaceId id : faces) _faces.push_back({other._faces.at(id).integrals, std::nullopt});
   }
 
-  /// What compute() gave when this was asked for first.
+  /// The kept integrals; without any, those that compute() returns, which are then kept.
   template <class Compute>
   const FaceIntegrals& integrals(FaceId id, const Compute& compute) {
     std::optional<FaceIntegrals>& known = _faces.at(id).integrals;
@@ -31,12 +30,12 @@ public:
     return *known;
   }
 
-  /// Null where none of these limits is kept.
+  /// Null if no triangulation with these limits is kept.
   const Facets* facets(FaceId id, double deflection, double angle) const {
     const std::optional<KeptFacets>& kept = _faces.at(id).kept;
     return kept && kept->deflection == deflection && kept->angle == angle ? &kept->facets : nullptr;
   }
-  /// In the place of others of this face.
+  /// Keeps one triangulation per face; another one of the face is replaced.
   void keep(FaceId id, double deflection, double angle, Facets facets) {
     _faces.at(id).kept = KeptFacets{deflection, angle, std::move(facets)};
   }

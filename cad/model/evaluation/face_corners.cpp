@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
+#include <stdexcept>
 
 namespace aeroloom::cad {
 namespace {
@@ -56,23 +58,26 @@ FaceId neighbour_face(const Model& model, FaceId face, EdgeId id) {
   if (edge.faces.size() != 2) return no_entity;
   const FaceId other = edge.faces[0] == face ? edge.faces[1] : edge.faces[0];
   int uses = 0;
-  for (const auto& loop : model.face(other).loops) {
-    for (const Coedge& use : loop) uses += use.edge == id;
-  }
+  for (const Coedge& use : model.face(other).loops | std::views::join) uses += use.edge == id;
   return uses == 1 ? other : no_entity;
+}
+
+Coedge coedge_along(const Model& model, FaceId face, EdgeId id) {
+  for (const Coedge& use : model.face(face).loops | std::views::join) {
+    if (use.edge == id) return use;
+  }
+  throw std::logic_error("a face does not pass an edge of its neighbour");
 }
 
 CornerNeighbours neighbours_at_corner(const Model& model, const FaceCorner& corner) {
   const FaceId first = neighbour_face(model, corner.face, corner.arriving.edge),
                second = neighbour_face(model, corner.face, corner.leaving.edge);
   if (first == no_entity || second == no_entity || first == second) return CornerNeighbours::other;
-  for (const auto& loop : model.face(first).loops) {
-    for (const Coedge& use : loop) {
-      const Edge& edge = model.edge(use.edge);
-      const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
-      if (at_corner && std::find(edge.faces.begin(), edge.faces.end(), second) != edge.faces.end())
-        return CornerNeighbours::faces_that_meet;
-    }
+  for (const Coedge& use : model.face(first).loops | std::views::join) {
+    const Edge& edge = model.edge(use.edge);
+    const bool at_corner = edge.first == corner.vertex || edge.last == corner.vertex;
+    if (at_corner && std::ranges::find(edge.faces, second) != edge.faces.end())
+      return CornerNeighbours::faces_that_meet;
   }
   return CornerNeighbours::two_faces;
 }

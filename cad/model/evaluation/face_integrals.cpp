@@ -1,9 +1,9 @@
 #include "cad/model/evaluation/face_integrals.hpp"
 
+#include "cad/model/shape_map.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -156,7 +156,7 @@ FaceIntegrals integrate_face(const TopoDS_Face& face, const SurfaceEvaluator& su
   if (!TopoDS_Iterator(forward).More()) integrator.add_rectangle(high);
   for (TopExp_Explorer each(forward, TopAbs_EDGE); each.More(); each.Next()) {
     const TopoDS_Edge& edge = TopoDS::Edge(each.Current());
-    if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED) continue;
+    if (!bounds_material(edge)) continue;
     double first = 0, last = 0;
     const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, forward, first, last);
     if (curve.IsNull() || !(last > first)) continue;

@@ -1,4 +1,4 @@
-/// Integrals over faces. Seen by this folder only.
+/// Integrals over faces. Internal to cad/.
 #pragma once
 
 #include "cad/model/evaluation/surface_evaluator.hpp"
@@ -7,16 +7,17 @@
 
 namespace aeroloom::cad {
 
-/// Integrals over a face oriented forward (its normal along du x dv).
+/// Integrals over a face oriented forward, with its normal along du x dv.
 struct FaceIntegrals {
   double area = 0;
-  double flux = 0;   ///< a third of the flux of the position seen from the reference point: a volume
-  Vec3 area_vector;  ///< of the normal: what the flux seen from elsewhere differs by
-  Vec3 moment;       ///< of the position seen from the reference point: by the area, the face's centre
+  double flux =
+      0;  ///< flux of the position relative to the reference point, divided by three; it adds up to volumes
+  Vec3 area_vector;  ///< integral of the normal; moves the flux to another reference point
+  Vec3 moment;       ///< integral of the position relative to the reference point; over the area, the centre
 };
 
-/// By Green's theorem from the parameter curves of the face's edges, all of the surface's range where it has
-/// none; Gauss's rules between the knots, four digits on trimmed spline faces, mostly five.
+/// By Green's theorem along the parameter curves of the edges; without edges over the whole surface. Gauss's
+/// rules are applied between the knots. Trimmed spline faces are accurate to four digits, mostly five.
 FaceIntegrals integrate_face(const TopoDS_Face& face, const SurfaceEvaluator& surface, Vec3 reference);
 
 }  // namespace aeroloom::cad

@@ -1,4 +1,4 @@
-/// How large a face is, and where.
+/// Size and position of a face.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -9,7 +9,7 @@ namespace aeroloom::cad {
 
 struct FacePlace {
   double area = 0;
-  geometry::Vec3 centre;  ///< of the area; it need not lie on the face
+  geometry::Vec3 centre;  ///< centroid; need not lie on the face
   geometry::Box box;
 
   static constexpr auto fields() { return std::tuple(&FacePlace::area, &FacePlace::centre, &FacePlace::box); }

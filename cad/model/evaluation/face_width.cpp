@@ -1,6 +1,7 @@
 #include "cad/model/evaluation/face_width.hpp"
 
 #include <cmath>
+#include <ranges>
 
 namespace aeroloom::cad {
 
@@ -22,10 +23,8 @@ double rough_length(const Model& model, EdgeId id) {
 
 double mean_width(const Model& model, FaceId face) {
   double perimeter = 0;
-  for (const auto& loop : model.face(face).loops) {
-    for (const Coedge& use : loop) {
-      if (!model.is_seam(use.edge)) perimeter += rough_length(model, use.edge);
-    }
+  for (const Coedge& use : model.face(face).loops | std::views::join) {
+    if (!model.is_seam(use.edge)) perimeter += rough_length(model, use.edge);
   }
   const double area = model.face_area(face);
   return perimeter > 0 ? 2 * area / perimeter : std::sqrt(area);

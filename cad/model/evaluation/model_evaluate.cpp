@@ -1,5 +1,5 @@
 #include "cad/faceted/faceted_bytes.hpp"
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <ranges>
 
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
 #include <TColStd_Array1OfReal.hxx>
 
 namespace aeroloom::cad {
@@ -95,15 +97,15 @@ std::vector<std::byte> Model::serialise() const {
 Vec3 Model::edge_point(EdgeId id, double parameter) const {
   const Edge& edge = _data->edges.at(id);
   if (edge.degenerate) return vertex(edge.first);
-  if (const FacetedPart* part = _data->faceted_edge(id))
-    return part->edge_point(id - _data->first_faceted_edge, parameter);
+  if (const FacetedGeometry* faceted = _data->faceted_edge(id))
+    return faceted->edge_point(id - _data->first_faceted_edge, parameter);
   return _data->edge_snaps[id](to_vec(_data->edge_evaluators[id].curve.Value(parameter)));
 }
 
 Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
   if (_data->edges.at(id).degenerate) return {};
-  if (const FacetedPart* part = _data->faceted_edge(id))
-    return part->edge_tangent(id - _data->first_faceted_edge, parameter);
+  if (const FacetedGeometry* faceted = _data->faceted_edge(id))
+    return faceted->edge_tangent(id - _data->first_faceted_edge, parameter);
   gp_Pnt point;
   gp_Vec tangent;
   _data->edge_evaluators[id].curve.D1(parameter, point, tangent);
@@ -111,8 +113,8 @@ Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
 }
 
 double Model::edge_curvature(EdgeId id, double parameter) const {
-  if (const FacetedPart* part = _data->faceted_edge(id))
-    return part->edge_curvature(id - _data->first_faceted_edge, parameter);
+  if (const FacetedGeometry* faceted = _data->faceted_edge(id))
+    return faceted->edge_curvature(id - _data->first_faceted_edge, parameter);
   const EdgeEvaluator& evaluator = _data->edge_evaluators.at(id);
   if (_data->edges[id].degenerate || evaluator.curve.GetType() == GeomAbs_Line) return 0;
   gp_Pnt point;
@@ -132,8 +134,9 @@ Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
     const JoinedFace::Use& own = all.use(use);
     return all.from_member(own.sheet, joined->base.edge_uv(all.sheets[own.sheet].face, own.base, parameter));
   }
-  if (const FacetedPart* part = _data->faceted_face(face))
-    return part->edge_uv(use.edge - _data->first_faceted_edge, face - _data->first_faceted_face, parameter);
+  if (const FacetedGeometry* faceted = _data->faceted_face(face))
+    return faceted->edge_uv(use.edge - _data->first_faceted_edge, face - _data->first_faceted_face,
+                            parameter);
   const FaceEvaluator& evaluator = _data->face_evaluators.at(face);
   if (const ClosedEdges* closed = _data->closed.get()) {
     const Vec2 guess = closed->base_uv(face, use, parameter);
@@ -170,22 +173,16 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_point(at.face, at.uv);
-  }
-  if (const FacetedPart* part = _data->faceted_face(id))
-    return part->face_point(id - _data->first_faceted_face, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_point, id, uv);
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->face_point(id - _data->first_faceted_face, uv);
   return _data->face_snaps.at(id)(_data->face_evaluators[id].surface.point(uv));
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_frame(at.face, at.uv);
-  }
-  if (const FacetedPart* part = _data->faceted_face(id))
-    return part->face_frame(id - _data->first_faceted_face, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_frame, id, uv);
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->face_frame(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const SurfaceJet jet = face.surface.jet(uv, 1);
   SurfaceFrame frame{_data->face_snaps[id](jet.point), jet.du, jet.dv, {}};
@@ -198,22 +195,16 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 }
 
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_curvatures(at.face, at.uv);
-  }
-  if (const FacetedPart* part = _data->faceted_face(id))
-    return part->face_curvatures(id - _data->first_faceted_face, uv);
+  if (_data->joined) return _data->joined->evaluate(&Model::face_curvatures, id, uv);
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->face_curvatures(id - _data->first_faceted_face, uv);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {0, 0, true};
   return curvatures_of(face.surface.jet(uv, 2));
 }
 
 CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.face_curved_point(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->evaluate(&Model::face_curved_point, id, uv);
   if (_data->faceted_face(id)) return {face_point(id, uv), face_curvatures(id, uv)};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   if (face.planar) return {face_point(id, uv), {0, 0, true}};
@@ -222,10 +213,7 @@ CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
-  if (const JoinedModel* joined = _data->joined.get()) {
-    const JoinedModel::Place at = joined->locate(id, uv);
-    return joined->base.parameter_periods(at.face, at.uv);
-  }
+  if (_data->joined) return _data->joined->evaluate(&Model::parameter_periods, id, uv);
   if (_data->faceted_face(id)) return {};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   return {face.u.repeats_after(), face.v.repeats_after()};
@@ -246,8 +234,8 @@ bool Model::is_planar(FaceId id) const {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() == 1 && joined->base.is_planar(sheets.front().face);
   }
-  if (const FacetedPart* part = _data->faceted_face(id))
-    return part->faces()[id - _data->first_faceted_face].planar;
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->faces()[id - _data->first_faceted_face].planar;
   return _data->face_evaluators.at(id).planar;
 }
 
@@ -279,8 +267,8 @@ std::int32_t Model::sheet_count(FaceId id) const {
     return sheets.size() > 1 ? static_cast<std::int32_t>(sheets.size())
                              : joined->base.sheet_count(sheets.front().face);
   }
-  const FacetedPart* part = _data->faceted_face(id);
-  return part ? part->faces()[id - _data->first_faceted_face].sheet_count : 1;
+  const FacetedGeometry* faceted = _data->faceted_face(id);
+  return faceted ? faceted->faces()[id - _data->first_faceted_face].sheet_count : 1;
 }
 
 std::int32_t Model::sheet(FaceId id, Vec2 uv) const {
@@ -288,17 +276,15 @@ std::int32_t Model::sheet(FaceId id, Vec2 uv) const {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->faces[id].sheets.size() > 1 ? at.sheet : joined->base.sheet(at.face, at.uv);
   }
-  const FacetedPart* part = _data->faceted_face(id);
-  return part ? part->sheet(id - _data->first_faceted_face, uv) : 0;
+  const FacetedGeometry* faceted = _data->faceted_face(id);
+  return faceted ? faceted->sheet(id - _data->first_faceted_face, uv) : 0;
 }
 
 bool Model::is_seam(EdgeId id) const {
   const Edge& edge = _data->edges.at(id);
   if (edge.faces.size() != 1) return false;
   int uses = 0;
-  for (const auto& loop : _data->faces[edge.faces.front()].loops) {
-    for (const Coedge& use : loop) uses += use.edge == id;
-  }
+  for (const Coedge& use : _data->faces[edge.faces.front()].loops | std::views::join) uses += use.edge == id;
   return uses > 1;
 }
 
@@ -314,6 +300,31 @@ double Model::face_area(FaceId id) const {
 Vec3 Model::face_area_vector(FaceId id) const {
   const FaceIntegrals& sums = _data->integrals(id);
   return _data->is_reversed(id) ? -sums.area_vector : sums.area_vector;
+}
+
+FacePlace place_of(const TopoDS_Face& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties, area_precision);
+  return {properties.Mass(), to_vec(properties.CentreOfMass()), tight_box(face)};
+}
+
+FacePlace Model::face_place(FaceId id) const {
+  if (const JoinedModel* joined = _data->joined.get()) {
+    FacePlace whole;
+    Vec3 moment;
+    for (const Sheet& sheet : joined->faces.at(id).sheets) {
+      const FacePlace place = joined->base.face_place(sheet.face);
+      whole.area += place.area;
+      moment = moment + place.area * place.centre;
+      whole.box.add(place.box.low), whole.box.add(place.box.high);
+    }
+    whole.centre = 1 / whole.area * moment;
+    return whole;
+  }
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->face_place(id - _data->first_faceted_face);
+  return guarded("looking where " + _data->describe_face(id) + " is",
+                 [&] { return place_of(_data->face_evaluators.at(id).shape); });
 }
 
 double Model::region_volume(RegionId id) const {
@@ -349,9 +360,9 @@ bool Model::Data::is_reversed(FaceId id) const {
 }
 
 const FaceIntegrals& Model::Data::integrals(FaceId id) const {
-  if (const FacetedPart* part = faceted_face(id)) {
+  if (const FacetedGeometry* faceted = faceted_face(id)) {
     return cache->integrals(
-        id, [&] { return integrate_facets(*part, id - first_faceted_face, bounds.center()); });
+        id, [&] { return integrate_facets(*faceted, id - first_faceted_face, bounds.center()); });
   }
   const FaceEvaluator& face = face_evaluators.at(id);
   return cache->integrals(id, [&] {

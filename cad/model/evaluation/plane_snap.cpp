@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <vector>
+#include <ranges>
 
 namespace aeroloom::cad {
 namespace {
@@ -31,7 +31,7 @@ std::optional<Plane> aligned_plane(const Model::Data& data, FaceId id) {
 
 /// Gives planes that nearly coincide one position: the least of theirs, or zero.
 void merge_positions(std::vector<Plane>& planes, double diagonal) {
-  std::sort(planes.begin(), planes.end(), [](const Plane& a, const Plane& b) {
+  std::ranges::sort(planes, [](const Plane& a, const Plane& b) {
     if (a.axis != b.axis) return a.axis < b.axis;
     return a.position != b.position ? a.position < b.position : a.face < b.face;
   });
@@ -65,33 +65,31 @@ double distance_of_moved(const Model::Data& data, FaceId id, const std::vector<c
   const SurfaceJet jet = face.surface.jet(0.5 * (face.uv_low + face.uv_high), 1);
   const Vec3 normal = normalized(cross(jet.du, jet.dv));
   double largest = 0;
-  for (const auto& loop : data.faces[id].loops) {
-    for (const Coedge& use : loop) {
-      const Edge& edge = data.edges[use.edge];
-      if (!moved[use.edge] || edge.degenerate) continue;
-      for (int i = 0; i <= samples; ++i) {
-        const gp_Pnt p = data.edge_evaluators[use.edge].curve.Value(
-            edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / samples);
-        largest = std::max(largest, std::abs(dot(Vec3{p.X(), p.Y(), p.Z()} - jet.point, normal)));
-      }
+  for (const Coedge& use : data.faces[id].loops | std::views::join) {
+    const Edge& edge = data.edges[use.edge];
+    if (!moved[use.edge] || edge.degenerate) continue;
+    for (int i = 0; i <= samples; ++i) {
+      const gp_Pnt p = data.edge_evaluators[use.edge].curve.Value(
+          edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / samples);
+      largest = std::max(largest, std::abs(dot(Vec3{p.X(), p.Y(), p.Z()} - jet.point, normal)));
     }
   }
   return largest;
 }
 
+/// Gives an edge and its vertices a coordinate.
+void fix_edge(Model::Data& data, EdgeId id, int axis, double position) {
+  data.edge_snaps[id].fix(axis, position);
+  data.vertex_snaps[data.edges[id].first].fix(axis, position);
+  data.vertex_snaps[data.edges[id].last].fix(axis, position);
+}
+
 /// Gives the moved edges of an exact plane its coordinate.
 void fix_moved(Model::Data& data, FaceId id, const std::vector<char>& moved) {
   const Snap& snap = data.face_snaps[id];
-  for (const auto& loop : data.faces[id].loops) {
-    for (const Coedge& use : loop) {
-      if (!moved[use.edge]) continue;
-      const Edge& edge = data.edges[use.edge];
-      for (int axis = 0; axis < 3; ++axis) {
-        if (!snap.fixed[axis]) continue;
-        data.edge_snaps[use.edge].fix(axis, snap.value[axis]);
-        data.vertex_snaps[edge.first].fix(axis, snap.value[axis]);
-        data.vertex_snaps[edge.last].fix(axis, snap.value[axis]);
-      }
+  for (const Coedge& use : data.faces[id].loops | std::views::join) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (moved[use.edge] && snap.fixed[axis]) fix_edge(data, use.edge, axis, snap.value[axis]);
     }
   }
 }
@@ -127,9 +125,7 @@ void mark_exact_planes(Model::Data& data) {
     for (const UseCurve& use : data.face_evaluators[plane.face].uses) {
       const EdgeId edge = use.use.edge;
       if (distance_from(data, edge, plane) > tolerances::same_place * diagonal) continue;
-      data.edge_snaps[edge].fix(plane.axis, plane.position);
-      data.vertex_snaps[data.edges[edge].first].fix(plane.axis, plane.position);
-      data.vertex_snaps[data.edges[edge].last].fix(plane.axis, plane.position);
+      fix_edge(data, edge, plane.axis, plane.position);
     }
   }
 }

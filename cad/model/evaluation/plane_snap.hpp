@@ -1,5 +1,5 @@
-/// Axis-aligned planes that are exact: points on them get one coordinate bit for bit. Seen by this folder
-/// only.
+/// Makes axis-aligned planes exact: points on them have the same coordinate bit for bit. Internal to
+/// cad/model/.
 #pragma once
 
 #include "cad/model/model_data.hpp"
@@ -8,14 +8,14 @@
 
 namespace aeroloom::cad {
 
-/// Finds the planar faces whose normal is an axis and marks them, their edges and their vertices, so that the
-/// model's evaluations return the plane's coordinate exactly. Planes closer to each other than 1e-9 of the
-/// diagonal share one position; one that close to the origin is at zero. Edges that leave the plane by more
-/// than 1e-6 of the diagonal stay as they are.
+/// Finds planar faces that are normal to an axis, and marks them, their edges and their vertices. The model
+/// then returns the coordinate of the plane exactly. Planes within 1e-9 of the diagonal of each other share
+/// one position; near zero it is zero. Edges that leave their plane by more than 1e-6 of the diagonal are not
+/// marked.
 void mark_exact_planes(Model::Data& data);
 
-/// After edges `moved` (one entry per edge): faces that they leave by more than 1e-9 of the diagonal are
-/// planar no more; those that moved within an exact plane are as exact as before.
+/// Updates the marks after edges moved; `moved` has one entry per edge. A face that its edges leave by more
+/// than 1e-9 of the diagonal is no longer planar. Edges that moved within an exact plane stay exact.
 void mark_planes_again(Model::Data& data, const std::vector<char>& moved);
 
 }  // namespace aeroloom::cad

@@ -1,4 +1,4 @@
-/// Parameters of points that lie on a face or a curve, found without a guess.
+/// Finds parameters of points on faces and edges.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -8,18 +8,18 @@
 
 namespace aeroloom::cad {
 
-/// Starts projections from samples of the faces and curves asked for, which it makes when first needed and
-/// keeps. What it finds is a function of the model and the arguments alone.
+/// Projects points from samples of a face or an edge. Samples are made when first needed, and kept. Results
+/// depend on the model and the arguments alone.
 class PointLocator {
 public:
   /// The model must outlive the locator.
   explicit PointLocator(const Model& model);
   const Model& model() const { return _model; }
 
-  /// Parameters at which the face passes within `tolerance` of the point; nothing where none are found, or
-  /// the face cannot be sampled.
+  /// Parameters at which the face passes within `tolerance` of the point. Empty if none are found or the face
+  /// cannot be sampled.
   std::optional<Vec2> on_face(FaceId id, Vec3 point, double tolerance);
-  /// The parameter at which the curve passes within `tolerance` of the point.
+  /// The parameter at which the edge passes within `tolerance` of the point.
   std::optional<double> on_edge(EdgeId id, Vec3 point, double tolerance);
 
 private:
@@ -40,8 +40,18 @@ private:
   std::vector<EdgeSamples> _edges;
 };
 
-/// The parameter of the curve's point nearest to `point`, by Gauss and Newton's method from `guess`; stays
-/// within the edge's interval, on closed edges too.
+/// The parameter of the nearest point of the edge, by Gauss-Newton steps from `guess`. Stays within the
+/// edge's interval, also on closed edges.
 double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess);
+
+struct EdgeFoot {
+  double parameter;
+  Vec3 point;
+  double away;  ///< distance between the two points
+};
+
+/// The nearest point of the edge around `guess`, by a few Newton steps, none of which increases the distance.
+/// Not for degenerate edges.
+EdgeFoot foot_on_edge(const Model& model, EdgeId edge, Vec3 point, double guess);
 
 }  // namespace aeroloom::cad

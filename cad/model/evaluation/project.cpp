@@ -1,11 +1,9 @@
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/model_data.hpp"
-#include "cad/model/occ_guard.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -180,11 +178,9 @@ private:
     return uv;
   }
 
-  Vec2 wrap(Vec2 uv) const { return {wrap(uv.x, _face.u), wrap(uv.y, _face.v)}; }
-
-  static double wrap(double parameter, const ParameterRange& range) {
-    if (range.period == 0 || (parameter >= range.low && parameter <= range.high)) return parameter;
-    return parameter - range.period * std::floor((parameter - range.low) / range.period);
+  Vec2 wrap(Vec2 uv) const {
+    return {wrap_parameter(uv.x, _face.u.low, _face.u.high, _face.u.period),
+            wrap_parameter(uv.y, _face.v.low, _face.v.high, _face.v.period)};
   }
 
   const FaceEvaluator& _face;
@@ -232,8 +228,8 @@ Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double t
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
   if (_data->joined) return _data->joined->project(id, point, guess);
-  if (const FacetedPart* part = _data->faceted_face(id))
-    return part->project(id - _data->first_faceted_face, point, guess);
+  if (const FacetedGeometry* faceted = _data->faceted_face(id))
+    return faceted->project(id - _data->first_faceted_face, point, guess);
   const FaceEvaluator& face = _data->face_evaluators.at(id);
   const Projector projector(face, point, tolerances::foot * _data->bounds.diagonal());
   Projection best = projector.from(guess);

@@ -3,7 +3,6 @@
 #include "cad/model/to_vec.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <GeomConvert.hxx>
 #include <Geom_BezierSurface.hxx>
@@ -60,11 +59,6 @@ int SplineSurface::Direction::span(double parameter) const {
   auto at = above - 1;
   while (at > begin && *at == *(at + 1)) --at;
   return static_cast<int>(at - knots.begin());
-}
-
-double SplineSurface::Direction::wrap(double parameter) const {
-  if (period == 0 || (parameter >= low && parameter <= high)) return parameter;
-  return parameter - period * std::floor((parameter - low) / period);
 }
 
 void SplineSurface::basis(const Direction& direction, int span, double parameter, int order, Basis& result) {

@@ -42,10 +42,6 @@ Box loose_box(const TopoDS_Shape& shape) {
   return box;
 }
 
-bool inside(const Box& inner, const Box& outer) {
-  return outer.contains(inner.low) && outer.contains(inner.high);
-}
-
 /// The largest value of a function of one variable near the best of its samples, by golden section.
 template <class Function>
 void refine(Function&& height, double low, double high) {
@@ -119,7 +115,7 @@ void add_edge_extremes(Box& box, const TopTools_IndexedMapOfShape& edges) {
     if (!extremes.is_line()) curved.emplace_back(i, std::move(extremes));
   }
   for (const auto& [i, extremes] : curved) {
-    if (!inside(loose_box(edges(i)), box)) extremes.refine_samples(box);
+    if (!box.contains(loose_box(edges(i)))) extremes.refine_samples(box);
   }
 }
 
@@ -148,7 +144,7 @@ public:
         return (side % 2 ? 1 : -1) * grid[i].point.Coord(side / 2 + 1);
       };
       std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+      std::ranges::sort(order, [&](std::int32_t a, std::int32_t b) {
         return height(a) != height(b) ? height(a) > height(b) : a < b;
       });
       const auto highest =
@@ -220,7 +216,7 @@ Box tight_box(const std::vector<TopoDS_Shape>& shapes) {
   for (int i = 1; i <= faces.Extent(); ++i) {
     const TopoDS_Face face = TopoDS::Face(faces(i).Oriented(TopAbs_FORWARD));
     if (BRepAdaptor_Surface(face, false).GetType() == GeomAbs_Plane) continue;
-    if (!box.empty() && inside(loose_box(face), box)) continue;
+    if (!box.empty() && box.contains(loose_box(face))) continue;
     FaceExtremes(face, box).add();
   }
   return box;

@@ -1,4 +1,4 @@
-/// Parameters of facets of faces that have no single plane of parameters without cuts.
+/// Parameters of faceted faces, triangle by triangle.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -8,8 +8,8 @@
 
 namespace aeroloom::cad {
 
-/// Per triangle of Model::facets() of a face that is faceted, the parameters of its corners in the sheet that
-/// the triangle lies in: a point of Facets belongs to several sheets, and has the parameters of one.
+/// Per triangle of Model::facets(), the parameters of its corners in the sheet of the triangle. A point may
+/// belong to several sheets, but Facets gives its parameters in one only. The face must be faceted.
 std::vector<std::array<Vec2, 3>> corner_parameters(const Model& model, FaceId faceted);
 
 }  // namespace aeroloom::cad

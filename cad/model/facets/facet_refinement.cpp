@@ -43,7 +43,8 @@ void FacetRefiner::run() {
   for (int pass = 0; pass < passes && improve_once(); ++pass) {
   }
   store_lines();
-  drop_unused();
+  std::erase_if(_facets.triangles, [](const Triangle& t) { return t[0] < 0; });
+  drop_unused_points(_facets);
 }
 
 bool FacetRefiner::improve_once() {

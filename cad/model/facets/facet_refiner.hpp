@@ -1,4 +1,4 @@
-/// The workings of refine_facets(): triangles with links, their errors, and the operations on them. Seen by
+/// Implementation of refine_facets(): linked triangles, their errors, and operations on them. For
 /// facet_refinement.cpp and facet_refiner_topology.cpp only.
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace aeroloom::cad {
 
-/// A piece of a boundary line between two of its nodes.
+/// A segment of a boundary line between two nodes.
 struct BoundarySide {
   std::int32_t line;
-  double low, high;  // parameters of the edge
+  double low, high;  // parameters on the edge
   std::int32_t low_node, high_node;
   std::int32_t triangle = -1;
   int corner = -1;  // of the triangle, opposite the side
@@ -32,17 +32,18 @@ private:
   using Triangle = std::array<std::int32_t, 3>;
   bool improve_once();
 
-  /// Flat triangles have no direction to speak of: a vertex between others in a row goes. Others are divided.
+  /// If the triangle is flat, removes a vertex that is nearly collinear with others; otherwise divides the
+  /// triangle.
   bool repair(std::int32_t t);
   bool alive(std::int32_t t) const { return _facets.triangles[t][0] >= 0; }
   std::int32_t count() const { return static_cast<std::int32_t>(_facets.triangles.size()); }
   Vec3 point(std::int32_t node) const { return _facets.points[node]; }
   Vec2 uv(std::int32_t node) const { return _facets.uv[node]; }
 
-  /// Along du x dv, whichever way the face is oriented; zero where undefined.
+  /// Along du x dv, for either orientation of the face. Zero where it is undefined.
   Vec3 normal_at(Vec2 uv) const;
 
-  // --- topology: a link is the triangle across a side, or the complement of the index of a boundary side.
+  // --- topology. A link is the triangle across a side, or ~index of a boundary side.
 
   void collect_sides();
   std::int32_t add_side(const BoundarySide& side);
@@ -51,13 +52,13 @@ private:
 
   void attach_side(std::int32_t side, std::int32_t t, int i);
 
-  /// Sets what lies across a side, and tells the other about it.
+  /// Sets the link of a side, in both directions.
   void attach(std::int32_t t, int i, std::int32_t link);
   int corner_opposite(std::int32_t t, std::int32_t a, std::int32_t b) const;
   bool positive(std::int32_t a, std::int32_t b, std::int32_t c) const;
 
-  /// Triangles at a pole stay as they are: there the parameters of the middle of a side say nothing of where
-  /// it is.
+  /// Triangles at a pole are not changed. The middle of their sides in parameters is far from the middle in
+  /// space.
   bool touches_pole(std::int32_t t) const;
   bool is_pole(std::int32_t node) const { return _pole[node] != 0; }
 
@@ -65,19 +66,19 @@ private:
 
   bool collapsed(std::int32_t t) const;
 
-  /// 1 - cos of the angle between facet and surface, the largest at the corners.
+  /// 1 - cos of the largest angle between the triangle and the surface's normals at its corners.
   double error(std::int32_t a, std::int32_t b, std::int32_t c) const;
   double error(std::int32_t t) const { return error(corner(t, 0), corner(t, 1), corner(t, 2)); }
 
   int longest_side(std::int32_t t) const;
   double side_length(std::int32_t t, int i) const;
   bool is_bad(std::int32_t t) const;
-  /// As is_bad(); those that were found good stay so as long as they keep their corners.
+  /// As is_bad(), but a triangle found good is not tested again until its corners change.
   bool has_become_bad(std::int32_t t);
   bool is_flat(std::int32_t t) const;
 
-  /// A boundary side of the triangle that is nearly its longest: dividing another would crowd vertices along
-  /// it.
+  /// A boundary side that is nearly the longest of the triangle. It is divided first, so that vertices do not
+  /// crowd along it.
   std::int32_t encroached_side(std::int32_t t) const;
   std::int32_t add_node(Vec2 at, Vec3 place);
 
@@ -87,7 +88,7 @@ private:
   bool split_inside(std::int32_t t, int i);
   std::int32_t add_triangle(const Triangle& triangle);
 
-  /// The piece of the edge as the face passes it the other time; -1 where there is none.
+  /// The other use of this segment by the same face (a seam); -1 if there is none.
   std::int32_t partner(const BoundarySide& side) const;
   bool split_boundary(std::int32_t s);
   Vec2 middle_uv(const BoundarySide& side) const;
@@ -96,37 +97,33 @@ private:
 
   // --- contraction
 
-  /// The triangles around an interior vertex, counter-clockwise from t; empty at the boundary.
+  /// The triangles around an interior vertex, counter-clockwise from t. Empty at the boundary.
   std::vector<std::int32_t> ring(std::int32_t t, std::int32_t vertex) const;
   int index_of(std::int32_t t, std::int32_t vertex) const;
 
-  /// Tries the vertex opposite the longest side first, each towards its nearer neighbour in the triangle
-  /// first.
+  /// Contracts an edge of the triangle. Tries the vertex opposite the longest side first, and the nearer
+  /// neighbour first.
   bool contract(std::int32_t t);
   bool contract(const std::vector<std::int32_t>& around, std::int32_t from, std::int32_t to);
 
-  /// Whether another triangle joins `to` to the ring: the contraction would lay two triangles on each other.
+  /// Whether the contraction would put two triangles on top of each other.
   bool pinches(const std::vector<std::int32_t>& moved, std::int32_t from, std::int32_t to) const;
 
-  /// Removes a triangle with the side that is contracted; what lay across its two other sides meets.
+  /// Removes a triangle that has the contracted side, and links its two neighbours.
   void take_out(std::int32_t t, std::int32_t from, std::int32_t to);
 
   // --- reconnection
 
   void push_sides(std::int32_t t);
   void flip();
-  static double angle_at(Vec3 apex, Vec3 p, Vec3 q);
   bool should_flip(std::int32_t t, int i) const;
   void flip(std::int32_t t, int i);
   void store_lines();
-
-  /// Takes out what contractions left behind, order kept.
-  void drop_unused();
   struct StackedSide {
     std::int32_t from, to, triangle;
   };
   static constexpr std::int32_t no_link = std::numeric_limits<std::int32_t>::min();
-  /// Corners are one where they are nearer, over the deflection: at poles and cusps.
+  /// Over the deflection. Corners that are nearer coincide, as at poles and cusps.
   static constexpr double collapsed_side = 1e-6;
   const Model& _model;
   FaceId _id;
@@ -134,7 +131,7 @@ private:
   double _deflection, _error_limit;
   std::size_t _most_triangles;
   std::vector<Vec3> _normals;
-  std::vector<char> _pole;                          // by node
+  std::vector<char> _pole;                          // per node
   std::vector<std::array<std::int32_t, 3>> _links;  // across the side opposite each corner
   std::vector<BoundarySide> _sides;
   std::map<std::pair<std::int32_t, double>, std::int32_t> _side_at;  // by line and lower parameter

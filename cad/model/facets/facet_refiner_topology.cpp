@@ -1,3 +1,4 @@
+#include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/facets/facet_refiner.hpp"
 #include "geometry/angle.hpp"
 
@@ -194,10 +195,6 @@ void FacetRefiner::flip() {
   _stack.clear();
 }
 
-double FacetRefiner::angle_at(Vec3 apex, Vec3 p, Vec3 q) {
-  return angle_between(p - apex, q - apex);
-}
-
 bool FacetRefiner::should_flip(std::int32_t t, int i) const {
   const std::int32_t u = _links[t][i];
   const std::int32_t a = corner(t, i), b = corner(t, i + 1), c = corner(t, i + 2);
@@ -208,7 +205,8 @@ bool FacetRefiner::should_flip(std::int32_t t, int i) const {
   if (distance(point(a), point(d)) <= collapsed_side * _deflection) return false;
   const double before = std::max(error(t), error(u)), after = std::max(error(a, b, d), error(a, d, c));
   if (std::max(before, after) > _error_limit) return after < before - least_gain;
-  return angle_at(point(a), point(b), point(c)) + angle_at(point(d), point(b), point(c)) >
+  return angle_between(point(b) - point(a), point(c) - point(a)) +
+             angle_between(point(b) - point(d), point(c) - point(d)) >
          std::numbers::pi + least_gain;
 }
 
@@ -242,23 +240,22 @@ void FacetRefiner::store_lines() {
   }
 }
 
-void FacetRefiner::drop_unused() {
-  std::erase_if(_facets.triangles, [](const Triangle& t) { return t[0] < 0; });
-  std::vector<std::int32_t> index(_facets.points.size(), -1);
+void drop_unused_points(Facets& facets) {
+  std::vector<std::int32_t> index(facets.points.size(), -1);
   const auto visit = [&](auto&& action) {
-    for (Triangle& t : _facets.triangles) std::for_each(t.begin(), t.end(), action);
-    for (auto& line : _facets.boundary) std::for_each(line.nodes.begin(), line.nodes.end(), action);
+    for (auto& t : facets.triangles) std::for_each(t.begin(), t.end(), action);
+    for (auto& line : facets.boundary) std::for_each(line.nodes.begin(), line.nodes.end(), action);
   };
   visit([&](std::int32_t node) { index[node] = 0; });
   std::int32_t next = 0;
   for (std::size_t i = 0; i < index.size(); ++i) {
     if (index[i] < 0) continue;
-    _facets.points[next] = _facets.points[i];
-    _facets.uv[next] = _facets.uv[i];
+    facets.points[next] = facets.points[i];
+    facets.uv[next] = facets.uv[i];
     index[i] = next++;
   }
-  _facets.points.resize(next);
-  _facets.uv.resize(next);
+  facets.points.resize(next);
+  facets.uv.resize(next);
   visit([&](std::int32_t& node) { node = index[node]; });
 }
 

@@ -1,8 +1,7 @@
-#include "cad/faceted/faceted_part.hpp"
+#include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/facets/corner_parameters.hpp"
 #include "cad/model/facets/facet_refinement.hpp"
-#include "cad/model/facets/pole_facets.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/step_trace.hpp"
@@ -157,15 +156,14 @@ std::string find_defect(const Facets& facets) {
   for (const FacetSide& side : open_sides(facets)) {
     if (!std::binary_search(boundary.begin(), boundary.end(),
                             FacetSide(std::minmax(side.first, side.second)))) {
-      const Vec3 at = facets.points[side.first];
-      return fmt::format("a hole at {}", geometry::place_text(at));
+      return fmt::format("a hole at {}", geometry::place_text(facets.points[side.first]));
     }
   }
   return {};
 }
 
-/// Share of the triangulation that is folded over in parameters.
-double folded_share(const Facets& facets) {
+/// The fraction of the triangulation that is folded over in parameters.
+double folded_fraction(const Facets& facets) {
   double forward = 0, backward = 0;
   for (const auto& t : facets.triangles) {
     const double area = cross(facets.uv[t[1]] - facets.uv[t[0]], facets.uv[t[2]] - facets.uv[t[0]]);
@@ -184,7 +182,8 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
   for (const double fraction : {1.0, 0.5, 0.25, 0.1, 0.02}) {
     Facets facets = extract(data, id, triangulate(evaluator, fraction * deflection, angle));
     defect = find_defect(facets);
-    if (defect.empty() && folded_share(facets) > tolerances::folded) defect = "facets folded over each other";
+    if (defect.empty() && folded_fraction(facets) > tolerances::folded)
+      defect = "facets folded over each other";
     if (!defect.empty()) continue;
     take_edge_parameters(model, id, facets);
     if (!evaluator.planar) refine_facets(model, id, deflection, angle, facets);
@@ -202,15 +201,15 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
 
 Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) const {
   if (_data->joined) return _data->joined->facets(id, deflection, angle, keep);
-  if (const FacetedPart* part = _data->faceted_face(id)) {
-    Facets facets = part->facets(id - _data->first_faceted_face);
+  if (const FacetedGeometry* faceted = _data->faceted_face(id)) {
+    Facets facets = faceted->facets(id - _data->first_faceted_face);
     for (Facets::BoundaryLine& line : facets.boundary) line.use.edge += _data->first_faceted_edge;
     return facets;
   }
   FaceCache& cache = *_data->cache;
   if (const Facets* kept = cache.facets(id, deflection, angle)) return *kept;
   const std::string doing = "triangulating " + _data->describe_face(id);
-  tell_step(doing);
+  report_step(doing);
   const ClosedEdges* closed = _data->closed.get();
   Facets facets = closed ? closed->facets(*this, id, deflection, angle)
                          : guarded(doing, [&] { return make_facets(*this, id, deflection, angle, doing); });
@@ -221,9 +220,9 @@ Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) cons
 std::vector<std::array<Vec2, 3>> corner_parameters(const Model& model, FaceId faceted) {
   const Model::Data& data = model.data();
   if (data.joined) return corner_parameters(data.joined->base, model.members(faceted).front());
-  const FacetedPart& part = *data.faceted;
-  const FacetedFace& face = part.faces().at(faceted - data.first_faceted_face);
-  const auto first = part.corner_uv().begin() + face.first;
+  const FacetedGeometry& all = *data.faceted;
+  const FacetedFace& face = all.faces().at(faceted - data.first_faceted_face);
+  const auto first = all.corner_uv().begin() + face.first;
   return {first, first + face.count};
 }
 

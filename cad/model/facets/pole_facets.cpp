@@ -1,12 +1,9 @@
-#include "cad/model/facets/pole_facets.hpp"
-
+#include "cad/model/facets/facet_refinement.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace aeroloom::cad {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -33,15 +34,11 @@ struct Run {
   double length = 0;
 };
 
-bool is_reversed_end(const Coedge& use, bool at_start) {
-  return use.reversed == at_start;
-}
-
 /// The direction of the loop at the start or end of a coedge, as a chord over a small fraction of the edge.
 Vec3 direction_at(const Model& model, const Coedge& use, bool at_start) {
   const Edge& edge = model.edge(use.edge);
   const double range = edge.last_parameter - edge.first_parameter;
-  const bool at_last = is_reversed_end(use, at_start);
+  const bool at_last = use.reversed == at_start;
   const double end = at_last ? edge.last_parameter : edge.first_parameter;
   const Vec3 inner =
       model.edge_point(use.edge, end + (at_last ? -tolerances::beside_end : tolerances::beside_end) * range);
@@ -88,8 +85,8 @@ Sides tell_sides(std::vector<Run> runs) {
     return {{runs[0], runs[2]}, {runs[1], runs[3]}};
   }
   if (runs.size() == 3) {
-    const auto shortest = std::min_element(runs.begin(), runs.end(),
-                                           [](const Run& a, const Run& b) { return a.length < b.length; });
+    const auto shortest =
+        std::ranges::min_element(runs, [](const Run& a, const Run& b) { return a.length < b.length; });
     rotate(static_cast<std::size_t>(shortest - runs.begin()));
     return {{runs[2], runs[1]}, {runs[0], {}}};
   }
@@ -125,16 +122,6 @@ struct Section {
   Vec3 along, into;          ///< of a station
 };
 
-/// The coedge of a face along an edge that it passes once.
-Coedge use_of(const Model& model, FaceId face, EdgeId edge) {
-  for (const auto& loop : model.face(face).loops) {
-    for (const Coedge& use : loop) {
-      if (use.edge == edge) return use;
-    }
-  }
-  return {};
-}
-
 Section section_at(const Model& model, const BluntEdge& strip,
                    const std::array<BorderPath::ChainPlace, 2>& at) {
   Section section;
@@ -142,7 +129,7 @@ Section section_at(const Model& model, const BluntEdge& strip,
   section.convex = true;
   for (int side = 0; side < 2; ++side) {
     const BorderEdge& border = strip.borders[side][at[side].edge];
-    const Coedge use = use_of(model, border.neighbour, border.strip_use.edge);
+    const Coedge use = coedge_along(model, border.neighbour, border.strip_use.edge);
     const double t = at[side].parameter;
     const Vec3 own = model.face_frame(strip.face, model.edge_uv(strip.face, border.strip_use, t)).normal;
     const Vec3 normal = model.face_frame(border.neighbour, model.edge_uv(border.neighbour, use, t)).normal;
@@ -261,9 +248,7 @@ BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId id, double width)
   const Face& face = model.face(id);
   if (model.is_far_field(id) || model.is_faceted(id)) return finding;
   double perimeter = 0;
-  for (const auto& loop : face.loops) {
-    for (const Coedge& use : loop) perimeter += rough_length(model, use.edge);
-  }
+  for (const Coedge& use : face.loops | std::views::join) perimeter += rough_length(model, use.edge);
   const double mean = mean_width(model, id);
   if (!(mean * slenderness < 0.5 * perimeter)) return finding;
   const auto refuse = [&](std::string reason) {

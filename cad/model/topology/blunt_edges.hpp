@@ -1,4 +1,5 @@
-/// Blunt edges: strips between two faces that enclose a body at a sharp angle, as wings end in them.
+/// Blunt edges, such as trailing edges: strips between two faces that enclose a body at a sharp angle. They
+/// are examined here and can be closed.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -9,53 +10,62 @@
 
 namespace aeroloom::cad {
 
-/// An edge on the way along one long border of a strip.
+/// An edge of one long border of a strip.
 struct BorderEdge {
-  Coedge strip_use;              ///< as the strip's loop passes it
+  Coedge strip_use;              ///< coedge in the loop of the strip
   bool against = false;          ///< the border runs against the edge's parameter
-  FaceId neighbour = no_entity;  ///< the face across it
+  FaceId neighbour = no_entity;  ///< the face on the other side
 };
 
-/// A place along a strip.
+/// A cross-section of a strip.
 struct BluntStation {
-  Vec3 place;        ///< half-way between the borders
-  Vec3 along, into;  ///< unit: along the strip; from it into what its neighbours enclose
-  double width = 0;  ///< the nearest distance from one border to the other
+  Vec3 place;        ///< in the middle between the borders
+  Vec3 along, into;  ///< unit; along the strip, and into the body behind it
+  double width = 0;  ///< smallest distance between the borders
 };
 
-/// A strip with two long borders, which run side by side from its start to its end.
+/// A strip with two long borders that run side by side from its start to its end.
 struct BluntEdge {
   FaceId face = no_entity;
-  std::array<std::vector<BorderEdge>, 2> borders;  ///< each in its order from start to end
-  std::array<std::vector<EdgeId>, 2> ends;  ///< edges across at start and end; none where the borders meet
-  double length = 0;                        ///< of the longer border
-  double widest = 0;                        ///< largest of the nearest distances from one border to the other
-  double narrowest = 0;                     ///< the least of them, apart from ends where the borders meet
-  Vec3 place;                               ///< in the middle
-  std::vector<BluntStation> stations = {};  ///< from start to end; where the shape is that of a blunt edge
+  std::array<std::vector<BorderEdge>, 2> borders;  ///< each ordered from start to end
+  std::array<std::vector<EdgeId>, 2> ends;         ///< edges at start and end; empty where the borders meet
+  double length = 0;                               ///< of the longer border
+  double widest = 0;                               ///< largest distance from one border to the other
+  double narrowest = 0;                            ///< smallest distance, without ends where the borders meet
+  Vec3 place;                                      ///< in the middle of the strip
+  std::vector<BluntStation> stations = {};  ///< from start to end; only if the shape is that of a blunt edge
 };
 
-/// The verdict on a narrow face.
+/// The result of examining a narrow face.
 struct BluntEdgeFinding {
   enum class Kind {
     closable,
-    smooth,   ///< goes on smoothly in a neighbour
-    refused,  ///< a strip, for `reason` none that can be closed
-    wide,     ///< could be closed, but is wider than asked for
-    other,    ///< no strip
+    smooth,   ///< continues smoothly in a neighbour
+    refused,  ///< a strip that cannot be closed, for `reason`
+    wide,     ///< could be closed, but is wider than the limit
+    other,    ///< not a strip
   };
   Kind kind = Kind::other;
   BluntEdge edge;
   std::string reason;
-  double limit = 0;  ///< of the width that may be closed; where the shape is that of a blunt edge
+  double limit = 0;  ///< width up to which it may be closed; only if the shape is that of a blunt edge
 };
 
-/// Looks at one face. `width`: the widest that may be closed; 0: the shares below.
+/// Examines one face. `width` is the limit for closing; 0 takes the fractions below.
 BluntEdgeFinding examine_blunt_edge(const Model& model, FaceId face, double width);
 
-/// Without a width asked for, strips are closed up to this fraction of their length: trailing edges have at
-/// most one or two hundredths of the chord, and wing tips ten. And up to this fraction of both neighbours'
-/// breadth (area over border; skins may be cut along the span): bars are as thick as they are broad.
+/// Default limits for closing: a fraction of the strip's length, and a fraction of the breadth of both
+/// neighbours (area over border). Trailing edges have one or two hundredths of the chord, wing tips ten. Bars
+/// are as thick as they are broad.
 inline constexpr double blunt_edge_length_fraction = 0.03, blunt_edge_breadth_fraction = 0.1;
+
+/// The model with these strips closed: virtual topology over an unchanged model. The two long borders of a
+/// strip become one edge in their middle, its short ends vertices. Faces at a short end lose it; other edges
+/// that ended there are moved to the vertex. Surfaces do not change, so near the closed edge faces end up to
+/// half the strip's width beside their edges. The other faces keep their order. serialise() gives the closed
+/// model.
+/// Throws CadError that names the face if no valid model results, for example if another strip closes the
+/// same border.
+Model close_blunt_edges(const Model& model, const std::vector<BluntEdge>& strips);
 
 }  // namespace aeroloom::cad

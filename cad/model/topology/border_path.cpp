@@ -1,6 +1,6 @@
 #include "cad/model/topology/border_path.hpp"
 
-#include "cad/model/evaluation/edge_foot.hpp"
+#include "cad/model/evaluation/point_locator.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,17 +1,16 @@
-/// A chain of edges measured by its length. Seen by this folder only.
+/// A chain of edges, parametrised by its length. Internal to cad/model/.
 #pragma once
 
 #include "cad/model/topology/blunt_edges.hpp"
 
-#include <cstdint>
 #include <vector>
 
 namespace aeroloom::cad {
 
-/// Places along one long border of a strip, by the length passed.
+/// Points along one long border of a strip, by the length from its start.
 class BorderPath {
 public:
-  /// A place on an edge of the chain.
+  /// A point on an edge of the chain.
   struct ChainPlace {
     std::size_t edge = 0;  ///< index in the chain
     double parameter = 0;  ///< on the edge's curve
@@ -21,17 +20,17 @@ public:
   BorderPath(const Model& model, const std::vector<BorderEdge>& chain);
 
   double length() const { return _samples.back().passed; }
-  /// Where length `passed` ends, on the chain's edge `edge`.
+  /// The point at length `passed`. With `edge`, it lies on that edge of the chain.
   ChainPlace at(double passed, std::size_t edge) const;
   ChainPlace at(double passed) const;
-  /// The place nearest to a point, on the curves themselves: segments between samples may miss them by more
-  /// than a strip is wide.
+  /// The nearest point of the chain. It is found on the curves, since segments between samples are not
+  /// accurate enough for narrow strips.
   ChainPlace nearest(Vec3 point) const;
-  /// The length passed at a parameter of the chain's edge `edge`.
+  /// The length at a parameter of the chain's edge `edge`.
   double passed_at(std::size_t edge, double parameter) const;
-  /// The length passed at the ends of each edge: one more than there are edges.
+  /// The lengths at the ends of the edges, one more than there are edges.
   const std::vector<double>& joints() const { return _joints; }
-  /// The vertices there.
+  /// The vertices at these ends.
   const std::vector<VertexId>& vertices() const { return _vertices; }
 
 private:
@@ -41,7 +40,7 @@ private:
   };
   const Model* _model;
   const std::vector<BorderEdge>* _chain;  // outlives the path
-  std::vector<Sample> _samples;           // edge by edge, ends of edges twice
+  std::vector<Sample> _samples;           // edge by edge; ends of edges occur twice
   std::vector<double> _joints;
   std::vector<VertexId> _vertices;
 };

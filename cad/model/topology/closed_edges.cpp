@@ -1,16 +1,13 @@
-#include "cad/model/topology/closed_edges.hpp"
-
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/evaluation/plane_snap.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/border_path.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
-#include "cad/model/topology/facets_aside.hpp"
 #include "cad/model/topology/middle_curves.hpp"
-#include "cad/model/topology/model_topology.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 
@@ -19,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -155,10 +153,7 @@ private:
     for (FaceId id = 0; id < _base.face_count(); ++id) {
       if (closed[id]) continue;
       Face face = from.faces[id];
-      const std::string& patch = from.patches[face.patch];
-      const auto found = std::find(to.patches.begin(), to.patches.end(), patch);
-      face.patch = static_cast<std::int32_t>(found - to.patches.begin());
-      if (found == to.patches.end()) to.patches.push_back(patch);
+      face.patch = patch_number(to.patches, from.patches[face.patch]);
       to.faces.push_back(std::move(face));
       to.face_evaluators.push_back(from.face_evaluators[id]);
       to.face_snaps.push_back(from.face_snaps[id]);
@@ -192,9 +187,7 @@ private:
     to.edges.clear(), to.edge_evaluators.clear(), to.edge_snaps.clear();
     std::vector<char> used(_base.edge_count(), 0);
     for (const FaceId id : _closed.base_faces) {
-      for (const auto& loop : from.faces[id].loops) {
-        for (const Coedge& use : loop) used[use.edge] = 1;
-      }
+      for (const Coedge& use : from.faces[id].loops | std::views::join) used[use.edge] = 1;
     }
     const std::vector<double> radii = radii_of_vertices(used);
     for (EdgeId id = 0; id < _base.edge_count(); ++id) {
@@ -263,14 +256,14 @@ private:
       EdgeEvaluator evaluator;
       evaluator.curve.Load(middle.curve, edge.first_parameter, edge.last_parameter);
       const auto id = static_cast<EdgeId>(_data->edges.size());
-      std::array<BorderPart, 2> parts;
+      std::array<BorderPiece, 2> pieces;
       for (int side = 0; side < 2; ++side) {
         const BorderEdge& border = strip.borders[side][middle.edges[side]];
-        parts[side] = {border.neighbour, coedge(border), middle.parameters,
-                       std::move(middle.border_parameters[side])};
-        _closed.fates[border.strip_use.edge].parts.push_back(id);
+        pieces[side] = {border.neighbour, coedge_along(_base, border.neighbour, border.strip_use.edge),
+                        middle.parameters, std::move(middle.border_parameters[side])};
+        _closed.fates[border.strip_use.edge].pieces.push_back(id);
       }
-      _closed.closed.push_back(std::move(parts));
+      _closed.closed.push_back(std::move(pieces));
       _closed.base_edges.push_back(no_entity);
       _closed.moved.push_back(1);
       _data->edges.push_back(std::move(edge));
@@ -279,20 +272,10 @@ private:
     }
     for (int side = 0; side < 2; ++side) {
       for (const BorderEdge& border : strip.borders[side]) {
-        auto& parts = _closed.fates[border.strip_use.edge].parts;
-        if (border.against) std::reverse(parts.begin(), parts.end());
+        auto& pieces = _closed.fates[border.strip_use.edge].pieces;
+        if (border.against) std::reverse(pieces.begin(), pieces.end());
       }
     }
-  }
-
-  /// As the neighbour's loop passes the edge.
-  Coedge coedge(const BorderEdge& border) const {
-    for (const auto& loop : _base.face(border.neighbour).loops) {
-      for (const Coedge& use : loop) {
-        if (use.edge == border.strip_use.edge) return use;
-      }
-    }
-    throw std::logic_error("a strip's neighbour does not pass their common edge");
   }
 
   void rewrite_loops() {
@@ -310,36 +293,31 @@ private:
     }
     for (Edge& edge : _data->edges) edge.faces.clear();
     for (FaceId id = 0; id < static_cast<FaceId>(_data->faces.size()); ++id) {
-      for (const auto& loop : _data->faces[id].loops) {
-        for (const Coedge& use : loop) {
-          auto& users = _data->edges[use.edge].faces;
-          if (users.empty() || users.back() != id) users.push_back(id);
-        }
+      for (const Coedge& use : _data->faces[id].loops | std::views::join) {
+        auto& users = _data->edges[use.edge].faces;
+        if (users.empty() || users.back() != id) users.push_back(id);
       }
     }
   }
 
-  /// Where a strip's end was all that kept two parts of a loop apart, the face would touch itself there.
+  /// Where a strip's end was all that kept two pieces of a loop apart, the face would touch itself there.
   void require_simple(FaceId id) {
     std::map<VertexId, int> before, allowed, now;  // how often loops come by
     const auto count = [](const Edge& edge, const Coedge& use, std::map<VertexId, int>& visits) {
       ++visits[use.reversed ? edge.last : edge.first];
     };
-    for (const auto& loop : _base.face(_closed.base_faces[id]).loops) {
-      for (const Coedge& use : loop) count(_base.edge(use.edge), use, before);
-    }
-    for (const auto& loop : _data->faces[id].loops) {
-      for (const Coedge& use : loop) count(_data->edges[use.edge], use, now);
-    }
+    for (const Coedge& use : _base.face(_closed.base_faces[id]).loops | std::views::join)
+      count(_base.edge(use.edge), use, before);
+    for (const Coedge& use : _data->faces[id].loops | std::views::join)
+      count(_data->edges[use.edge], use, now);
     for (const auto& [v, visits] : before) {
       int& most = allowed[_roots->root(v)];
       most = std::max(most, visits);
     }
     for (const auto& [v, visits] : now) {
       if (visits <= std::max(1, allowed[v])) continue;
-      const Vec3 at = _places[v];
-      throw CadError(
-          fmt::format("face '{}' would touch itself at {}", _data->faces[id].name, geometry::place_text(at)));
+      throw CadError(fmt::format("face '{}' would touch itself at {}", _data->faces[id].name,
+                                 geometry::place_text(_places[v])));
     }
   }
 
@@ -347,8 +325,8 @@ private:
     const BaseEdgeFate& fate = _closed.fates[use.edge];
     if (fate.kind == BaseEdgeFate::Kind::kept) loop.push_back({fate.edge, use.use, use.reversed});
     const std::size_t first = loop.size();
-    for (const EdgeId id : fate.parts)
-      loop.push_back({id, 0, use.reversed == _closed.part(id, base_face).is_along()});
+    for (const EdgeId id : fate.pieces)
+      loop.push_back({id, 0, use.reversed == _closed.piece(id, base_face).is_along()});
     if (use.reversed) std::reverse(loop.begin() + static_cast<std::ptrdiff_t>(first), loop.end());
   }
 

@@ -1,4 +1,4 @@
-/// How the edges of a model with closed strips lead to those of the model before. Seen by this folder only.
+/// Relates the edges of a model with closed strips to those of the base model. Internal to cad/model/.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -8,41 +8,48 @@
 
 namespace aeroloom::cad {
 
-/// A closed edge as one of its two faces has it: part of an edge of the base model.
-struct BorderPart {
+/// A closed edge as one of its two faces uses it: an interval of an edge of the base model.
+struct BorderPiece {
   FaceId face = no_entity;        ///< of the base model
-  Coedge use;                     ///< the face's coedge along the base model's edge
-  std::vector<double> own, base;  ///< parameters of the closed edge, ascending, and of the base model's
+  Coedge use;                     ///< coedge of the face along the base edge
+  std::vector<double> own, base;  ///< parameters of the closed edge (ascending) and of the base edge
 
   double to_base(double parameter) const;
   double from_base(double parameter) const;
-  /// The base model's parameters run the same way.
+  /// Whether both parameters run in the same direction.
   bool is_along() const { return base.back() > base.front(); }
   double low() const { return is_along() ? base.front() : base.back(); }
 };
 
-/// The fate of an edge of the base model.
+/// What became of an edge of the base model.
 struct BaseEdgeFate {
   enum class Kind : std::uint8_t { kept, closed, collapsed };
   Kind kind = Kind::kept;
-  EdgeId edge = no_entity;    ///< kept: its number now
-  std::vector<EdgeId> parts;  ///< closed: in the order of the base model's parameter
+  EdgeId edge = no_entity;     ///< kept: its new number
+  std::vector<EdgeId> pieces;  ///< closed: in the order of the base edge's parameter
 };
 
 struct ClosedEdges {
   Model base;
-  std::vector<FaceId> base_faces;                 ///< per face
-  std::vector<EdgeId> base_edges;                 ///< per edge; no_entity for closed ones, which come last
-  std::vector<char> moved;                        ///< per edge: the curve is not that of the base model
-  std::vector<std::array<BorderPart, 2>> closed;  ///< per closed edge
-  std::vector<BaseEdgeFate> fates;                ///< per edge of the base model
+  std::vector<FaceId> base_faces;                  ///< per face
+  std::vector<EdgeId> base_edges;                  ///< per edge; no_entity for closed edges, which come last
+  std::vector<char> moved;                         ///< per edge: its curve differs from the base model
+  std::vector<std::array<BorderPiece, 2>> closed;  ///< per closed edge
+  std::vector<BaseEdgeFate> fates;                 ///< per edge of the base model
 
-  /// The part of a closed edge that lies on a face of the base model.
-  const BorderPart& part(EdgeId id, FaceId base_face) const;
-  /// A guess of parameters on the face: those of the base model's edge.
+  /// The side of a closed edge on a face of the base model.
+  const BorderPiece& piece(EdgeId id, FaceId base_face) const;
+  /// Approximate parameters on the face: those of the base edge.
   Vec2 base_uv(FaceId id, const Coedge& use, double parameter) const;
-  /// The base model's triangulation drawn to the closed edges.
+  /// The base model's triangulation, moved to the closed edges.
   Facets facets(const Model& model, FaceId id, double deflection, double angle) const;
 };
+
+/// The model without its faceted entities. It keeps the bytes of the whole model.
+Model without_facets(const Model& model);
+
+/// Appends the faceted entities of `before` to a model with closed strips that was made from
+/// without_facets(before).
+Model with_facets_of(const Model& before, const Model& closed);
 
 }  // namespace aeroloom::cad

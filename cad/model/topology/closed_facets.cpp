@@ -1,3 +1,4 @@
+#include "cad/model/facets/facet_refinement.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "geometry/disjoint_sets.hpp"
@@ -47,7 +48,7 @@ public:
     std::erase_if(_facets.triangles,
                   [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
     place_boundary();
-    drop_unused();
+    drop_unused_points(_facets);
     return std::move(_facets);
   }
 
@@ -58,8 +59,8 @@ private:
   /// Gives the line a node wherever its edge is divided.
   void divide(Facets::BoundaryLine& line) {
     const BaseEdgeFate& what = fate(line);
-    for (std::size_t i = 1; i < what.parts.size(); ++i) {
-      const double t = _closed.part(what.parts[i], base_face()).low();
+    for (std::size_t i = 1; i < what.pieces.size(); ++i) {
+      const double t = _closed.piece(what.pieces[i], base_face()).low();
       const auto above = std::lower_bound(line.parameters.begin() + 1, line.parameters.end() - 1, t);
       const auto k = above - line.parameters.begin();
       if (*above == t) continue;
@@ -92,17 +93,17 @@ private:
       _facets.boundary.push_back(line);
       _facets.boundary.back().use.edge = what.edge;
     }
-    for (const EdgeId id : what.parts) {
-      const BorderPart& part = _closed.part(id, base_face());
-      const auto [low, high] = std::minmax(part.base.front(), part.base.back());
+    for (const EdgeId id : what.pieces) {
+      const BorderPiece& piece = _closed.piece(id, base_face());
+      const auto [low, high] = std::minmax(piece.base.front(), piece.base.back());
       Facets::BoundaryLine own;
-      own.use = {id, 0, line.use.reversed == part.is_along()};
+      own.use = {id, 0, line.use.reversed == piece.is_along()};
       for (std::size_t i = 0; i < line.nodes.size(); ++i) {
         if (line.parameters[i] < low || line.parameters[i] > high) continue;
         own.nodes.push_back(line.nodes[i]);
-        own.parameters.push_back(part.from_base(line.parameters[i]));
+        own.parameters.push_back(piece.from_base(line.parameters[i]));
       }
-      if (!part.is_along()) {
+      if (!piece.is_along()) {
         std::reverse(own.nodes.begin(), own.nodes.end());
         std::reverse(own.parameters.begin(), own.parameters.end());
       }
@@ -120,31 +121,6 @@ private:
     }
   }
 
-  void drop_unused() {
-    std::vector<std::int32_t> number(_facets.points.size(), -1);
-    for (const auto& triangle : _facets.triangles) {
-      for (const std::int32_t node : triangle) number[node] = 0;
-    }
-    for (const auto& line : _facets.boundary) {
-      for (const std::int32_t node : line.nodes) number[node] = 0;
-    }
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < number.size(); ++i) {
-      if (number[i] < 0) continue;
-      number[i] = count;
-      _facets.points[count] = _facets.points[i];
-      _facets.uv[count++] = _facets.uv[i];
-    }
-    _facets.points.resize(count);
-    _facets.uv.resize(count);
-    for (auto& triangle : _facets.triangles) {
-      for (std::int32_t& node : triangle) node = number[node];
-    }
-    for (auto& line : _facets.boundary) {
-      for (std::int32_t& node : line.nodes) node = number[node];
-    }
-  }
-
   const ClosedEdges& _closed;
   const Model& _model;
   FaceId _id;
@@ -154,24 +130,24 @@ private:
 
 }  // namespace
 
-double BorderPart::to_base(double parameter) const {
+double BorderPiece::to_base(double parameter) const {
   return interpolate(own, base, parameter);
 }
 
-double BorderPart::from_base(double parameter) const {
+double BorderPiece::from_base(double parameter) const {
   return interpolate(base, own, parameter);
 }
 
-const BorderPart& ClosedEdges::part(EdgeId id, FaceId base_face) const {
-  const auto& parts = closed.at(id - (base_edges.size() - closed.size()));
-  return parts[0].face == base_face ? parts[0] : parts[1];
+const BorderPiece& ClosedEdges::piece(EdgeId id, FaceId base_face) const {
+  const auto& pieces = closed.at(id - (base_edges.size() - closed.size()));
+  return pieces[0].face == base_face ? pieces[0] : pieces[1];
 }
 
 Vec2 ClosedEdges::base_uv(FaceId id, const Coedge& use, double parameter) const {
   const FaceId face = base_faces[id];
   if (base_edges[use.edge] != no_entity)
     return base.edge_uv(face, {base_edges[use.edge], use.use, use.reversed}, parameter);
-  const BorderPart& there = part(use.edge, face);
+  const BorderPiece& there = piece(use.edge, face);
   return base.edge_uv(face, there.use, there.to_base(parameter));
 }
 
@@ -182,7 +158,7 @@ Facets ClosedEdges::facets(const Model& model, FaceId id, double deflection, dou
     const BaseEdgeFate& fate = fates[line.use.edge];
     return fate.kind == BaseEdgeFate::Kind::kept && !moved[fate.edge];
   };
-  if (std::all_of(facets.boundary.begin(), facets.boundary.end(), unchanged)) {
+  if (std::ranges::all_of(facets.boundary, unchanged)) {
     for (auto& line : facets.boundary) line.use.edge = fates[line.use.edge].edge;
     return facets;
   }

@@ -1,13 +1,9 @@
-#include "cad/model/topology/facets_aside.hpp"
-
 #include "cad/faceted/faceted_bytes.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 
-#include <algorithm>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,10 +32,7 @@ Model with_facets_of(const Model& before, const Model& closed) {
     Face& face = data->faces[f];
     face.name = as_before.name, face.number = as_before.number;
     face.part = as_before.part, face.layer = as_before.layer, face.colour = as_before.colour;
-    const std::string& patch = from.patches[as_before.patch];
-    const auto found = std::find(data->patches.begin(), data->patches.end(), patch);
-    face.patch = static_cast<std::int32_t>(found - data->patches.begin());
-    if (found == data->patches.end()) data->patches.push_back(patch);
+    face.patch = patch_number(data->patches, from.patches[as_before.patch]);
     data->far_field.push_back(from.far_field[base]);
     numbers.push_back(base);
   }

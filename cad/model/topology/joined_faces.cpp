@@ -69,17 +69,16 @@ void take_uses(const Model& base, JoinedFace& joined, Face& face) {
     for (auto loop : base.face(joined.sheets[s].face).loops) {
       for (Coedge& use : loop) {
         const Coedge own = use;
-        const bool taken =
-            std::any_of(joined.uses.begin(), joined.uses.end(), [&](const JoinedFace::Use& other) {
-              return other.use.edge == use.edge && other.use.use == use.use;
-            });
+        const bool taken = std::ranges::any_of(joined.uses, [&](const JoinedFace::Use& other) {
+          return other.use.edge == use.edge && other.use.use == use.use;
+        });
         if (taken) use.use = 1 - use.use;
         joined.uses.push_back({use, own, static_cast<std::int32_t>(s)});
       }
       face.loops.push_back(std::move(loop));
     }
   }
-  std::sort(joined.uses.begin(), joined.uses.end(), [](const JoinedFace::Use& a, const JoinedFace::Use& b) {
+  std::ranges::sort(joined.uses, [](const JoinedFace::Use& a, const JoinedFace::Use& b) {
     return std::pair(a.use.edge, a.use.use) < std::pair(b.use.edge, b.use.use);
   });
 }
@@ -128,9 +127,8 @@ Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& gro
     if (taken[id] && members[id].empty()) continue;
     if (members[id].empty()) members[id] = {id};
     const auto& own = members[id];
-    const FaceId largest = *std::max_element(own.begin(), own.end(), [&](FaceId a, FaceId b) {
-      return own.size() > 1 && model.face_area(a) < model.face_area(b);
-    });
+    const FaceId largest = *std::ranges::max_element(
+        own, [&](FaceId a, FaceId b) { return own.size() > 1 && model.face_area(a) < model.face_area(b); });
     for (const FaceId member : own) number[member] = static_cast<FaceId>(data->faces.size());
     Face face = model.face(largest);
     JoinedFace parts{lay_out(model, own), {}, {}};

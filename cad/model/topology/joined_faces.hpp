@@ -1,9 +1,9 @@
-/// Several CAD faces seen as one: virtual topology over an unchanged model.
+/// Joins CAD faces into one, as virtual topology over an unchanged model (Sheffer, Blacker and Bercovier,
+/// Clustering: automated detail suppression using virtual topology, ASME AMD 220, 1997).
 ///
-/// A joined face has the loops of all its members; an edge between two members is passed twice by it, like a
-/// seam, and constrains nothing. Its parameter plane holds those of the members side by side ("sheets"),
-/// shifted along u. Sheffer, Blacker and Bercovier, Clustering: automated detail suppression using virtual
-/// topology, ASME AMD 220, 1997.
+/// A joined face has the loops of all its members. An edge between two members is used twice, like a seam,
+/// and constrains nothing. The parameter planes of the members lie side by side along u; each is called a
+/// sheet.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -12,11 +12,11 @@
 
 namespace aeroloom::cad {
 
-/// The model with each group of faces seen as one, which takes the name of the member with the largest area;
-/// faces keep their order, that of a group being that of its first member. Members of a group lie in one
-/// patch, between the same regions, and share edges; nobody is a member twice, no member is far field, and
-/// all or none are exact planes (Model::is_exact_plane); otherwise throws std::invalid_argument. serialise()
-/// gives the model without groups.
+/// The model with each group of faces joined. A joined face has the name of its largest member. Faces keep
+/// their order; a group stands at the place of its first member. Members must lie in one patch and between
+/// the same regions, and share edges. No face may be in two groups or be far field. All members or none must
+/// be exact planes (Model::is_exact_plane). Throws std::invalid_argument otherwise. serialise() gives the
+/// model without groups.
 Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& groups);
 
 }  // namespace aeroloom::cad

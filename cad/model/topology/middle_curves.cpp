@@ -1,11 +1,11 @@
 #include "cad/model/topology/middle_curves.hpp"
 
+#include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomConvert.hxx>
@@ -57,10 +57,6 @@ std::vector<Joint> inner_joints(const Model& model, const std::vector<BorderEdge
   return joints;
 }
 
-gp_Pnt to_gp(Vec3 p) {
-  return {p.x, p.y, p.z};
-}
-
 Handle(Geom_BSplineCurve) interpolate(const std::vector<Vec3>& points, const std::vector<double>& at) {
   const int count = static_cast<int>(points.size());
   const Handle(TColgp_HArray1OfPnt) places = new TColgp_HArray1OfPnt(1, count);
@@ -75,7 +71,7 @@ Handle(Geom_BSplineCurve) interpolate(const std::vector<Vec3>& points, const std
   return interpolation.Curve();
 }
 
-/// Middles and their places on the borders at even shares between two stations.
+/// Middles and their places on the borders at even fractions between two stations.
 struct Middles {
   std::vector<Vec3> points;
   std::array<std::vector<double>, 2> parameters;
@@ -178,8 +174,8 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
   std::vector<Station> stations = facing;
   for (int side = 0; side < 2; ++side) {
     for (const Joint& joint : joints[side]) {
-      const auto above = std::find_if(facing.begin(), facing.end(),
-                                      [&](const Station& s) { return s.passed[side] >= joint.passed; });
+      const auto above =
+          std::ranges::find_if(facing, [&](const Station& s) { return s.passed[side] >= joint.passed; });
       if (above->passed[side] == joint.passed) continue;
       const Station &low = *(above - 1), &high = *above;
       const double fraction = (joint.passed - low.passed[side]) / (high.passed[side] - low.passed[side]);
@@ -190,8 +186,7 @@ std::vector<Station> place_stations(const Model& model, const BluntEdge& strip,
       stations.push_back(alone);
     }
   }
-  std::sort(stations.begin(), stations.end(),
-            [](const Station& a, const Station& b) { return a.passed[0] < b.passed[0]; });
+  std::ranges::sort(stations, [](const Station& a, const Station& b) { return a.passed[0] < b.passed[0]; });
   return stations;
 }
 
@@ -231,10 +226,7 @@ Vec3 EndMove::operator()(Vec3 point) const {
 
 Handle(Geom_Curve) move_ends(const GeomAdaptor_Curve& curve, const EndMove& first, const EndMove& last) {
   const double low = curve.FirstParameter(), high = curve.LastParameter();
-  const auto value = [&](double t) {
-    const gp_Pnt p = curve.Value(t);
-    return Vec3{p.X(), p.Y(), p.Z()};
-  };
+  const auto value = [&](double t) { return to_vec(curve.Value(t)); };
   if (curve.GetType() == GeomAbs_Line)
     return straight(value(low) + first.by, value(high) + last.by, low, high);
   const auto moved = [&](double t) { return first(value(t)) + last(value(t)); };

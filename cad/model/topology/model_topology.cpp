@@ -1,6 +1,8 @@
 #include "cad/model/topology/model_topology.hpp"
 
 #include "cad/model/evaluation/plane_snap.hpp"
+#include "cad/model/shape_map.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
 
@@ -14,9 +16,7 @@
 #include <GeomLib_IsPlanarSurface.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_Surface.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -30,10 +30,6 @@ namespace {
 struct Maps {  // NOLINT(bugprone-exception-escape)
   TopTools_IndexedMapOfShape vertices, edges, faces, solids;
 };
-
-bool bounds_material(const TopoDS_Shape& part) {
-  return part.Orientation() == TopAbs_FORWARD || part.Orientation() == TopAbs_REVERSED;
-}
 
 /// Visits the edges of a face loop by loop, oriented as in the face oriented forward. Edges lying inside the
 /// face bound no material and are passed over.
@@ -67,10 +63,8 @@ Maps map_shapes(const TopoDS_Shape& shape) {
 }
 
 void add_vertices(const Maps& maps, Model::Data& data) {
-  for (int i = 1; i <= maps.vertices.Extent(); ++i) {
-    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)));
-    data.vertices.push_back({p.X(), p.Y(), p.Z()});
-  }
+  for (int i = 1; i <= maps.vertices.Extent(); ++i)
+    data.vertices.push_back(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)))));
 }
 
 void add_edges(const Maps& maps, Model::Data& data) {
@@ -88,8 +82,8 @@ void add_edges(const Maps& maps, Model::Data& data) {
       double low, high;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(evaluator.shape, low, high);
       if (curve.IsNull()) {
-        const Vec3 at = data.vertices[edge.first];
-        throw CadError(fmt::format("edge {} at {} has no curve", i - 1, geometry::place_text(at)));
+        throw CadError(fmt::format("edge {} at {} has no curve", i - 1,
+                                   geometry::place_text(data.vertices[edge.first])));
       }
       evaluator.curve.Load(curve, low, high);
       edge.first_parameter = low, edge.last_parameter = high;
@@ -115,45 +109,45 @@ ParameterRange parameter_range(double low, double high, double period, bool clos
 }
 
 /// One use with where it starts and ends in the loop's direction.
-struct LoopPart {
+struct LoopSegment {
   Coedge use;
   VertexId start, end;
   Vec2 uv_start, uv_end;
 };
 
-LoopPart loop_part(const Model::Data& data, const UseCurve& curve) {
+LoopSegment loop_segment(const Model::Data& data, const UseCurve& curve) {
   const Edge& edge = data.edges[curve.use.edge];
   const gp_Pnt2d low = curve.curve.Value(curve.first), high = curve.curve.Value(curve.last);
-  LoopPart part{curve.use, edge.first, edge.last, {low.X(), low.Y()}, {high.X(), high.Y()}};
+  LoopSegment segment{curve.use, edge.first, edge.last, {low.X(), low.Y()}, {high.X(), high.Y()}};
   if (curve.use.reversed) {
-    std::swap(part.start, part.end);
-    std::swap(part.uv_start, part.uv_end);
+    std::swap(segment.start, segment.end);
+    std::swap(segment.uv_start, segment.uv_end);
   }
-  return part;
+  return segment;
 }
 
 /// Chains the edges of a wire head to tail. Where several start at the vertex, the nearest in parameters
 /// follows. A wire that touches itself may give several loops.
-std::vector<std::vector<Coedge>> chain_loops(std::vector<LoopPart> parts, Vec2 scale) {
+std::vector<std::vector<Coedge>> chain_loops(std::vector<LoopSegment> segments, Vec2 scale) {
   std::vector<std::vector<Coedge>> loops;
-  while (!parts.empty()) {
+  while (!segments.empty()) {
     std::vector<Coedge>& loop = loops.emplace_back();
-    const VertexId begin = parts.front().start;
-    LoopPart current = parts.front();
-    parts.erase(parts.begin());
+    const VertexId begin = segments.front().start;
+    LoopSegment current = segments.front();
+    segments.erase(segments.begin());
     loop.push_back(current.use);
     while (true) {
-      auto best = parts.end();
+      auto best = segments.end();
       double least = std::numeric_limits<double>::max();
-      for (auto part = parts.begin(); part != parts.end(); ++part) {
-        if (part->start != current.end) continue;
-        const Vec2 gap = part->uv_start - current.uv_end;
+      for (auto segment = segments.begin(); segment != segments.end(); ++segment) {
+        if (segment->start != current.end) continue;
+        const Vec2 gap = segment->uv_start - current.uv_end;
         const double away = std::hypot(gap.x * scale.x, gap.y * scale.y);
-        if (away < least) least = away, best = part;
+        if (away < least) least = away, best = segment;
       }
-      if (best == parts.end()) break;
+      if (best == segments.end()) break;
       current = *best;
-      parts.erase(best);
+      segments.erase(best);
       loop.push_back(current.use);
     }
     if (current.end != begin) {
@@ -170,10 +164,10 @@ std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, F
   const TopoDS_Wire outer = BRepTools::OuterWire(face.shape);
   TopTools_IndexedMapOfShape wires;
   if (!outer.IsNull()) wires.Add(outer);
-  std::vector<std::vector<LoopPart>> parts(wires.Extent());
+  std::vector<std::vector<LoopSegment>> segments(wires.Extent());
   for_each_edge(face.shape, [&](const TopoDS_Wire& wire, const TopoDS_Edge& edge) {
     const std::size_t loop = wires.Add(wire) - 1;
-    parts.resize(wires.Extent());
+    segments.resize(wires.Extent());
     Coedge use{maps.edges.FindIndex(edge) - 1, 0, edge.Orientation() == TopAbs_REVERSED};
     if (use.reversed && BRep_Tool::IsClosed(edge, face.shape)) use.use = 1;
     const auto taken = [&](const UseCurve& other) {
@@ -181,15 +175,15 @@ std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, F
     };
     if (std::any_of(face.uses.begin(), face.uses.end(), taken)) use.use = 1 - use.use;
     face.uses.push_back(use_curve(face.shape, edge, use));
-    parts[loop].push_back(loop_part(data, face.uses.back()));
+    segments[loop].push_back(loop_segment(data, face.uses.back()));
   });
   const Vec2 extent = face.uv_high - face.uv_low;
   const Vec2 scale{extent.x > 0 ? 1 / extent.x : 1, extent.y > 0 ? 1 / extent.y : 1};
   std::vector<std::vector<Coedge>> loops;
-  for (auto& wire : parts) {
+  for (auto& wire : segments) {
     for (auto& loop : chain_loops(std::move(wire), scale)) loops.push_back(std::move(loop));
   }
-  std::sort(face.uses.begin(), face.uses.end(), [](const UseCurve& a, const UseCurve& b) {
+  std::ranges::sort(face.uses, [](const UseCurve& a, const UseCurve& b) {
     return std::pair(a.use.edge, a.use.use) < std::pair(b.use.edge, b.use.use);
   });
   return loops;

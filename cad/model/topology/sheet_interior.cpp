@@ -3,7 +3,6 @@
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <gp_Pnt2d.hxx>
@@ -78,7 +77,7 @@ void SheetInterior::classify_cells() {
     if (_cells[i] != Cell::unknown) continue;
     const int column = i % cells_per_side, row = i / cells_per_side;
     const Vec2 middle{_grid_low.x + (column + 0.5) * _cell_size.x, _grid_low.y + (row + 0.5) * _cell_size.y};
-    spread(i, ask_library(middle) ? Cell::inside : Cell::outside);
+    spread(i, classify_by_library(middle) ? Cell::inside : Cell::outside);
   }
 }
 
@@ -104,15 +103,15 @@ void SheetInterior::spread(int start, Cell cell) {
 bool SheetInterior::contains(Vec2 uv) const {
   const bool in_box = uv.x >= _box_low.x && uv.x <= _box_high.x && uv.y >= _box_low.y && uv.y <= _box_high.y;
   // Beyond the box points of a periodic direction may be those of the other end.
-  if (!in_box && _periodic) return ask_library(uv);
+  if (!in_box && _periodic) return classify_by_library(uv);
   const Vec2 place = grid_place(uv);
   const bool in_grid = place.x >= 0 && place.x < cells_per_side && place.y >= 0 && place.y < cells_per_side;
   if (!in_grid) return false;
   const Cell cell = _cells[static_cast<int>(place.y) * cells_per_side + static_cast<int>(place.x)];
-  return cell == Cell::near_loop ? ask_library(uv) : cell == Cell::inside;
+  return cell == Cell::near_loop ? classify_by_library(uv) : cell == Cell::inside;
 }
 
-bool SheetInterior::ask_library(Vec2 uv) const {
+bool SheetInterior::classify_by_library(Vec2 uv) const {
   return _library.Perform(gp_Pnt2d(uv.x, uv.y)) != TopAbs_OUT;
 }
 

@@ -1,4 +1,4 @@
-/// Whether points of a parameter plane lie within the loops of a face. Seen by this folder only.
+/// Decides whether points of the parameter plane lie inside the loops of a face. Internal to cad/model/.
 #pragma once
 
 #include "cad/model/model_data.hpp"
@@ -10,13 +10,13 @@
 
 namespace aeroloom::cad {
 
-/// A grid over the box of the loops. Cells that a loop passes, or that lie beside such a cell, ask the CAD
-/// library for each point; each connected set of the others asked it once.
+/// A grid over the box of the loops. Near loops the CAD library classifies each point. All other cells are
+/// classified once, by connected sets.
 class SheetInterior {
 public:
   explicit SheetInterior(const FaceEvaluator& face);
 
-  /// Within the loops or on them.
+  /// Inside the loops or on them.
   bool contains(Vec2 uv) const;
 
 private:
@@ -29,7 +29,7 @@ private:
   void mark_cells_around(Vec2 place);
   void classify_cells();
   void spread(int start, Cell cell);
-  bool ask_library(Vec2 uv) const;
+  bool classify_by_library(Vec2 uv) const;
 
   bool _periodic;
   Vec2 _box_low, _box_high;  // of the loops

@@ -107,7 +107,7 @@ Facets JoinedModel::facets(FaceId id, double deflection, double angle, Model::Ke
     for (const Vec2 uv : one.uv) all.uv.push_back(face.from_member(sheet, uv));
     for (const auto& [a, b, c] : one.triangles) all.triangles.push_back({first + a, first + b, first + c});
     for (Facets::BoundaryLine line : one.boundary) {
-      const auto use = std::find_if(face.uses.begin(), face.uses.end(), [&](const JoinedFace::Use& each) {
+      const auto use = std::ranges::find_if(face.uses, [&](const JoinedFace::Use& each) {
         return each.sheet == sheet && each.base.edge == line.use.edge && each.base.use == line.use.use;
       });
       line.use = use->use;

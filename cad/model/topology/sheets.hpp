@@ -1,4 +1,4 @@
-/// How a joined face leads to its members. Seen by this folder only.
+/// Relates joined faces to their members. Internal to cad/model/.
 #pragma once
 
 #include "cad/model/model.hpp"
@@ -11,12 +11,13 @@ namespace aeroloom::cad {
 
 class SheetInterior;
 
-/// A face of the base model in the parameter plane of a joined one.
+/// The parameter plane of a member inside that of the joined face.
 struct Sheet {
   FaceId face = no_entity;
-  double low = 0, high = 0;                            ///< of u in the joined plane
-  double shift = 0;                                    ///< of u from the member's plane to the joined one
-  std::shared_ptr<const SheetInterior> interior = {};  ///< in the member's plane; where there are several
+  double low = 0, high = 0;  ///< range of u in the joined plane
+  double shift = 0;          ///< shift of u from the member's plane to the joined plane
+  std::shared_ptr<const SheetInterior> interior =
+      {};  ///< in the member's plane; only if there are several sheets
 };
 
 /// A point on an edge between two sheets.
@@ -28,27 +29,28 @@ struct SheetBorder {
 
 struct JoinedFace {
   struct Use {
-    Coedge use, base;  ///< as the joined face numbers it, and the member
+    Coedge use, base;  ///< as numbered by the joined face, and by the member
     std::int32_t sheet;
   };
   std::vector<Sheet> sheets;
-  std::vector<Use> uses;             ///< by (edge, use); where there are several sheets
-  std::vector<SheetBorder> borders;  ///< along the edges between sheets
+  std::vector<Use> uses;             ///< sorted by (edge, use); only if there are several sheets
+  std::vector<SheetBorder> borders;  ///< along edges between sheets
 
   std::int32_t sheet_at(Vec2 uv) const;
   Vec2 to_member(std::int32_t sheet, Vec2 uv) const { return {uv.x - sheets[sheet].shift, uv.y}; }
   Vec2 from_member(std::int32_t sheet, Vec2 uv) const;
   const Use& use(const Coedge& wanted) const;
-  /// A sheet and where it is entered, in its own plane.
+  /// A sheet and the point where it is entered, in its own plane.
   struct Entry {
     std::int32_t sheet;
     Vec2 uv;
   };
-  /// Across the border of a sheet nearest to a point, of those with sheets not yet seen.
+  /// Crosses the border of a sheet that is nearest to a point, to a sheet not yet seen. Empty if there is
+  /// none.
   std::optional<Entry> cross_border(std::int32_t sheet, Vec3 point, const std::vector<char>& seen) const;
 };
 
-/// The faces of a model that has joined ones.
+/// The faces of a model with joined faces.
 struct JoinedModel {
   /// A face of the base model and a point of its parameter plane.
   struct Place {
@@ -61,6 +63,12 @@ struct JoinedModel {
   std::vector<JoinedFace> faces;
 
   Place locate(FaceId id, Vec2 uv) const;
+  /// Calls a function of the base model at a point of a face's parameter plane.
+  template <class Result>
+  Result evaluate(Result (Model::*function)(FaceId, Vec2) const, FaceId id, Vec2 uv) const {
+    const Place at = locate(id, uv);
+    return (base.*function)(at.face, at.uv);
+  }
   Projection project(FaceId id, Vec3 point, Vec2 guess) const;
   Facets facets(FaceId id, double deflection, double angle, Model::Keep keep) const;
 };

@@ -143,7 +143,7 @@ using ImportedFile = io::examples::ScratchFolder;
 
 TEST_F(ImportedFile, RegionsHavePiecesOfTheirOwnAndAFaceBetweenThem) {
   io::examples::put_bytes(world, path("cube.mesh"), two_regions_as_text());
-  const DistributedMesh mesh = import_mesh(world, path("cube.mesh"), 100);
+  const DistributedMesh mesh = import_mesh({world, path("cube.mesh")}, 100);
   EXPECT_EQ(mesh.regions, (std::vector<std::string>{"region_7", "region_8"}));
   EXPECT_EQ(mesh.piece_count, 4);
   for (const Piece& piece : mesh.pieces) EXPECT_TRUE(piece.runs.empty()) << "one region each";
@@ -161,7 +161,7 @@ TEST_F(ImportedFile, WhatCannotBeReadIsNamedOnAllRanks) {
   io::examples::put_bytes(world, path("cube.mesh"), two_regions_as_text().substr(0, 2000));
   for (const char* name : {"cube.mesh", "missing.mesh"}) {
     try {
-      import_mesh(world, path(name), std::nullopt);
+      import_mesh({world, path(name)}, std::nullopt);
       ADD_FAILURE() << name << " is taken";
     } catch (const parallel::CollectiveError& error) {
       EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();

@@ -1,5 +1,5 @@
 // Sizes at places, walls and edges as a case has them.
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 #include "tests/pipeline/case/case_fixture.hpp"
 
 #include <optional>

@@ -1,4 +1,4 @@
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 #include "tests/pipeline/case/case_fixture.hpp"
 
 namespace aeroloom::cases {

@@ -90,7 +90,7 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
     const parallel::Warnings warnings = parallel::take_warnings(world);
-    const double share = sized.findings.features ? sized.findings.features->share.share : 1;
+    const double share = sized.findings.features ? sized.findings.features->share.ratio : 1;
     const double error = std::log(sized.findings.counts.tetrahedra / share / 30'000);
     met += std::abs(error) < std::log(1.25);
     if (std::abs(error) > std::log(1.25)) {
@@ -113,7 +113,7 @@ TEST(SizeDomain, ChoosesTheSameOnAnyNumberOfRanks) {
           size_domain(communicator, model, target_beside(chosen), {cases::NarrowFaces::join});
       text += fmt::format("{:a} {:a} {:a} {:a} {:a} {}\n", sized.findings.counts.tetrahedra,
                           sized.findings.counts.triangles, sized.sizes.minimum, sized.sizes.surface_maximum,
-                          sized.findings.features ? sized.findings.features->share.share : 1,
+                          sized.findings.features ? sized.findings.features->share.ratio : 1,
                           sized.field.leaf_count());
     }
     return text;
@@ -177,7 +177,7 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   ASSERT_TRUE(large.findings.features);
   EXPECT_TRUE(large.findings.features->strips.empty());
   EXPECT_TRUE(describe(*large.findings.features).empty());
-  EXPECT_LT(large.sizes.strip_minimum, 0.0005);
+  EXPECT_LT(large.sizes.narrow_minimum, 0.0005);
   EXPECT_NEAR(small.findings.features->wanted_tetrahedra(), large.findings.counts.tetrahedra,
               0.4 * large.findings.counts.tetrahedra);
 }

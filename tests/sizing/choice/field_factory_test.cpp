@@ -57,7 +57,7 @@ TEST(FieldFactory, WidthsOfStripsAreThoseBetweenTheirCurves) {
   constexpr double width = 4e-5;
   const Model model = cad::shapes::half_coin(width);
   const SampledModel sampled(parallel::Communicator::world(), model);
-  const std::vector<Strip> strips = strips_narrower_than(sampled, 0.05, 0.05);
+  const std::vector<NarrowRegion> strips = narrow_regions_below(sampled, 0.05, 0.05);
   ASSERT_FALSE(strips.empty());
   EXPECT_NEAR(strips.front().width, width, 0.05 * width);
 }
@@ -70,7 +70,8 @@ TEST(FieldFactory, TellsSizesWithoutFeatures) {
   SizingOptions options;
   options.minimum = 0.02, options.maximum = 0.5, options.surface_maximum = surface;
   options.feature_minimum = 0.001;
-  const std::vector<Strip> strips = strips_narrower_than(factory.sampled(), 2 * width, options.minimum);
+  const std::vector<NarrowRegion> strips =
+      narrow_regions_below(factory.sampled(), 2 * width, options.minimum);
   ASSERT_FALSE(strips.empty());
   const geometry::Vec3 place = strips.front().place;
   EXPECT_LT(factory.build_field(options)(place), 3 * width);
@@ -160,11 +161,11 @@ TEST(FieldFactory, RoughFieldsTellAboutAsManyAndDoSoForAnySizes) {
   FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 1, Fields::several);
   const SizingOptions options{0.02, 0.3, 15, 1.3, 0};
   const PredictedCounts exact = predict_counts(factory.sampled(), factory.build_field(options));
-  const RoughField rough = factory.build_rough_field(options);
+  const CoarseField rough = factory.build_coarse_field(options);
   EXPECT_NEAR(rough.counts.tetrahedra, exact.tetrahedra, 0.25 * exact.tetrahedra);
   EXPECT_NEAR(rough.counts.triangles, exact.triangles, 0.3 * exact.triangles);
   const SizingOptions tiny{2e-4, 1e-3, 1, 1.3, 0};
-  const RoughField of_tiny = factory.build_rough_field(tiny);
+  const CoarseField of_tiny = factory.build_coarse_field(tiny);
   EXPECT_GT(of_tiny.counts.tetrahedra, 1e9);
   EXPECT_LT(of_tiny.field.leaf_count(), 1'000'000);
 }

@@ -85,8 +85,8 @@ TEST(LocalChord, OfTheBuiltInAircraft) {
     EXPECT_NEAR(edge.strip.narrowest, share * tip, 0.05 * share * tip) << name;
     EXPECT_GT(edge.chord, 0.7 * tip) << name;
     EXPECT_LT(edge.chord, 1.05 * tip) << name;
-    EXPECT_GT(edge.share, 0.95 * share) << name;
-    EXPECT_LT(edge.share, 1.35 * share) << name << ": sections across swept edges are shorter";
+    EXPECT_GT(edge.fraction, 0.95 * share) << name;
+    EXPECT_LT(edge.fraction, 1.35 * share) << name << ": sections across swept edges are shorter";
     // Thickness and chord fall alike from root to tip.
     for (const cad::BluntStation& station : edge.strip.stations) {
       EXPECT_LT(station.width, 1.02 * edge.strip.widest) << name;

@@ -220,17 +220,17 @@ Model cusp() {
       BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, 0.2)).Shape());
 }
 
-std::vector<sizing::Wall> walls_of(const Model& model, cad::FaceId face, const cad::Facets& facets) {
-  std::vector<sizing::Wall> walls;
+std::vector<sizing::ModelFacet> facets_of(const Model& model, cad::FaceId face, const cad::Facets& facets) {
+  std::vector<sizing::ModelFacet> all;
   const std::vector<double> deviations = sizing::facet_deviations(model, face, facets);
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const auto& [a, b, c] = facets.triangles[i];
-    walls.push_back({face,
-                     {facets.points[a], facets.points[b], facets.points[c]},
-                     {facets.uv[a], facets.uv[b], facets.uv[c]},
-                     deviations[i]});
+    all.push_back({face,
+                   {facets.points[a], facets.points[b], facets.points[c]},
+                   {facets.uv[a], facets.uv[b], facets.uv[c]},
+                   deviations[i]});
   }
-  return walls;
+  return all;
 }
 
 /// The first face with that curvature.
@@ -252,7 +252,7 @@ TEST(OpenGaps, AreNotToldFromACuspByFacetsThatReachToIt) {
   // Beside the cusp some facets of the upper one are as steep as those below them, or less.
   for (const auto& [angle, angle_below] : {std::pair(0.45, 0.15), std::pair(0.3, 0.1)}) {
     const cad::Facets facets = model.facets(upper, 1, angle);
-    const sizing::Walls walls(walls_of(model, lower, model.facets(lower, 1, angle_below)));
+    const sizing::ModelFacets walls(facets_of(model, lower, model.facets(lower, 1, angle_below)));
     sizing::FaceGapSearch search(model, upper, facets, walls, {1, 0.01, 1});
     sizing::Gaps gaps;
     search.go_on(10'000'000, gaps);
@@ -306,14 +306,14 @@ struct PlateSearch {
     return largest;
   }();
   cad::Facets facets = model.facets(face, 0.1, 0.3);
-  sizing::Walls walls = [&] {
-    std::vector<sizing::Wall> all;
+  sizing::ModelFacets walls = [&] {
+    std::vector<sizing::ModelFacet> all;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       if (model.is_far_field(f)) continue;
-      const std::vector<sizing::Wall> more = walls_of(model, f, model.facets(f, 0.1, 0.3));
+      const std::vector<sizing::ModelFacet> more = facets_of(model, f, model.facets(f, 0.1, 0.3));
       all.insert(all.end(), more.begin(), more.end());
     }
-    return sizing::Walls(std::move(all));
+    return sizing::ModelFacets(std::move(all));
   }();
   sizing::FaceGapSearch search{model, face, facets, walls, limits};
   sizing::Gaps gaps;

@@ -47,7 +47,7 @@ TEST(TriangleTree, TellsInsideFromOutside) {
     const Vec3 p = random_point(random);
     if (std::abs(norm(p) - 1) < 0.01) continue;
     EXPECT_EQ(tree.contains(p), norm(p) < 1);
-    EXPECT_EQ(tree.share_behind(p, 1e-6, all), norm(p) < 1 ? 1 : 0);
+    EXPECT_EQ(tree.fraction_behind(p, 1e-6, all), norm(p) < 1 ? 1 : 0);
   }
 }
 
@@ -62,7 +62,7 @@ TEST(TriangleTree, SharesOfCubesAddUpToTheVolume) {
       const Vec3 low = edge * Vec3{double(column), double(row), double(layer)} - Vec3{1.2, 1.2, 1.2};
       tree.find_overlapping(low, edge, touching);
       const bool inside = norm(low + 0.5 * edge * Vec3{1, 1, 1}) < 1;
-      volume += edge * edge * edge * (touching.empty() ? inside : tree.share_behind(low, edge, touching));
+      volume += edge * edge * edge * (touching.empty() ? inside : tree.fraction_behind(low, edge, touching));
     }
     EXPECT_NEAR(volume, 4 * std::numbers::pi / 3, 2.5 * edge * edge) << edge;
   }

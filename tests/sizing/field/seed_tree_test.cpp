@@ -11,7 +11,7 @@ using namespace aeroloom::sizing;
 namespace {
 
 SeedTree tree_of(const aeroloom::parallel::Communicator& alone, const std::vector<SizeSeed>& seeds) {
-  const SharedSeeds shared(Pages(alone, {}, 1), seeds);
+  const SharedSeeds shared(Subtrees(alone, {}, 1), seeds);
   return SeedTree({&shared}, 0.3);
 }
 

@@ -211,13 +211,13 @@ TEST(SizeFieldLocal, ScaledMultipliesEveryLengthAndNothingElse) {
   SizingOptions given = options;
   given.surface_maximum = 1.25;
   given.feature_minimum = 0.001;
-  given.strip_minimum = 0.0005;
+  given.narrow_minimum = 0.0005;
   given.gap_minimum = 0.004;
   given.chordal_deviation = 0.01;
   given.gap_proximity = 3;
   SizingOptions expected = given;
   expected.minimum *= 4, expected.maximum *= 4, expected.surface_maximum *= 4, expected.feature_minimum *= 4;
-  expected.strip_minimum *= 4, expected.gap_minimum *= 4, expected.chordal_deviation *= 4;
+  expected.narrow_minimum *= 4, expected.gap_minimum *= 4, expected.chordal_deviation *= 4;
   EXPECT_EQ(SizeField::build(cube(10), {}, given).scaled(4).options(), expected);
 }
 

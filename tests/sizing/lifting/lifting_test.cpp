@@ -1,7 +1,7 @@
 #include "sizing/lifting/lifting.hpp"
 
 #include "cad/domain/domain.hpp"
-#include "sizing/sources/surface_demand.hpp"
+#include "sizing/sources/surface_request.hpp"
 #include "tests/cad/real_files.hpp"
 
 #include <algorithm>
@@ -125,7 +125,7 @@ TEST(Lifting, OfSharpEdges) {
     surface->trailing_edge = 0;
   const LiftingBodies bodies = find(options);
   ASSERT_EQ(bodies.elements.size(), 5u);
-  for (const LiftingElement& element : bodies.elements) EXPECT_EQ(element.strip, cad::no_entity);
+  for (const LiftingElement& element : bodies.elements) EXPECT_EQ(element.blunt_face, cad::no_entity);
 }
 
 // Half a wing in two parts with a nacelle below it; its pylon ends in an edge of its own.

@@ -1,6 +1,6 @@
 #include "sizing/sources/size_expression.hpp"
 
-#include "sizing/sources/size_demands.hpp"
+#include "sizing/sources/size_requests.hpp"
 
 #include <algorithm>
 #include <cmath>

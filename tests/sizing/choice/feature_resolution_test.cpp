@@ -1,0 +1,193 @@
+#include "sizing/choice/choose_sizes.hpp"
+#include "sizing/choice/narrow_regions.hpp"
+#include "sizing/choice/predict_counts.hpp"
+#include "tests/cad/primitives.hpp"
+#include "tests/cad/strip_shapes.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace aeroloom::sizing {
+namespace {
+
+constexpr double no_budget = 1e9;
+
+/// A factory of fields of a shape.
+class Sampled {
+public:
+  explicit Sampled(const cad::Model& model) : Sampled(model, 0) {}
+  /// With gaps looked for.
+  Sampled(const cad::Model& model, double layers)
+      : _factory(SampledModel(parallel::Communicator::world(), model), layers, Fields::several) {}
+
+  FeatureResolution share(double budget, std::int64_t most_leaves = 1'000'000'000) {
+    return choose_feature_resolution(_factory, sizes(), budget, 1, most_leaves);
+  }
+  double predict(const FeatureResolution& features) {
+    return predict_counts(_factory.sampled(), field(features)).tetrahedra;
+  }
+  SizeField field(const FeatureResolution& features) {
+    SizingOptions options = sizes();
+    set_features(options, features);
+    return _factory.build_field(options);
+  }
+  std::vector<NarrowRegion> strips(double width) {
+    return narrow_regions_below(_factory.sampled(), width, sizes().minimum);
+  }
+  ChosenSizes choose(double target, double budget) { return choose_sizes(_factory, target, budget); }
+
+  static SizingOptions sizes() {
+    SizingOptions options{0.05, 0.2, 15, 1.3, 0};
+    options.feature_minimum = options.minimum;
+    return options;
+  }
+
+private:
+  FieldFactory _factory;
+};
+
+TEST(FeatureResolution, ABluntEndIsResolvedWhereTheBudgetAllows) {
+  Sampled wedge(cad::shapes::blunt_wedge(0.004));
+  const FeatureResolution all = wedge.share(no_budget);
+  EXPECT_GT(all.ratio, 2);
+  EXPECT_FALSE(all.limited);
+  EXPECT_EQ(all.resolved_ratio, all.ratio);
+  EXPECT_EQ(all.aspect, 1);
+  EXPECT_DOUBLE_EQ(all.ratio, wedge.predict(all) / wedge.predict({}));
+}
+
+TEST(FeatureResolution, StaysWithinTheBudgetAndUsesIt) {
+  Sampled wedge(cad::shapes::blunt_wedge(0.004));
+  const FeatureResolution all = wedge.share(no_budget);
+  double last_aspect = no_aspect;
+  for (const double part : {0.25, 0.5}) {
+    const double budget = 1 + part * (all.ratio - 1);
+    const FeatureResolution some = wedge.share(budget);
+    EXPECT_LE(some.ratio, budget);
+    EXPECT_GT(some.ratio, 0.8 * budget);
+    EXPECT_GT(some.aspect, 1);
+    EXPECT_LT(some.aspect, last_aspect) << "a larger budget resolves more";
+    EXPECT_TRUE(some.limited);
+    EXPECT_NEAR(some.resolved_ratio, all.ratio, 0.25 * all.ratio);
+    last_aspect = some.aspect;
+  }
+  EXPECT_EQ(wedge.share(1).aspect, no_aspect);
+}
+
+// Thinner than a thousandth of the smallest size at first, strips got nothing; budgets in between more than
+// larger ones.
+TEST(FeatureResolution, LargerBudgetsNeverGiveLess) {
+  for (const double thickness : {0.01, 0.002, 0.0004}) {
+    Sampled wedge(cad::shapes::blunt_wedge(thickness));
+    FeatureResolution last = wedge.share(1, 200'000);
+    for (const double budget : {1.2, 1.5, 2.0, 3.0, 5.0, 8.0, 13.0, 21.0}) {
+      const FeatureResolution some = wedge.share(budget, 200'000);
+      EXPECT_LE(some.aspect, last.aspect) << thickness << ' ' << budget;
+      EXPECT_GE(some.ratio, last.ratio) << thickness << ' ' << budget;
+      EXPECT_LE(some.ratio, budget);
+      if (some.limited) {
+        EXPECT_GT(some.ratio, 0.85 * budget) << thickness << ' ' << budget;
+      }
+      last = some;
+    }
+  }
+}
+
+// Beyond the budget thin and thick parts of an end have elements as much longer than wide.
+TEST(FeatureResolution, ThinAndThickStripsHaveOneAspect) {
+  constexpr double thick = 0.01, thin = 0.001;
+  Sampled wedge(cad::shapes::tapered_wedge(thick, thin));
+  const FeatureResolution some = wedge.share(5);
+  ASSERT_TRUE(some.limited);
+  ASSERT_GT(some.aspect, 1.2);
+  ASSERT_LT(some.aspect * thick, Sampled::sizes().minimum);
+  const SizeField field = wedge.field(some);
+  double least = 1e9, most = 0;
+  for (const NarrowRegion& strip : wedge.strips(2 * thick)) {
+    if (strip.width > 1.5 * thin) continue;
+    EXPECT_NEAR(strip.width, thin, 0.05 * thin);
+    least = std::min(least, field(strip.place) / strip.width);
+    most = std::max(most, field(strip.place) / strip.width);
+  }
+  EXPECT_GT(least, 0.5 * some.aspect);
+  EXPECT_LT(most, 1.1 * some.aspect);
+}
+
+TEST(FeatureResolution, FieldsThatAreFarTooFineAreNotBuilt) {
+  Sampled wedge(cad::shapes::blunt_wedge(0.0005));
+  const FeatureResolution some = wedge.share(4, 60'000);
+  EXPECT_GT(some.ratio, 1);
+  EXPECT_LE(some.ratio, 4);
+  EXPECT_TRUE(some.limited);
+  EXPECT_GT(some.resolved_ratio, 4);
+}
+
+// An end that tapers is not everywhere as thin as at its thinnest place.
+TEST(FeatureResolution, TellsWhatEndsWouldTakeThatAreTooFineToTry) {
+  for (const double tip : {0.01, 0.0005}) {
+    Sampled wedge(cad::shapes::tapered_wedge(0.01, tip));
+    const FeatureResolution all = wedge.share(no_budget);
+    ASSERT_FALSE(all.limited);
+    const FeatureResolution some = wedge.share(no_budget, wedge.field(all).leaf_count() / 2);
+    ASSERT_TRUE(some.limited);
+    EXPECT_LT(some.ratio, 0.8 * all.ratio);
+    EXPECT_NEAR(some.resolved_ratio, all.ratio, 0.25 * all.ratio) << "tip " << tip;
+  }
+}
+
+TEST(FeatureResolution, WhereNotEvenTheMinimumCanBeTriedFeaturesStayUnresolved) {
+  Sampled wedge(cad::shapes::blunt_wedge(0.004));
+  const FeatureResolution none = wedge.share(no_budget, 1);
+  EXPECT_TRUE(none.limited);
+  EXPECT_EQ(none.ratio, 1);
+  EXPECT_EQ(none.aspect, no_aspect);
+}
+
+TEST(FeatureResolution, WithoutFeaturesThereIsNone) {
+  Sampled sphere(make_primitive_domain(cad::PrimitiveKind::box_with_sphere));
+  const FeatureResolution none = sphere.share(1.5);
+  EXPECT_EQ(none.ratio, 1);
+  EXPECT_FALSE(none.limited);
+  EXPECT_EQ(none.aspect, 1);
+}
+
+TEST(FeatureResolution, GapsGetWhatStripsLeave) {
+  cad::PrimitiveDimensions dimensions;
+  dimensions.box = {1, 1, 0.01};
+  Sampled slot(make_primitive_domain(cad::PrimitiveKind::box, dimensions), 1);
+  const FeatureResolution all = slot.share(no_budget);
+  EXPECT_DOUBLE_EQ(all.gap_floor, 0.01);  // as rays measure it
+  EXPECT_GT(all.gap_ratio, 1);
+  EXPECT_GE(all.ratio, all.gap_ratio);
+  const FeatureResolution none = slot.share(1.12 * all.ratio / all.gap_ratio);
+  EXPECT_EQ(none.gap_ratio, 1);
+  EXPECT_EQ(none.ratio, all.ratio / all.gap_ratio);
+}
+
+TEST(FeatureResolution, RefusesBudgetsThatTakeElementsAway) {
+  Sampled sphere(make_primitive_domain(cad::PrimitiveKind::box_with_sphere));
+  EXPECT_THROW(sphere.share(0.5), std::invalid_argument);
+}
+
+// However thin the blunt end, the rest of the model keeps its sizes, and what the end needs comes on top.
+TEST(ChooseSizes, FeaturesComeOnTop) {
+  constexpr double target = 20'000, budget = 8;
+  Sampled thick(cad::shapes::blunt_wedge(0.005));
+  const ChosenSizes usual = thick.choose(target, budget);
+  for (const double thickness : {0.001, 0.0002}) {
+    Sampled thin(cad::shapes::blunt_wedge(thickness));
+    const ChosenSizes chosen = thin.choose(target, budget);
+    EXPECT_NEAR(chosen.options.surface_maximum, usual.options.surface_maximum,
+                0.1 * usual.options.surface_maximum);
+    EXPECT_GT(chosen.counts.tetrahedra, 1.3 * target);
+    EXPECT_LT(chosen.counts.tetrahedra, 1.2 * budget * target);
+    EXPECT_LT(chosen.features.aspect_at(thickness) * thickness, 0.5 * chosen.options.minimum);
+    EXPECT_NEAR(chosen.counts.tetrahedra / chosen.features.ratio, target, 0.2 * target);
+  }
+}
+
+}  // namespace
+}  // namespace aeroloom::sizing
