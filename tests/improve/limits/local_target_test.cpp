@@ -74,7 +74,8 @@ TEST(LocalTarget, RefusesWhatLeavesMoreToImprove) {
   mesh::Piece elsewhere = make_strip({0.65, 0.5}, mesh::CadDimension::face);
   const LocalTarget target(elsewhere, measure);
   TetMesh other(elsewhere, measure, false);
-  EXPECT_TRUE(target.accepts(other, replace_first(other, 5))) << "away from strips the worst alone counts";
+  EXPECT_TRUE(target.accepts(other, replace_first(other, 5)))
+      << "away from narrow regions the worst alone counts";
 }
 
 TEST(LocalTarget, LetsSevereCasesCostOthers) {
@@ -92,7 +93,7 @@ bool may_get_flatter(double from, double to, bool severe, Effort effort) {
   TetMesh mesh(piece, measure, false);
   const CavityReplacement cavity = replace_first(mesh, 1);
   EXPECT_EQ(local_target.is_severe(cavity.before), severe);
-  EXPECT_FALSE(ChangeLimits().allow(mesh, cavity)) << "away from strips";
+  EXPECT_FALSE(ChangeLimits().allow(mesh, cavity)) << "away from narrow regions";
   return ChangeLimits(nullptr, &local_target, effort).allow(mesh, cavity);
 }
 
