@@ -27,7 +27,7 @@ struct LayerFigures {
         const mesh::LocalIndex* v = piece.cell(t);
         add_triangle(piece, made.columns.pieces[p], {v[0], v[2], v[1]},
                      options.patches[piece.triangle_patch[t]].first);
-        between += enclosed(piece, v) - enclosed(made.front.pieces[p], v);
+        between += enclosed(piece, v) - enclosed(made.cap.pieces[p], v);
       }
     }
   }

@@ -57,7 +57,7 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
   layers::PatchLayers sum;
   for (const layers::PatchLayers& patch : report.patches) {
     sum.area += patch.area, sum.full_area += patch.full_area, sum.partial_area += patch.partial_area;
-    sum.empty_area += patch.empty_area, sum.squeezed_area += patch.squeezed_area;
+    sum.empty_area += patch.empty_area, sum.compressed_area += patch.compressed_area;
     sum.layers_area += patch.layers_area, sum.isotropic_area += patch.isotropic_area;
     for (std::size_t i = 0; i < layers::layer_limit_count; ++i) sum.limited_area[i] += patch.limited_area[i];
     sum.triangles += patch.triangles, sum.prisms += patch.prisms;
@@ -99,7 +99,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   clock.end();
   const parallel::StageSummary stage = clock.summarise(communicator).back();
   const double cpu_used = stage.cpu_seconds_mean * communicator.size();
-  const std::string hash = mesh::hash_mesh({layers.front, wall.numbering});
+  const std::string hash = mesh::hash_mesh({layers.cap, wall.numbering});
   print_figures(communicator, {wall, layers, options});
   if (!communicator.is_root()) return;
   const layers::PatchLayers sum = sum_of(layers.report);
@@ -115,7 +115,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
       static_cast<long long>(sum.pyramids), static_cast<long long>(sum.tetrahedra), cpu_used,
       stage.cpu_seconds_max, stage.wall_seconds, cells / cpu_used, percent(sum.full_area),
       percent(sum.isotropic_area), percent(sum.partial_area), percent(sum.empty_area),
-      percent(sum.squeezed_area), sum.layers_area / sum.area, static_cast<long long>(sum.most_layers),
+      percent(sum.compressed_area), sum.layers_area / sum.area, static_cast<long long>(sum.most_layers),
       layers.report.validity_rounds, layers.report.crossing_rounds,
       static_cast<long long>(layers.report.crossings), static_cast<long long>(layers.report.zeroed_by_force),
       hash.c_str());
@@ -130,7 +130,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
     std::printf("       %s: triangles=%lld area=%.4g full=%.2f isotropic=%.2f empty=%.2f squeezed=%.2f\n",
                 wall.patches[p].c_str(), static_cast<long long>(patch.triangles), patch.area,
                 100 * patch.full_area / patch.area, 100 * patch.isotropic_area / patch.area,
-                100 * patch.empty_area / patch.area, 100 * patch.squeezed_area / patch.area);
+                100 * patch.empty_area / patch.area, 100 * patch.compressed_area / patch.area);
   }
 }
 

@@ -7,22 +7,19 @@ function(aeroloom_compile_at_once target)
   endif()
 endfunction()
 
-# One folder, one library: aeroloom_library(<folder> SOURCES ... ALONE ... HEADERS ... PUBLIC ... PRIVATE ... [FOLDER ...]).
+# One folder, one library: aeroloom_library(<folder> SOURCES ... ALONE ... HEADERS ... PUBLIC ... PRIVATE ...).
 # <folder> is a path from the root, as mesh or mesh/data; the library is aeroloom_mesh, aeroloom_mesh_data. Sources and
-# headers are named within the folder, or within FOLDER where a library has a part of one. HEADERS are those of host programs, installed under
-# aeroloom/; they include no others. PUBLIC and PRIVATE name libraries. Sources are compiled several at a time, in the order
+# headers are named within the folder. HEADERS are those of host programs, installed under aeroloom/; they include no others.
+# PUBLIC and PRIVATE name libraries. Sources are compiled several at a time, in the order
 # given (AEROLOOM_SOURCES_AT_ONCE), but those of ALONE: dear ones, or ones whose third-party headers leave macros behind. A
 # folder whose sources all lie in its sub-folders has an interface library, which links theirs.
 function(aeroloom_library folder)
-  cmake_parse_arguments(ARG "" "FOLDER" "SOURCES;PUBLIC;PRIVATE;ALONE;HEADERS" ${ARGN})
-  if(NOT ARG_FOLDER)
-    set(ARG_FOLDER ${folder})
-  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;ALONE;HEADERS" ${ARGN})
   string(REPLACE / _ name ${folder})
   set(library aeroloom_${name})
   set_property(GLOBAL APPEND PROPERTY AEROLOOM_LIBRARIES ${library})
   foreach(list IN ITEMS SOURCES ALONE HEADERS)
-    list(TRANSFORM ARG_${list} PREPEND ${CMAKE_SOURCE_DIR}/${ARG_FOLDER}/)
+    list(TRANSFORM ARG_${list} PREPEND ${CMAKE_SOURCE_DIR}/${folder}/)
   endforeach()
   if(NOT ARG_SOURCES AND NOT ARG_ALONE)
     add_library(${library} INTERFACE)

@@ -1,5 +1,7 @@
 #include "improve/cavity_rounds.hpp"
 
+#include "parallel/observation/timers.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -14,11 +16,10 @@ constexpr cavities::CavityExtent last_extent{2, true};
 /// ten thousand tetrahedra. None where more are left than 320 and one in 3,000 (docs/improvement.md has what
 /// more and fewer gave).
 int affordable_trials(const mesh::DistributedMesh& mesh, std::int64_t bad) {
-  const parallel::Communicator& communicator = mesh.communicator;
   std::int64_t cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) cells += piece.cell_count();
   constexpr std::int64_t of_any_mesh = 320, cells_per_trial = 3000;
-  const std::int64_t budget = of_any_mesh + communicator.sum(cells) / cells_per_trial;
+  const std::int64_t budget = of_any_mesh + mesh.communicator.sum(cells) / cells_per_trial;
   return static_cast<int>(std::min<std::int64_t>(most_trials, budget / std::max<std::int64_t>(1, bad)));
 }
 
@@ -36,14 +37,14 @@ CavityRounds::CavityRounds(mesh::DistributedMesh& mesh, mesh::SharedVertices sha
       _progress("improve", options.shifted_rounds + last_rounds, "tetrahedra to improve") {}
 
 std::int64_t CavityRounds::claim(Effort effort) {
-  const parallel::Communicator& communicator = _mesh.communicator;
-  const std::int64_t left = communicator.sum(claim_for_bad(_mesh, _bad, _measure, _shift, effort, _claims));
+  const std::int64_t left =
+      _mesh.communicator.sum(claim_for_bad(_mesh, _bad, _measure, _shift, effort, _claims));
   _progress.set_done(_shift, left);
   return left;
 }
 
 void CavityRounds::run_round(cavities::CavityExtent extent, int trials) {
-  _record.begin_round();
+  parallel::begin_round();
   const auto improve = [&](const cavities::Cavity& cavity) {
     const double begin = parallel::cpu_seconds();
     auto content = trials > 0 ? _improver.improve_by_trials(cavity, trials, _shift, _record.mine)
@@ -53,7 +54,7 @@ void CavityRounds::run_round(cavities::CavityExtent extent, int trials) {
   };
   _bad.update(_mesh, cavities::replace_cavities(_mesh, _shared, {_claims, extent, improve}));
   _shared = mesh::SharedVertices(_mesh);
-  _shared.drop_unshared(_mesh);  // cavities name more than borders
+  _shared.drop_unshared(_mesh);  // a round names more vertices than those on borders
   ++_shift;
 }
 

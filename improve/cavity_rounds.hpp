@@ -1,4 +1,4 @@
-/// Rounds that improve the tetrahedra still below target in cavities across the borders of pieces.
+/// Improvement across the borders of pieces, in rounds of cavities around the remaining bad tetrahedra.
 #pragma once
 
 #include "improve/borders/bad_cells.hpp"
@@ -10,33 +10,32 @@
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 #include "mesh/quality/tet_quality.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "parallel/observation/progress.hpp"
-#include "parallel/observation/timers.hpp"
 
 #include <cstdint>
 
 namespace aeroloom::improve {
 
-/// The rounds for one target. All but the constructor and note_state() are collective.
+/// The rounds for one target quality. All functions but the constructor and note_state() are collective.
 class CavityRounds {
 public:
-  /// All but `shared` must outlive it.
+  /// All arguments but `shared` must outlive the object.
   CavityRounds(mesh::DistributedMesh& mesh, mesh::SharedVertices shared, const ImproveOptions& options,
                const MeshSource& source, StageRecord& record);
 
-  /// Improves each cavity once, until nothing is left or as many rounds are done as the options allow.
+  /// Improves each cavity once per round. Ends when no bad tetrahedra are left or the rounds of the options
+  /// are done.
   void improve_cavities();
-  /// The last tetrahedra: larger cavities, the surface in them, the best of several trials each, so that no
-  /// order of changes decides.
+  /// Works on the last bad tetrahedra. Cavities are larger and include the surface. Several trials are made
+  /// in each and the best is kept, so that the order of changes matters less.
   void polish_last();
-  /// Brings the record up to date with what is left.
+  /// Updates the record with the present number of bad tetrahedra and the smallest angle.
   void note_state() { _record.mine.note_after(_bad.state(_mesh)); }
 
 private:
-  /// Claims cavities for the next round. Returns how many tetrahedra of the mesh they are for.
+  /// Claims cavities for the next round. Returns the number of bad tetrahedra they contain, over all ranks.
   std::int64_t claim(Effort effort);
-  /// A round; without trials each cavity is improved once as it is.
+  /// Does one round. With trials = 0 each cavity is improved once as it is.
   void run_round(cavities::CavityExtent extent, int trials);
 
   mesh::DistributedMesh& _mesh;
@@ -47,7 +46,7 @@ private:
   BadCells _bad;
   cavities::CavityClaims _claims;
   CavityImprover _improver;
-  int _shift = 0;  ///< rounds done: each shifts the grid that groups tetrahedra
+  int _shift = 0;  ///< rounds done; each shifts the grid that groups tetrahedra into cavities
   parallel::Progress _progress;
 };
 

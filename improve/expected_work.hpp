@@ -1,4 +1,4 @@
-/// The work that a piece is expected to need.
+/// Prediction of the improvement work of a piece, for load balancing.
 #pragma once
 
 #include "improve/improve_options.hpp"
@@ -9,15 +9,15 @@
 
 namespace aeroloom::improve {
 
-/// The state of a piece that is left as it is: off the boundary, with nothing in it worse than in a lattice,
-/// which meets the target. Its shape on average is the lattice's too, and reading it in would cost most of
-/// what is spent on it. Nothing for others, which are looked at until the first such tetrahedron.
+/// Looks for a piece that needs no work: off the boundary, and no tetrahedron worse than in the lattice,
+/// which meets the target. Returns its state, or nothing for other pieces. The scan stops at the first worse
+/// tetrahedron.
 std::optional<BadState> look_at_lattice(const mesh::Piece& piece, const ImproveOptions& options);
 
-/// The expected cost of a piece, in the time of reading one tetrahedron in: reading all in, and work on each
-/// bad one. Pieces that are left as they are are looked at alone.
+/// Expected cost of a piece; the unit is the time to read in one tetrahedron. All tetrahedra are read in, and
+/// each bad one is worked on. Pieces that need no work are only scanned.
 double expected_work(const mesh::Piece& piece, const ImproveOptions& options);
-/// That of a piece of so many tetrahedra with this report.
+/// The same from a report, for a piece of `cells` tetrahedra.
 double expected_work(double cells, const ImproveReport& report);
 
 }  // namespace aeroloom::improve

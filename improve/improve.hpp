@@ -1,5 +1,5 @@
-/// All that host programs need of the improvement stage. It changes a tetrahedral mesh by local operations
-/// until no dihedral angle misses the target, or nothing more is gained.
+/// All that host programs need of the improvement stage. The stage changes a tetrahedral mesh by local
+/// operations until all dihedral angles meet the target, or no operation gains anything.
 #pragma once
 
 #include "improve/improve_options.hpp"

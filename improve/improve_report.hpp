@@ -7,21 +7,21 @@
 
 namespace aeroloom::improve {
 
-/// The tetrahedra that miss the target, and the smallest angle, at one moment.
+/// Number of bad tetrahedra, which miss the target, and the smallest dihedral angle.
 struct BadState {
   std::int64_t bad = 0;
   double least_angle = 180;  ///< degrees
 };
 
 struct ImproveReport {
-  std::int64_t bad_before = 0, bad_after = 0;        ///< tetrahedra that miss the target
+  std::int64_t bad_before = 0, bad_after = 0;        ///< bad tetrahedra
   double min_angle_before = 0, min_angle_after = 0;  ///< degrees
-  std::int64_t smoothed = 0;                         ///< vertices inside moved
+  std::int64_t smoothed = 0;                         ///< interior vertices moved
   std::int64_t slid = 0;                             ///< vertices moved along CAD faces and curves
-  std::int64_t replaced = 0;                         ///< cavities filled anew
-  std::int64_t changed_triangles = 0;                ///< of the boundary
+  std::int64_t replaced = 0;                         ///< cavities replaced
+  std::int64_t changed_triangles = 0;                ///< boundary triangles
 
-  bool is_lattice = false;  ///< of one piece, left as it is
+  bool is_lattice = false;  ///< of one piece: it needed no work
 
   static constexpr auto fields() {
     return std::tuple(&ImproveReport::bad_before, &ImproveReport::bad_after, &ImproveReport::min_angle_before,
@@ -29,7 +29,7 @@ struct ImproveReport {
                       &ImproveReport::replaced, &ImproveReport::changed_triangles,
                       &ImproveReport::is_lattice);
   }
-  /// The state before any change, which is that after it too for now.
+  /// Sets the state before any change. Until note_after() it is also the state after.
   void note_before(const BadState& state) {
     bad_before = state.bad;
     min_angle_before = state.least_angle;
@@ -39,7 +39,7 @@ struct ImproveReport {
     bad_after = state.bad;
     min_angle_after = state.least_angle;
   }
-  /// Adds another run, on other tetrahedra.
+  /// Adds the report of other tetrahedra.
   void add(const ImproveReport& of) {
     bad_before += of.bad_before;
     bad_after += of.bad_after;
@@ -47,7 +47,7 @@ struct ImproveReport {
     min_angle_after = std::min(min_angle_after, of.min_angle_after);
     add_changes(of);
   }
-  /// Adds the changes of another run.
+  /// Adds the changes of another run on the same tetrahedra.
   void add_changes(const ImproveReport& of) {
     smoothed += of.smoothed;
     slid += of.slid;

@@ -11,6 +11,7 @@
 #include "mesh/quality/tet_quality.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/progress.hpp"
+#include "parallel/observation/timers.hpp"
 #include "parallel/storage/task_store.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@
 namespace aeroloom::improve {
 namespace {
 
-/// As improve_piece(), or what came of it in an earlier run; of pieces of the lattice what they are.
+/// As improve_piece(), or its stored result of an earlier run. Pieces of the lattice stay as they are.
 ImproveReport improve_or_find(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source,
                               parallel::TaskStore* tasks) {
   if (const auto lattice = options.enabled ? look_at_lattice(piece, options) : std::nullopt) {
@@ -50,7 +51,7 @@ struct MeshImprover {
   parallel::TaskStore* tasks;
   const parallel::Communicator communicator = mesh.communicator;
   StageRecord record = {};
-  /// Nothing where borders stayed as they were and no tetrahedron is below target.
+  /// Nothing if smoothing moved no vertex and no tetrahedron is below target.
   std::optional<CavityRounds> rounds = {};
 
   void balance() {
@@ -113,37 +114,34 @@ ImproveReport improve_for_target(mesh::DistributedMesh& mesh, const ImproveOptio
   improver.smooth_borders();    // 5. borders: the average
   improver.improve_cavities();  // 5. borders: cavities
   improver.polish_last();       // 6. last tetrahedra
-  return improver.record.total(mesh.communicator);
+  return improver.record.total(mesh);
 }
 
 /// The fraction of all tetrahedra with a smaller angle. Collective.
 double fraction_below(const mesh::DistributedMesh& mesh, double angle) {
-  const parallel::Communicator& communicator = mesh.communicator;
   std::int64_t below = 0, cells = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
     cells += piece.cell_count();
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const mesh::LocalIndex* c = piece.cell(t);
-      below +=
-          mesh::dihedral_range(piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3]))
-              .smallest < angle;
+      const auto p = points_of(piece, t);
+      below += mesh::dihedral_range(p[0], p[1], p[2], p[3]).smallest < angle;
     }
   }
-  below = communicator.sum(below);
-  return static_cast<double>(below) / static_cast<double>(std::max<std::int64_t>(1, communicator.sum(cells)));
+  below = mesh.communicator.sum(below);
+  cells = mesh.communicator.sum(cells);
+  return static_cast<double>(below) / static_cast<double>(std::max<std::int64_t>(1, cells));
 }
 
 /// Brings what a report says about the target up to date after further work. Collective.
 void examine_again(const mesh::DistributedMesh& mesh, const mesh::TetQuality& measure,
                    ImproveReport& report) {
-  const parallel::Communicator& communicator = mesh.communicator;
   BadState all;
   for (const mesh::Piece& piece : mesh.pieces) {
     const BadState state = examine(piece, measure);
     all.bad += state.bad;
     all.least_angle = std::min(all.least_angle, state.least_angle);
   }
-  report.note_after({communicator.sum(all.bad), communicator.minimum(all.least_angle)});
+  report.note_after({mesh.communicator.sum(all.bad), mesh.communicator.minimum(all.least_angle)});
 }
 
 }  // namespace

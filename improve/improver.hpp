@@ -1,4 +1,5 @@
-/// The improvement stage: bad tetrahedra improved by local operations, never at the cost of a worse one.
+/// The improvement stage: replaces bad tetrahedra by better ones with local operations. The worst tetrahedron
+/// of a replaced cavity never gets worse.
 #pragma once
 
 #include "improve/improve_options.hpp"
@@ -6,7 +7,6 @@
 #include "improve/mesh_source.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/data/piece.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <vector>
 
@@ -16,25 +16,24 @@ class TaskStore;
 
 namespace aeroloom::improve {
 
-/// Improves one tetrahedral piece in place: the worst element of any replacement gets better, then the
-/// average (mean_ratio_smoothing.hpp), the worst element around a vertex not falling. Shared vertices
-/// stay. Where the options allow it, edges on the boundary may flip and vertices inside a CAD face
-/// vanish (boundary_change.hpp), and where the source is known vertices slide on CAD faces and curves
-/// (sliding.hpp). Vertices inside may move, some are added (at the end) or removed (the others keep their
-/// order); cells keep their order, new ones stand where those they replace stood. `numbered`, where asked
-/// for, receives what each vertex was numbered before, new ones after the others. Deterministic. Not
-/// collective. Throws std::invalid_argument when the target angle is not within (0, 50] degrees,
-/// std::logic_error when three cells share a face.
+/// Improves one tetrahedral piece in place. First the worst tetrahedra are improved. Then smoothing raises
+/// the average quality without lowering the worst around a vertex. Shared vertices stay. If the options allow
+/// it, boundary edges flip and vertices inside CAD faces vanish (boundary_change.hpp). If the CAD model is
+/// known, boundary vertices slide on it (sliding.hpp). Interior vertices may move. New vertices come at the
+/// end, and removed ones leave the order of the others. Cells keep their order; new ones take the places of
+/// those they replace. `numbered`, if given, receives the former number of each vertex; new vertices have
+/// higher numbers. Deterministic; not collective. Throws std::invalid_argument if the target angle is not in
+/// (0, 50] degrees, std::logic_error if three cells share a face.
 ImproveReport improve_piece(mesh::Piece& piece, const ImproveOptions& options, const MeshSource& source = {},
                             std::vector<mesh::LocalIndex>* numbered = nullptr,
                             Effort effort = Effort::reduced);
 
-/// Improves all pieces of a mesh, scheduled anew by the work expected, their borders frozen; then borders for
-/// the average where they are (border_smoothing.hpp), and what is still bad in cavities in which borders are
-/// inside (improve/borders/rounds.hpp), shifted from round to round; the last ones by several trials. All of
-/// it once more for percentiles that are missed. The report counts the whole mesh, the same on every rank.
-/// Pieces found in `tasks`, whose context stands for the source and the options, are not improved again on
-/// their own; those improved are kept there. Collective. Throws CollectiveError.
+/// Improves all pieces of a mesh. Pieces are distributed by expected work and improved with frozen borders.
+/// Then shared vertices are smoothed (border_smoothing.hpp). Remaining bad tetrahedra are improved in
+/// cavities across borders, in several shifted rounds (borders/rounds.hpp). The last ones get several trials.
+/// All steps are repeated for missed percentile targets. The report counts the whole mesh and is equal on all
+/// ranks. If `tasks` is given, improved pieces are stored there and found again; its context must identify
+/// source and options. Collective. Throws CollectiveError.
 ImproveReport improve_mesh(mesh::DistributedMesh& mesh, const ImproveOptions& options,
                            const MeshSource& source = {}, parallel::TaskStore* tasks = nullptr);
 

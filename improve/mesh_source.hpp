@@ -1,4 +1,4 @@
-/// The model and the sizes that a mesh was made from.
+/// The CAD model and the size field that a mesh was made from.
 #pragma once
 
 #include "cad/model/evaluation/point_locator.hpp"
@@ -6,10 +6,10 @@
 
 namespace aeroloom::improve {
 
-/// The origin of a mesh, as far as it is known.
+/// Either may be unknown: null.
 struct MeshSource {
-  cad::PointLocator* locator = nullptr;      ///< of the CAD model: boundary vertices may slide on it
-  const sizing::SizeField* sizes = nullptr;  ///< edges keep to them (change_limits.hpp)
+  cad::PointLocator* locator = nullptr;      ///< on the CAD model, for sliding boundary vertices
+  const sizing::SizeField* sizes = nullptr;  ///< limits edge lengths (limits/change_limits.hpp)
 };
 
 }  // namespace aeroloom::improve

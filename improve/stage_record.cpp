@@ -1,6 +1,7 @@
 #include "improve/stage_record.hpp"
 
 #include "improve/expected_work.hpp"
+#include "parallel/observation/timers.hpp"
 
 namespace aeroloom::improve {
 
@@ -23,13 +24,14 @@ void StageRecord::note_cavity(const cavities::Cavity& cavity, double begin) {
                        static_cast<std::int64_t>(cavity.tets.size() * sizeof(cavity.tets[0]))});
 }
 
-ImproveReport StageRecord::total(const parallel::Communicator& communicator) const {
+ImproveReport StageRecord::total(const mesh::DistributedMesh& mesh) const {
   ImproveReport all = mine;
   for (std::int64_t* count :
        {&all.bad_before, &all.bad_after, &all.smoothed, &all.slid, &all.replaced, &all.changed_triangles}) {
-    *count = communicator.sum(*count);
+    *count = mesh.communicator.sum(*count);
   }
-  for (double* angle : {&all.min_angle_before, &all.min_angle_after}) *angle = communicator.minimum(*angle);
+  for (double* angle : {&all.min_angle_before, &all.min_angle_after})
+    *angle = mesh.communicator.minimum(*angle);
   return all;
 }
 

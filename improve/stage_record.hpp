@@ -1,31 +1,27 @@
-/// The bookkeeping of the stage: its report, its tasks, sums over ranks.
+/// Bookkeeping of the improvement stage: report, task records, sums over ranks.
 #pragma once
 
 #include "improve/borders/rounds.hpp"
 #include "improve/improve_report.hpp"
-#include "mesh/data/piece.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
+#include "mesh/data/distributed_mesh.hpp"
 
 namespace aeroloom::improve {
 
-/// What one rank did for one target.
+/// The record of this rank for one target quality.
 class StageRecord {
 public:
-  /// Begins a round of the stage.
+  /// Starts a round of the stage clock.
   StageRecord();
 
-  /// A piece of so many tetrahedra was improved since then, in CPU seconds of this rank.
+  /// Records the improvement of a piece of `cells` tetrahedra, which began at `begin` (CPU seconds of this
+  /// rank).
   void add_piece(const mesh::Piece& piece, double cells, double begin, const ImproveReport& of_piece);
-  /// A cavity was improved since then.
+  /// Records the replacement of a cavity, which began at `begin`.
   void note_cavity(const cavities::Cavity& cavity, double begin);
-  void begin_round() { parallel::begin_round(); }
-  /// The report of all ranks, the same on each. Collective.
-  ImproveReport total(const parallel::Communicator& communicator) const;
+  /// The sum over all ranks of a mesh, equal on each. Collective.
+  ImproveReport total(const mesh::DistributedMesh& mesh) const;
 
   ImproveReport mine;  ///< of this rank
-
-private:
 };
 
 }  // namespace aeroloom::improve

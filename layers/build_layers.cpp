@@ -1,12 +1,11 @@
 #include "layers/directions.hpp"
-#include "layers/front.hpp"
 #include "layers/gaps.hpp"
 #include "layers/good_columns.hpp"
+#include "layers/layer_cap.hpp"
 #include "layers/layer_report.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -14,13 +13,13 @@
 namespace aeroloom::layers {
 namespace {
 
-/// A gap in which a column has all the room it wants.
+/// The smallest gap that does not limit a column.
 double ample_gap_of(const ColumnLimits& limits, std::int32_t v) {
   return ample_gap(limits.total(v), limits.mean_edge(v));
 }
 
-/// The balls that tell whether columns have room. Only the lowest piece that knows a vertex asks.
-std::vector<TouchingBall> balls_on(const WallShare& wall, const Directions& directions,
+/// The balls that measure the gaps of columns. Only the lowest piece with a vertex needs one.
+std::vector<TouchingBall> balls_on(const LocalWall& wall, const Directions& directions,
                                    const ColumnLimits& limits) {
   std::vector<TouchingBall> balls(wall.points.size());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
@@ -30,8 +29,8 @@ std::vector<TouchingBall> balls_on(const WallShare& wall, const Directions& dire
   return balls;
 }
 
-/// No column takes more than its room in the gap.
-void limit_by_gaps(const WallShare& wall, const Directions& directions, ColumnLimits& limits) {
+/// Limits totals to the room in the gaps.
+void limit_by_gaps(const LocalWall& wall, const Directions& directions, ColumnLimits& limits) {
   std::vector<double> gaps = find_gaps(wall, balls_on(wall, directions, limits));
   wall.spread(gaps);
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
@@ -46,19 +45,18 @@ void limit_by_gaps(const WallShare& wall, const Directions& directions, ColumnLi
 
 Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
                     const PlaneRemesher& remesh_planes) {
-  const parallel::Communicator& communicator = wall.communicator;
   const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
   parallel::add_pieces(static_cast<std::int64_t>(wall.pieces.size()));
-  const WallShare walls(wall, options);
-  const Fans fans = gather_fans(walls);
-  const Directions directions = find_directions(walls, fans);
-  ColumnLimits limits(walls, options, fans, directions);
-  limits.converge(communicator);
+  const LocalWall walls(wall, options);
+  const VertexStars stars = gather_stars(walls);
+  const Directions directions = find_directions(walls, stars);
+  ColumnLimits limits(walls, options, stars, directions);
+  limits.converge();
   limit_by_gaps(walls, directions, limits);
-  limits.converge(communicator);
+  limits.converge();
   Layers layers;
   layers.report.validity_rounds = shrink_to_good(walls, directions, limits);
-  layers.front = FrontClearing(walls, directions, remesh_planes).run(limits, layers.report);
+  layers.cap = CapClearing(walls, directions, remesh_planes).run(limits, layers.report);
   layers.columns = make_columns(walls, directions, limits);
   layers.report.patches = report_patches(walls, limits, options.elements);
   return layers;

@@ -25,7 +25,7 @@ std::int32_t wanted_count(const WallLayers& wanted, double mean_edge) {
   return std::max(count, 1);
 }
 
-Squeezed squeeze(const Heights& heights, std::int32_t count, double limit) {
+Compressed compress(const Heights& heights, std::int32_t count, double limit) {
   if (heights.total(count) <= limit) return {heights.growth, count};
   Heights slower = heights;
   slower.growth = 1;
@@ -47,7 +47,7 @@ Squeezed squeeze(const Heights& heights, std::int32_t count, double limit) {
 
 namespace {
 
-/// Leaves room for what is opposite, which has layers as well.
+/// Leaves room for the layers on the opposite wall.
 constexpr double most_of_gap = 0.4;
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The heights of one column.
+/// The heights of the nodes in one column of boundary-layer nodes.
 #pragma once
 
 #include "layers/columns.hpp"
@@ -7,12 +7,12 @@
 
 namespace aeroloom::layers {
 
-/// Layers of a column: `constant` of height `first`, then each `growth` times the one before.
+/// A geometric column: `constant` layers of height `first`, then each `growth` times the one below.
 struct Heights {
   double first = 0, growth = 1;
   std::int32_t constant = 1;
 
-  /// Calls visit(k, height of node k) for k = 1 ... count. The sum that layers are placed by.
+  /// Calls visit(k, height of node k) for k = 1 ... count. All nodes are placed by this sum.
   template <class Visit>
   void for_each_node(std::int32_t count, const Visit& visit) const {
     double layer = first, sum = 0;
@@ -27,7 +27,7 @@ struct Heights {
     for_each_node(count, [&](std::int32_t, double h) { height = h; });
     return height;
   }
-  /// Of the last of `count` layers; of none, 0.
+  /// Height of the last of `count` layers; 0 for count = 0.
   double last(std::int32_t count) const {
     double layer = count > 0 ? first : 0;
     for (std::int32_t k = constant + 1; k <= count; ++k) layer *= growth;
@@ -35,26 +35,26 @@ struct Heights {
   }
 };
 
-/// No column has more layers.
+/// The largest number of layers in a column.
 inline constexpr std::int32_t most_layers = 1000;
 
-/// As many layers as it takes until the last is about 0.7 of the mean edge, as `wanted` allows, at least one.
+/// The number of layers of a column, at least 1, so that the last layer is about 0.7 of the mean edge length
+/// at the vertex. Count and total height in `wanted` are upper bounds.
 std::int32_t wanted_count(const WallLayers& wanted, double mean_edge);
 
-/// A column within a limit.
-struct Squeezed {
+/// A column that was fitted below a total height.
+struct Compressed {
   double growth = 1;
   std::int32_t count = 0;
 };
-/// Growth falls until `count` layers are no higher than `limit` together. Where they are at a growth of 1,
-/// there are fewer of them.
-Squeezed squeeze(const Heights& heights, std::int32_t count, double limit);
+/// Fits `count` layers below the total height `limit`: lowers the growth down to 1, then drops layers.
+Compressed compress(const Heights& heights, std::int32_t count, double limit);
 
-/// A gap in which layers of this total have all the room they want, beside edges of this length.
+/// The smallest gap that does not limit layers of this total height. `mean_edge`: mean edge length at the
+/// vertex.
 double ample_gap(double total, double mean_edge);
-/// The total that layers may have in a gap: 0.4 of it, and no more than half of what it leaves beside an
-/// edge, for a tetrahedron; but all layers of the first height, `all_first` together, are kept where 0.4 of
-/// the gap holds them.
+/// The total height allowed in a gap between two walls: at most 0.4 gap, and at most (gap - mean_edge) / 2,
+/// which leaves room for a tetrahedron. Up to 0.4 gap, all layers at first height (`all_first`) are allowed.
 double room_in_gap(double gap, double mean_edge, double all_first);
 
 }  // namespace aeroloom::layers

@@ -3,21 +3,20 @@
 #include "layers/wanted_layers.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace aeroloom::layers {
 namespace {
 
-/// By how much more than an edge the totals at its ends may differ: where layers grow slower than 1.2 they
-/// are 0.7 g / (g - 1) edges high together when the last is as high as an edge asks, and spread alike.
+/// The largest difference of totals along an edge, over its length. It rises for growths g below 1.2: layers
+/// that end isotropic are 0.7 g / (g - 1) edges high, and change over that distance.
 double slope_of(double growth) {
   constexpr double ratio_at_1_2 = 6;  // g / (g - 1)
   return std::max(1.0, growth / (growth - 1) / ratio_at_1_2);
 }
 
-/// First heights count along the normals of the triangles: columns that lean are longer, up to this ratio.
+/// First heights are measured along the normals of triangles. Leaning columns are longer, up to this ratio.
 constexpr double most_lengthening = 2;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -26,7 +25,7 @@ constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 }  // namespace
 
-ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, const Fans& fans,
+ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
                            const Directions& directions)
     : _wall(wall), _stairs(options.stairs) {
   const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
@@ -43,8 +42,8 @@ ColumnLimits::ColumnLimits(const WallShare& wall, const LayerOptions& options, c
     const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
                             static_cast<std::int32_t>(asked.count), total};
     _wanted_counts[v] = layers::wanted_count(wanted, _mean_edges[v]);
-    if (fans.kinds[v] != FanKind::plain || directions.visibility[v] == 0) {
-      _causes[v] = fans.kinds[v] == FanKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
+    if (stars.kinds[v] != StarKind::plain || directions.visibility[v] == 0) {
+      _causes[v] = stars.kinds[v] == StarKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
       _lower_counts.push_back(v), _lower_totals.push_back(v);
       continue;
     }
@@ -79,7 +78,7 @@ void ColumnLimits::cut_count(std::int32_t v, std::int32_t count, LayerLimit caus
 }
 
 void ColumnLimits::fit(std::int32_t v, LayerLimit cause) {
-  const Squeezed fitting = squeeze(heights(v), _counts[v], _limits[v]);
+  const Compressed fitting = compress(heights(v), _counts[v], _limits[v]);
   if (fitting.growth < _growth[v]) note_change(v, cause);
   _growth[v] = fitting.growth;
   if (fitting.count < _counts[v]) cut_count(v, fitting.count, cause);
@@ -103,8 +102,8 @@ void ColumnLimits::limit_counts(std::vector<std::int32_t> counts, LayerLimit cau
 }
 
 template <class T, class Follow>
-void ColumnLimits::propagate(const parallel::Communicator& communicator, std::vector<T>& values,
-                             std::vector<std::int32_t> from, const Follow& follow) const {
+void ColumnLimits::propagate(std::vector<T>& values, std::vector<std::int32_t> from,
+                             const Follow& follow) const {
   std::vector<std::uint8_t> waits(values.size(), 0);
   std::vector<std::int32_t> next;
   const auto lower = [&](std::int32_t v, T value) {
@@ -127,30 +126,25 @@ void ColumnLimits::propagate(const parallel::Communicator& communicator, std::ve
     for (const std::int32_t v : _wall.vertex_of_copy) lower(v, combined[v]);
     from.swap(next);
     next.clear();
-    changes = communicator.sum(static_cast<std::int64_t>(from.size())) > 0;
+    changes = _wall.mesh.communicator.sum(static_cast<std::int64_t>(from.size())) > 0;
   }
 }
 
-bool ColumnLimits::converge_counts(const parallel::Communicator& communicator) {
+void ColumnLimits::converge_counts() {
   std::vector<std::int32_t> counts = _counts;
-  propagate(communicator, counts, std::exchange(_lower_counts, {}),
+  propagate(counts, std::exchange(_lower_counts, {}),
             [&](std::int32_t, std::int32_t, std::int32_t count) { return count + _stairs; });
-  std::int64_t cut = 0;
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
-    if (counts[v] == _counts[v]) continue;
-    cut_count(v, counts[v], LayerLimit::stairs);
-    ++cut;
+    if (counts[v] != _counts[v]) cut_count(v, counts[v], LayerLimit::stairs);
   }
   _lower_counts.clear();  // at a fixed point
-  return communicator.sum(cut) > 0;
 }
 
-void ColumnLimits::converge_totals(const parallel::Communicator& communicator) {
+void ColumnLimits::converge_totals() {
   std::vector<double> limits = _limits;
-  propagate(communicator, limits, std::exchange(_lower_totals, {}),
-            [&](std::int32_t v, std::int32_t u, double limit) {
-              return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
-            });
+  propagate(limits, std::exchange(_lower_totals, {}), [&](std::int32_t v, std::int32_t u, double limit) {
+    return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
+  });
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
     if (!(limits[v] < _limits[v])) continue;
     _limits[v] = limits[v];
@@ -158,11 +152,12 @@ void ColumnLimits::converge_totals(const parallel::Communicator& communicator) {
   }
 }
 
-void ColumnLimits::converge(const parallel::Communicator& communicator) {
+void ColumnLimits::converge() {
   do {
-    converge_counts(communicator);
-    converge_totals(communicator);
-  } while (communicator.sum(static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
+    converge_counts();
+    converge_totals();
+  } while (_wall.mesh.communicator.sum(
+               static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
 }
 
 }  // namespace aeroloom::layers

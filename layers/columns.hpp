@@ -1,13 +1,14 @@
-/// Boundary layers: columns of nodes on the vertices of a wall mesh, and the front they end in.
+/// Boundary layers: columns of nodes on the vertices of a wall mesh. The upper ends of the columns form the
+/// layer cap, the outer surface of the layers.
 ///
-/// Cells are implicit. Layer k over a wall triangle has the nodes k - 1 and k of its three columns, each
-/// clipped at its own count: three live columns make a prism, two a pyramid, one a tetrahedron. A lateral
-/// face depends on the columns of its edge alone, so neighbours and pieces conform for any counts.
+/// Cells are not stored but follow from the columns. Layer k over a wall triangle lies between nodes k - 1
+/// and k of its three columns. A column that is shorter contributes its last node. Three columns that reach
+/// layer k make a prism, two a pyramid, one a tetrahedron. A lateral face depends only on the two columns of
+/// its edge. So neighbouring cells and pieces conform for any counts.
 #pragma once
 
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <array>
 #include <cstdint>
@@ -18,35 +19,32 @@
 
 namespace aeroloom::layers {
 
-/// The layers that a patch asks for. Heights are in the unit of the mesh.
+/// The layers requested on a patch. Heights are in the length unit of the mesh.
 struct WallLayers {
   double first = 0;           ///< height of the first layer; 0: no layers
-  double growth = 1.2;        ///< of a layer over the one before, at least 1
-  std::int32_t constant = 2;  ///< layers as high as the first, at least 1
-  /// At most so many layers; 0: as many as it takes until the last is about 0.7 of the mean edge at the
-  /// vertex.
+  double growth = 1.2;        ///< ratio of a layer's height to the one below, at least 1
+  std::int32_t constant = 2;  ///< number of layers as high as the first, at least 1
+  /// Largest number of layers; 0: layers grow until the last is about 0.7 of the mean edge at the vertex.
   std::int32_t count = 0;
-  double total = 0;  ///< height of all layers at most; 0: any
+  double total = 0;  ///< largest total height; 0: no limit
 };
 
-/// The cells of layers: prisms, with pyramids and tetrahedra where counts differ, or all of them cut into
-/// tetrahedra.
+/// The cells made from layers: prisms, with pyramids and tetrahedra where counts differ; or tetrahedra only.
 enum class LayerElements : std::uint8_t { prisms, tets };
 
 struct LayerOptions {
-  std::vector<WallLayers> patches;  ///< by patch index of the mesh; those left out have no layers
-  std::int32_t stairs = 3;  ///< by which the counts at the ends of an edge may differ at most, at least 1
-  /// Whether layers end on planes of symmetry, slip, inlet and outlet: columns there lie in the plane, whose
-  /// own triangles have to be made anew. Otherwise layers step down to zero beside them.
+  std::vector<WallLayers> patches;  ///< by patch index of the mesh; missing ones have no layers
+  std::int32_t stairs = 3;          ///< largest difference of counts along an edge, at least 1
+  /// Whether layers may end on planes of symmetry, slip, inlet and outlet. Columns at their rims then lie in
+  /// the plane, and the plane is meshed again. Otherwise counts fall to zero before such a plane.
   bool ends_on_planes = false;
-  LayerElements elements = LayerElements::prisms;  ///< that the report counts; columns are the same
+  LayerElements elements = LayerElements::prisms;  ///< counted in the report; columns do not depend on it
 };
 
-/// The columns of a piece, by vertex. Node k of a column stands at the height of the first k layers:
-/// `constant` of `first`, then each `growth` times the one before.
+/// The columns of a piece, by vertex. Node k stands at the height of the first k layers (Heights).
 struct PieceColumns {
-  std::vector<geometry::Vec3> directions;  ///< unit, into the fluid; zero: there is none
-  std::vector<std::int32_t> counts;        ///< of layers; 0: the column is empty
+  std::vector<geometry::Vec3> directions;  ///< unit, into the fluid; zero: no column
+  std::vector<std::int32_t> counts;        ///< numbers of layers; 0: empty column
   std::vector<std::int32_t> constant;
   std::vector<double> first, growth;
 };
@@ -55,87 +53,90 @@ struct Columns {
   std::vector<PieceColumns> pieces;  ///< in the order of mesh.pieces
 };
 
-/// The height of node k over the wall vertex. The sum runs from the wall: what adds the heights one by one
-/// has the same bits.
+/// Height of node k over the wall vertex. Heights are summed from the wall, so sums built layer by layer have
+/// the same bits.
 double height(const PieceColumns& columns, mesh::LocalIndex vertex, std::int32_t k);
-/// Node k of a column, 0 <= k <= its count: 0 is the wall vertex, the last one the vertex of the front.
+/// Position of node k, 0 <= k <= count: 0 is the wall vertex, the last one is the vertex of the cap.
 geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, mesh::LocalIndex vertex,
                     std::int32_t k);
 
-/// What keeps a column from the layers asked for.
+/// Why a column has fewer or lower layers than requested.
 enum class LayerLimit : std::int32_t {
   none,
-  no_direction,  ///< no direction sees all triangles around the vertex, or these are no plain fan
-  ending,        ///< layers may not end on a face beside the vertex
-  gap,           ///< another part of the boundary lies opposite
-  validity,      ///< cells, or triangles of the front, would be bad
+  no_direction,  ///< no direction sees all triangles of the vertex star, or that is no closed fan
+  ending,        ///< a face beside the vertex does not let layers end on it
+  gap,           ///< another part of the boundary is too near
+  validity,      ///< cells or cap triangles would be bad
   slope,         ///< the total height differs too much from a neighbour's
   stairs,        ///< the count differs too much from a neighbour's
-  crossing       ///< the front would meet itself or the boundary
+  crossing       ///< the cap would intersect itself or the boundary
 };
 inline constexpr std::size_t layer_limit_count = 8;
 inline constexpr std::array<LayerLimit, layer_limit_count> all_layer_limits = {
     LayerLimit::none,     LayerLimit::no_direction, LayerLimit::ending, LayerLimit::gap,
     LayerLimit::validity, LayerLimit::slope,        LayerLimit::stairs, LayerLimit::crossing};
-/// As keys of reports have it.
+/// The name used in reports.
 std::string_view name_of(LayerLimit limit);
 
-/// The layers of a patch. Each vertex counts for a third of the triangles around it. Areas are in the unit of
-/// the mesh, squared.
+/// Statistics of the layers on a patch. Each vertex counts a third of the triangles around it. Areas are in
+/// squared length units of the mesh.
 struct PatchLayers {
-  double area = 0;            ///< of triangles that ask for layers
-  double full_area = 0;       ///< with as many layers as asked for
-  double partial_area = 0;    ///< with fewer
-  double empty_area = 0;      ///< with none
-  double isotropic_area = 0;  ///< full, and the last layer at least 0.35 of the mean edge at the vertex high
-  double squeezed_area = 0;   ///< with layers that grow slower than asked for
-  /// Of what is neither full nor unsqueezed, by what limited it last: a LayerLimit.
+  double area = 0;             ///< of triangles with requested layers
+  double full_area = 0;        ///< with all requested layers
+  double partial_area = 0;     ///< with fewer layers
+  double empty_area = 0;       ///< without layers
+  double isotropic_area = 0;   ///< full, and the last layer is at least 0.35 of the mean edge high
+  double compressed_area = 0;  ///< with a growth below the requested one
+  /// Area that is not full, or is compressed, by the limit that acted last (a LayerLimit).
   std::array<double, layer_limit_count> limited_area{};
-  double layers_area = 0;  ///< sum of areas times their layers: over `area`, the mean number of layers
-  std::int64_t triangles = 0, prisms = 0, pyramids = 0, tetrahedra = 0;  ///< of `area`, and cells over them
+  double layers_area = 0;  ///< sum of areas times layers; over `area`: mean number of layers
+  std::int64_t triangles = 0, prisms = 0, pyramids = 0,
+               tetrahedra = 0;  ///< wall triangles; cells
   std::int64_t most_layers = 0;
 
   static constexpr auto fields() {
     return std::tuple(&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area,
-                      &PatchLayers::empty_area, &PatchLayers::isotropic_area, &PatchLayers::squeezed_area,
+                      &PatchLayers::empty_area, &PatchLayers::isotropic_area, &PatchLayers::compressed_area,
                       &PatchLayers::limited_area, &PatchLayers::layers_area, &PatchLayers::triangles,
                       &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra,
                       &PatchLayers::most_layers);
   }
 };
 
-/// The same on every rank, and on any number of them.
+/// Statistics of a whole mesh; equal on all ranks and for any number of ranks.
 struct LayerReport {
   std::vector<PatchLayers> patches;  ///< by patch index of the mesh
-  int validity_rounds = 0;           ///< until all cells were good
-  int crossing_rounds = 0;           ///< until the front was free of intersections
-  std::int64_t crossings = 0;        ///< pairs of triangles that met on the way
-  std::int64_t swallowing = 0;       ///< triangles whose layers held another part of the boundary on the way
-  std::int64_t zeroed_by_force = 0;  ///< columns emptied after the last round
+  int validity_rounds = 0;           ///< rounds until all cells were good
+  int crossing_rounds = 0;           ///< rounds until the cap had no intersections
+  std::int64_t crossings = 0;        ///< pairs of intersecting triangles found on the way
+  std::int64_t enclosing = 0;  ///< triangles whose layers enclosed another part of the boundary on the way
+  std::int64_t zeroed_by_force = 0;  ///< columns emptied in the last rounds
 };
 
 struct Layers {
   Columns columns;
-  /// The wall mesh with moved vertices: the same pieces, triangles, faces, patches, classification and
-  /// shared-vertex keys; where planes were meshed again, as that has left it.
-  mesh::DistributedMesh front;
+  /// The wall mesh with its vertices moved to the ends of their columns. Pieces, triangles, faces, patches,
+  /// classification and shared-vertex keys are those of the wall. Planes that were meshed again are as the
+  /// remesher left them.
+  mesh::DistributedMesh cap;
   LayerReport report;
 };
 
-/// Meshes the planes that layers end on again, in a front whose vertices on their boundaries have moved.
-/// Pieces of other faces stay, keep their order and come first. Returns the shared-vertex keys of vertices
-/// that must move less, the same on every rank, and leaves the front alone then; none: done. Collective.
-using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& front)>;
+/// Meshes again the planes that layers end on. The rims of the planes have moved in `cap`. Other pieces stay,
+/// keep their order and come first. Returns nothing on success. Else it leaves the cap unchanged and returns
+/// the shared-vertex keys of the vertices that must move less, equal on all ranks. Collective.
+using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& cap)>;
 
-/// Of a piece of a wall, so that many ranks share layers evenly: pieces of surface meshing are whole faces in
-/// most models. Chosen, not measured.
+/// Triangles per wall piece. Pieces of surface meshing are often whole CAD faces, too large to balance layers
+/// over ranks. Chosen, not measured.
 constexpr mesh::LocalIndex wall_piece_triangles = 1'000;
 
-/// Columns on the walls of a surface mesh whose triangles are free of intersections, and a front that is so
-/// too; all cells between have positive volumes. A function of mesh and options alone, whatever the ranks.
-/// Heights only ever shrink on the way, and at zero the front is the wall: so there is a result for every
-/// mesh. `remesh_planes` is called, maybe several times, where layers end on planes; their pieces have no
-/// triangles of other faces then. Collective. Throws CollectiveError where options do not fit the mesh.
+/// Builds columns on the walls of a surface mesh without self-intersections. The resulting cap has no
+/// intersections either, and all cells between have positive volume. The result depends only on mesh and
+/// options, not on ranks. Heights only shrink, and a cap of height zero is the wall, so a result exists for
+/// every mesh. `remesh_planes` is needed where layers end on planes, and may be called several times; pieces
+/// of these planes must have no triangles of other faces. Collective. Throws CollectiveError if the options
+/// do not fit the mesh.
 Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
                     const PlaneRemesher& remesh_planes = {});
 

@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Vec3;
 
-/// A cone as Welzl's incremental search knows it: those of two or three vectors have these on their border.
+/// A cone in Welzl's incremental algorithm, with two or three vectors on its border.
 struct Cone {
   Vec3 axis;
   double cosine;

@@ -20,27 +20,27 @@ constexpr double kept_visibility = 0.9;
 /// Smoothing reaches about as many edges from a ridge as columns are high. Chosen, not measured.
 constexpr int smoothing_sweeps = 8;
 
-/// The direction between the present one and the mean of its neighbours' that is farthest on the way of those
-/// tried and keeps the visibility; along the planes of the vertex.
-Vec3 move_towards(Vec3 mean, Vec3 present, double least, const Fans& fans, std::int32_t v) {
+/// Moves a direction towards the mean of its neighbours, as far as the visibility allows of the steps tried.
+/// The result lies in the planes of the vertex.
+Vec3 move_towards(Vec3 mean, Vec3 present, double least, const VertexStars& stars, std::int32_t v) {
   for (const double step : {0.5, 0.25, 0.125}) {
-    const Vec3 moved = normalized(along_planes((1 - step) * present + step * mean, fans.planes_at(v)));
-    if (visibility_of(moved, fans.normals_at(v)) >= least) return moved;
+    const Vec3 moved = normalized(along_planes((1 - step) * present + step * mean, stars.planes_at(v)));
+    if (visibility_of(moved, stars.normals_at(v)) >= least) return moved;
   }
   return present;
 }
 
 }  // namespace
 
-Directions find_directions(const WallShare& wall, const Fans& fans) {
+Directions find_directions(const LocalWall& wall, const VertexStars& stars) {
   const std::int32_t count = wall.vertex_count();
   Directions directions;
   directions.most_normal.assign(count, Vec3{});
   directions.visibility.assign(count, 0);
   for (std::int32_t v = 0; v < count; ++v) {
-    if (fans.kinds[v] != FanKind::plain) continue;
-    const Vec3 axis = normalized(along_planes(smallest_cone(fans.normals_at(v)).axis, fans.planes_at(v)));
-    const double visibility = visibility_of(axis, fans.normals_at(v));
+    if (stars.kinds[v] != StarKind::plain) continue;
+    const Vec3 axis = normalized(along_planes(smallest_cone(stars.normals_at(v)).axis, stars.planes_at(v)));
+    const double visibility = visibility_of(axis, stars.normals_at(v));
     if (!(visibility >= least_visibility)) continue;
     directions.most_normal[v] = axis;
     directions.visibility[v] = visibility;
@@ -56,7 +56,7 @@ Directions find_directions(const WallShare& wall, const Fans& fans) {
     for (std::int32_t v = 0; v < count; ++v) {
       if (directions.visibility[v] == 0) continue;
       const double least = std::max(least_visibility, kept_visibility * directions.visibility[v]);
-      directions.smoothed[v] = move_towards(normalized(sums[v]), directions.smoothed[v], least, fans, v);
+      directions.smoothed[v] = move_towards(normalized(sums[v]), directions.smoothed[v], least, stars, v);
     }
   }
   directions.slants.assign(count, 1);
@@ -64,8 +64,8 @@ Directions find_directions(const WallShare& wall, const Fans& fans) {
     if (directions.visibility[v] == 0) continue;
     const Vec3 direction = directions.smoothed[v];
     double largest = -1;
-    for (const Vec3 normal : fans.normals_at(v)) largest = std::max(largest, dot(direction, normal));
-    directions.visibility[v] = visibility_of(direction, fans.normals_at(v));
+    for (const Vec3 normal : stars.normals_at(v)) largest = std::max(largest, dot(direction, normal));
+    directions.visibility[v] = visibility_of(direction, stars.normals_at(v));
     directions.slants[v] = 0.5 * (directions.visibility[v] + largest);
   }
   return directions;

@@ -58,7 +58,6 @@ struct LargestTriangle {
 
 /// The normal of the largest triangle that the lowest piece of each face has of it.
 std::vector<Vec3> reference_normals(const mesh::DistributedMesh& mesh, const LayerOptions& options) {
-  const parallel::Communicator& communicator = mesh.communicator;
   std::vector<LargestTriangle> mine;
   for_each_candidate(mesh, options, [&](const mesh::Piece& piece, mesh::LocalIndex t, std::size_t face) {
     const Vec3 area = area_vector(piece, t);
@@ -71,7 +70,8 @@ std::vector<Vec3> reference_normals(const mesh::DistributedMesh& mesh, const Lay
       same->area = area;
     }
   });
-  std::vector<LargestTriangle> all = communicator.all_gather_items(std::span<const LargestTriangle>(mine));
+  std::vector<LargestTriangle> all =
+      mesh.communicator.all_gather_items(std::span<const LargestTriangle>(mine));
   std::sort(all.begin(), all.end(),
             [](const LargestTriangle& a, const LargestTriangle& b) { return a.piece > b.piece; });
   std::vector<Vec3> normals(mesh.faces.size());
@@ -82,7 +82,6 @@ std::vector<Vec3> reference_normals(const mesh::DistributedMesh& mesh, const Lay
 }  // namespace
 
 std::vector<Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const LayerOptions& options) {
-  const parallel::Communicator& communicator = mesh.communicator;
   if (!options.ends_on_planes) return std::vector<Vec3>(mesh.faces.size());
   std::vector<Vec3> normals = reference_normals(mesh, options);
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -97,8 +96,8 @@ std::vector<Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const Layer
       }
     }
   });
-  communicator.minimum_each(ends);
-  communicator.minimum_each(agreement);
+  mesh.communicator.minimum_each(ends);
+  mesh.communicator.minimum_each(agreement);
   for (std::size_t face = 0; face < normals.size(); ++face) {
     if (!(agreement[face] >= same_plane)) normals[face] = {};
     for (int axis = 0; axis < 3; ++axis) {

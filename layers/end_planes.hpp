@@ -1,4 +1,4 @@
-/// Planes that layers end on.
+/// Planes that boundary layers end on.
 #pragma once
 
 #include "layers/columns.hpp"
@@ -8,15 +8,15 @@
 
 namespace aeroloom::layers {
 
-/// By CAD face of a surface mesh: the unit normal out of the fluid where layers end on the face, else zero.
-/// These are the planar faces of patches of symmetry, slip, inlet or outlet without layers, if options say
-/// so. Faces whose vertices agree in all bits of a coordinate have exact normals. Collective, the same on
-/// every rank.
+/// By CAD face of a surface mesh: the unit normal out of the fluid if layers end on the face, else zero.
+/// Layers end on planar faces without layers of symmetry, slip, inlet and outlet patches, if the options
+/// allow it. If all vertices of a face have the same bits in a coordinate, its normal is exact. Collective;
+/// equal on all ranks.
 std::vector<geometry::Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const LayerOptions& options);
 
-/// The part of a direction along planes with these normals, one or two: of two, along their line. Where a
-/// normal points along an axis, that component is -0: adding any multiple of it leaves all bits of a
-/// coordinate.
+/// The part of a direction parallel to one plane, or to the intersection line of two, given by normals. If a
+/// normal is exactly along an axis, that component is -0: adding a multiple of it keeps a coordinate bit for
+/// bit.
 geometry::Vec3 along_planes(geometry::Vec3 direction, std::span<const geometry::Vec3> normals);
 
 }  // namespace aeroloom::layers

@@ -16,11 +16,11 @@ namespace {
 using geometry::Box;
 using geometry::Vec3;
 
-/// Balls whose box travels as one. Chosen, not measured.
+/// Balls whose common box is sent to other ranks. Chosen, not measured.
 constexpr int balls_per_batch = 256;
 constexpr int boxes_per_leaf_of_gaps = 4;  // chosen, not measured
 
-/// A triangle for the balls of a rank.
+/// A triangle on its way to a rank with balls.
 struct NearTriangle {
   Vec3 corners[3];
   Vec3 plane;  ///< normal out of the fluid where layers end on the triangle's plane, else zero
@@ -31,7 +31,7 @@ struct NearTriangle {
   }
 };
 
-/// Where balls of a rank are.
+/// A box around balls of a rank.
 struct BallBatch {
   Box box;
   std::int64_t rank;
@@ -60,7 +60,7 @@ Vec3 nearest_point(Vec3 p, const Vec3 (&t)[3]) {
   return t[0] + (of_b / sum) * ab + (of_c / sum) * ac;
 }
 
-/// What diameter_beside is not below for any triangle in the box.
+/// A lower bound of diameter_beside for all triangles in the box.
 double least_diameter(const TouchingBall& ball, const Box& box) {
   double squared = 0, ahead = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -80,8 +80,7 @@ Box box_of_ball(const TouchingBall& ball) {
 }
 
 /// The boxes of the balls of all ranks, some hundred balls each.
-std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator,
-                                      const std::vector<TouchingBall>& balls) {
+std::vector<BallBatch> gather_batches(const LocalWall& wall, const std::vector<TouchingBall>& balls) {
   std::vector<Box> boxes;
   for (const TouchingBall& ball : balls) {
     if (ball.diameter > 0) boxes.push_back(box_of_ball(ball));
@@ -89,15 +88,14 @@ std::vector<BallBatch> gather_batches(const parallel::Communicator& communicator
   const geometry::BoxTree tree(boxes, balls_per_batch);
   std::vector<BallBatch> batches;
   for (const auto leaf : tree.leaves()) {
-    BallBatch& batch = batches.emplace_back(BallBatch{{}, communicator.rank()});
+    BallBatch& batch = batches.emplace_back(BallBatch{{}, wall.mesh.communicator.rank()});
     for (const std::int32_t i : leaf) batch.box.add(boxes[i]);
   }
-  return communicator.all_gather_items(std::span<const BallBatch>(batches));
+  return wall.mesh.communicator.all_gather_items(std::span<const BallBatch>(batches));
 }
 
 /// The triangles of this rank, and those of others that its balls may meet.
-std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vector<BallBatch>& batches) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
+std::vector<NearTriangle> fetch_triangles(const LocalWall& wall, const std::vector<BallBatch>& batches) {
   std::vector<Box> boxes;
   boxes.reserve(batches.size());
   for (const BallBatch& batch : batches) boxes.push_back(batch.box);
@@ -118,12 +116,12 @@ std::vector<NearTriangle> fetch_triangles(const WallShare& wall, const std::vect
       triangles.push_back(triangle);
     }
   }
-  return parallel::deliver(communicator, std::move(triangles),
+  return parallel::deliver(wall.mesh.communicator, std::move(triangles),
                            [](const NearTriangle& t) { return static_cast<parallel::Rank>(t.rank); });
 }
 
-/// Columns may run along a plane that layers end on, and what stands opposite is their own mirror image. A
-/// column that leans towards it meets that at twice the distance from the plane in its direction.
+/// Next to a plane that layers end on, the opposite column is the mirror image. A column that leans towards
+/// the plane meets it at twice the distance to the plane in its direction.
 double gap_before(const TouchingBall& ball, const NearTriangle& triangle) {
   const double through = diameter_beside(ball, triangle.corners);
   if (triangle.plane == Vec3{} || through == ball.diameter) return through;
@@ -150,9 +148,8 @@ double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
   return diameter;
 }
 
-std::vector<double> find_gaps(const WallShare& wall, const std::vector<TouchingBall>& balls) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
-  const std::vector<NearTriangle> triangles = fetch_triangles(wall, gather_batches(communicator, balls));
+std::vector<double> find_gaps(const LocalWall& wall, const std::vector<TouchingBall>& balls) {
+  const std::vector<NearTriangle> triangles = fetch_triangles(wall, gather_batches(wall, balls));
   std::vector<Box> boxes(triangles.size());
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     for (const Vec3 corner : triangles[t].corners) boxes[t].add(corner);
@@ -162,7 +159,7 @@ std::vector<double> find_gaps(const WallShare& wall, const std::vector<TouchingB
   for (std::size_t b = 0; b < balls.size(); ++b) {
     const TouchingBall& ball = balls[b];
     if (ball.diameter == 0) continue;
-    // Rounding must not decide which triangles are looked at: the tree depends on ranks.
+    // Rounding must not decide which triangles are tested: the tree depends on ranks.
     constexpr double beyond_rounding = 1 + 1e-9;
     double bound = beyond_rounding * ball.diameter;
     gaps[b] = ball.diameter;

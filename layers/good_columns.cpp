@@ -1,5 +1,7 @@
 #include "layers/good_columns.hpp"
 
+#include "layers/layer_validity.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -8,7 +10,7 @@ namespace aeroloom::layers {
 namespace {
 
 /// The layered triangles around vertices, each once.
-std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<std::int32_t>& vertices,
+std::vector<std::int32_t> triangles_at(const LocalWall& wall, const std::vector<std::int32_t>& vertices,
                                        std::vector<std::uint8_t>& seen) {
   std::vector<std::int32_t> triangles;
   for (const std::int32_t v : vertices) {
@@ -22,9 +24,8 @@ std::vector<std::int32_t> triangles_at(const WallShare& wall, const std::vector<
   return triangles;
 }
 
-}  // namespace
-
-TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
+/// The columns of a triangle's corners.
+TriangleColumns columns_over(const LocalWall& wall, const Directions& directions, const ColumnLimits& limits,
                              std::int32_t triangle) {
   TriangleColumns columns;
   for (int i = 0; i < 3; ++i) {
@@ -34,8 +35,9 @@ TriangleColumns columns_over(const WallShare& wall, const Directions& directions
   return columns;
 }
 
-int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLimits& limits) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
+}  // namespace
+
+int shrink_to_good(const LocalWall& wall, const Directions& directions, ColumnLimits& limits) {
   std::vector<std::uint8_t> seen(wall.triangles.size(), 0);
   for (int rounds = 0;; ++rounds) {
     std::vector<double> totals(wall.points.size(), std::numeric_limits<double>::infinity());
@@ -50,9 +52,9 @@ int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLi
         if (columns[i].heights.total(columns[i].count) > height) total = std::min(total, height);
       }
     }
-    if (communicator.sum(bad) == 0) return rounds;
+    if (wall.mesh.communicator.sum(bad) == 0) return rounds;
     limits.limit_totals(std::move(totals), LayerLimit::validity);
-    limits.converge(communicator);
+    limits.converge();
   }
 }
 

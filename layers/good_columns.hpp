@@ -1,18 +1,13 @@
-/// Columns shrink until all their cells are good.
+/// Shrinks columns until all cells between wall and layer cap are good.
 #pragma once
 
 #include "layers/column_limits.hpp"
-#include "layers/layer_validity.hpp"
 
 namespace aeroloom::layers {
 
-/// The columns of a triangle's corners.
-TriangleColumns columns_over(const WallShare& wall, const Directions& directions, const ColumnLimits& limits,
-                             std::int32_t triangle);
-
-/// Where a cell over a wall triangle is not good, its columns end below that, and neighbours follow, until
-/// all are. Looks only at triangles whose columns changed since the last call. Returns the rounds it took,
-/// the same on every rank. Collective.
-int shrink_to_good(const WallShare& wall, const Directions& directions, ColumnLimits& limits);
+/// Shortens columns below their first bad cell, then lowers neighbours, and repeats until all cells are good.
+/// Checks only triangles whose columns changed since the last call. Returns the number of rounds, equal on
+/// all ranks. Collective.
+int shrink_to_good(const LocalWall& wall, const Directions& directions, ColumnLimits& limits);
 
 }  // namespace aeroloom::layers

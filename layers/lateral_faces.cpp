@@ -51,8 +51,7 @@ std::vector<WallEdge> edges_of_faces(const mesh::NumberedMesh& wall, const Colum
 }  // namespace
 
 std::vector<LateralEdge> find_lateral_edges(const mesh::NumberedMesh& wall, const Columns& columns) {
-  const parallel::Communicator& communicator = wall.communicator;
-  const mesh::Rendezvous meeting(communicator, edges_of_faces(wall, columns), &WallEdge::ends,
+  const mesh::Rendezvous meeting(wall.communicator, edges_of_faces(wall, columns), &WallEdge::ends,
                                  &WallEdge::place);
   std::vector<LateralEdge> found =
       meeting.answer<LateralEdge>([](std::span<const mesh::Guest<WallEdge>> group, const auto& reply) {

@@ -1,9 +1,8 @@
-/// Where layers end on another CAD face: edges of the wall whose lateral faces are boundary of that face.
+/// Wall edges whose lateral faces lie on another CAD face, because layers end there.
 #pragma once
 
 #include "layers/columns.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <tuple>
@@ -11,10 +10,10 @@
 
 namespace aeroloom::layers {
 
-/// What lies over an edge of a triangle of the wall belongs to this face and patch.
+/// The lateral face over an edge of a wall triangle belongs to this CAD face and patch.
 struct LateralEdge {
   mesh::PieceId piece;     ///< of the wall
-  std::int32_t half_edge;  ///< 3 triangle + corner that it starts from
+  std::int32_t half_edge;  ///< 3 triangle + the corner that the edge starts from
   std::int32_t face, patch;
 
   static constexpr auto fields() {
@@ -22,8 +21,8 @@ struct LateralEdge {
   }
 };
 
-/// The edges between a triangle that bears layers and one of a patch that bears none, with a column at an
-/// end. Those of the pieces on this rank, by piece and half-edge. Collective.
+/// Finds the edges between a triangle with layers and one of a patch without, if an end has a column. Returns
+/// those of this rank's pieces, by piece and half-edge. Collective.
 std::vector<LateralEdge> find_lateral_edges(const mesh::NumberedMesh& wall, const Columns& columns);
 
 }  // namespace aeroloom::layers

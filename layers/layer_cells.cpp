@@ -22,53 +22,49 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 using mesh::PieceId;
-using parallel::Communicator;
 
 namespace {
 
-/// The place in the front of each piece of the wall on this rank; none of planes that were meshed again.
-/// Whatever else is there comes first, in its order.
-std::vector<std::optional<std::size_t>> places_in_front(const mesh::DistributedMesh& wall,
-                                                        const mesh::DistributedMesh& front) {
+/// The place in the cap of each local piece of the wall; nothing for planes that were meshed again. All
+/// others come first, in order.
+std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMesh& wall,
+                                                      const mesh::DistributedMesh& cap) {
   std::vector<std::optional<std::size_t>> places(wall.pieces.size());
   std::size_t next = 0;
-  for (std::size_t p = 0; p < places.size() && next < front.pieces.size(); ++p) {
-    const Piece &of_wall = wall.pieces[p], &of_front = front.pieces[next];
-    if (of_wall.triangle_face == of_front.triangle_face && of_wall.cells == of_front.cells)
-      places[p] = next++;
+  for (std::size_t p = 0; p < places.size() && next < cap.pieces.size(); ++p) {
+    const Piece &of_wall = wall.pieces[p], &of_cap = cap.pieces[next];
+    if (of_wall.triangle_face == of_cap.triangle_face && of_wall.cells == of_cap.cells) places[p] = next++;
   }
   return places;
 }
 
-/// The number of layers before each vertex of the front.
+/// The number of layers under each cap vertex.
 using CountTable = mesh::DistributedTable<std::int32_t>;
 
-CountTable make_table(const Columns& columns, const mesh::NumberedMesh& front,
+CountTable make_table(const Columns& columns, const mesh::NumberedMesh& cap,
                       const std::vector<std::optional<std::size_t>>& places) {
-  const Communicator& communicator = front.communicator;
-  std::vector<const PieceColumns*> columns_of(front.pieces.size(), nullptr);
+  std::vector<const PieceColumns*> columns_of(cap.pieces.size(), nullptr);
   for (std::size_t p = 0; p < places.size(); ++p) {
     if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
   }
   std::vector<CountTable::KeyedValue> rows;
-  for (std::size_t p = 0; p < front.pieces.size(); ++p) {
-    const Piece& piece = front.pieces[p];
+  for (std::size_t p = 0; p < cap.pieces.size(); ++p) {
+    const Piece& piece = cap.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (!front.numbering.owned[p][v]) continue;
-      rows.push_back(
-          {front.numbering.vertices[p][v], columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0});
+      if (!cap.numbering.owned[p][v]) continue;
+      rows.push_back({cap.numbering.vertices[p][v], columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0});
     }
   }
-  return {communicator, mesh::even_ranges(communicator.size(), front.numbering.vertex_count),
+  return {cap.communicator, mesh::even_ranges(cap.communicator.size(), cap.numbering.vertex_count),
           std::move(rows)};
 }
 
-/// The pieces behind the front: their vertices on it get keys that layers know; those off the wall are
-/// inside the region now; the triangles that layers lie before are boundary no more.
-class BehindFront {
+/// Connects the pieces outside the cap to the layers. Cap vertices get the keys used by layers. Those off the
+/// wall are now inside the region. Triangles under layers are removed from the boundary.
+class BeyondCap {
 public:
   /// Collective.
-  BehindFront(const mesh::DistributedMesh& wall, const CountTable& table, const mesh::DistributedMesh& volume)
+  BeyondCap(const mesh::DistributedMesh& wall, const CountTable& table, const mesh::DistributedMesh& volume)
       : _wall(wall) {
     for (const Piece& piece : volume.pieces) {
       for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -80,7 +76,8 @@ public:
     if (found.missing >= 0)
       throw parallel::CollectiveError(
           parallel::FailureKind::bug,
-          fmt::format("layers: the volume has a vertex of the front, {}, that there is not", found.missing));
+          fmt::format("layers: the volume has vertex {} of the layer cap, which does not exist",
+                      found.missing));
     _counts = found.values;
   }
 
@@ -119,24 +116,11 @@ private:
       piece.shared_vertices.push_back(vertex);
       piece.shared_keys.push_back(key);
     }
-    keep_bare_triangles(piece, grows);
-  }
-
-  void keep_bare_triangles(Piece& piece, const std::vector<std::uint8_t>& grows) const {
-    std::size_t kept = 0;
-    for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    mesh::keep_boundary_triangles(piece, [&](LocalIndex t) {
       const LocalIndex* v = piece.boundary_triangle(t);
-      const bool covered = bears_layers(_wall, piece.triangle_patch[t]) &&
-                           std::any_of(v, v + 3, [&](LocalIndex each) { return grows[each] != 0; });
-      if (covered) continue;
-      std::copy_n(v, 3, piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
-      piece.triangle_face[kept] = piece.triangle_face[t];
-      piece.triangle_patch[kept] = piece.triangle_patch[t];
-      ++kept;
-    }
-    piece.boundary.resize(3 * kept);
-    piece.triangle_face.resize(kept);
-    piece.triangle_patch.resize(kept);
+      return !bears_layers(_wall, piece.triangle_patch[t]) ||
+             std::none_of(v, v + 3, [&](LocalIndex each) { return grows[each] != 0; });
+    });
   }
 
   const mesh::DistributedMesh& _wall;
@@ -153,7 +137,7 @@ std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, c
 
 /// The pieces of the layers over the pieces of the wall on this rank, by piece of the wall, without ids.
 std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, const Columns& columns,
-                                            const mesh::NumberedMesh& front,
+                                            const mesh::NumberedMesh& cap,
                                             const std::vector<std::optional<std::size_t>>& places,
                                             const std::vector<LateralEdge>& laterals,
                                             const LayerCellOptions& options) {
@@ -166,9 +150,9 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
                          [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
     const std::vector<std::uint8_t> bears = bearing_triangles(wall, piece);
     const LayeredPiece source{piece,
-                              front.pieces[*places[p]],
+                              cap.pieces[*places[p]],
                               columns.pieces[p],
-                              front.numbering.vertices[*places[p]],
+                              cap.numbering.vertices[*places[p]],
                               bears,
                               {first, last},
                               wall.sides_of(piece.common_face()).front,
@@ -180,8 +164,8 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
   return made;
 }
 
-/// Vertices off the wall that lie on a boundary face are on its plane; where two planes meet, on that of the
-/// lower number. All pieces agree. Collective.
+/// Classifies vertices off the wall that lie on a boundary face on its plane; of two planes the lower number
+/// counts. All pieces agree. Collective.
 void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& volume) {
   struct Place {
     std::int32_t dimension, entity;
@@ -201,10 +185,7 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
         of_piece[v] = std::min(of_piece[v], Place{on_face, mesh::cad_face_of(piece, f)});
     }
   }
-  std::vector<Place> copies(shared.size());
-  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { copies[copy] = places[p][v]; });
-  shared.reduce_and_scatter(copies, [](const Place& a, const Place& b) { return std::min(a, b); });
-  shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { places[p][v] = copies[copy]; });
+  shared.combine(places, [](const Place& a, const Place& b) { return std::min(a, b); });
   for (std::size_t p = 0; p < places.size(); ++p) {
     Piece& piece = volume.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
@@ -216,14 +197,14 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 
 }  // namespace
 
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& front,
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
-  const Communicator& communicator = wall.communicator;
-  const std::vector<std::optional<std::size_t>> places = places_in_front(wall, front);
-  BehindFront(wall, make_table(columns, front, places), volume).join(volume);
+  const std::vector<std::optional<std::size_t>> places = places_in_cap(wall, cap);
+  BeyondCap(wall, make_table(columns, cap, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
-  parallel::agree(communicator, [&] { made = make_pieces(wall, columns, front, places, laterals, options); });
+  parallel::agree(wall.communicator,
+                  [&] { made = make_pieces(wall, columns, cap, places, laterals, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
@@ -238,7 +219,8 @@ void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const
   volume.piece_count += static_cast<PieceId>(first.back());
   mesh::SharedVertices shared(volume);
   shared.drop_unshared(volume);
-  if (communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0) classify_on_planes(shared, volume);
+  if (wall.communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0)
+    classify_on_planes(shared, volume);
 }
 
 }  // namespace aeroloom::layers

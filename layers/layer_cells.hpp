@@ -1,9 +1,9 @@
-/// From columns to cells: prisms, pyramids and tetrahedra between wall and front, as pieces of the volume.
+/// Makes cells from columns: prisms, pyramids and tetrahedra between wall and layer cap, as pieces of the
+/// volume.
 #pragma once
 
 #include "layers/columns.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -11,35 +11,31 @@
 namespace aeroloom::layers {
 
 struct LayerCellOptions {
-  std::int64_t most_cells_per_piece = 0;  ///< where a triangle does not have more itself
+  std::int64_t most_cells_per_piece = 0;  ///< exceeded only by the cells over a single triangle
   LayerElements elements = LayerElements::prisms;
 };
 
-/// Appends the cells of layers to the tetrahedra behind the front, whose boundary is still the front's
-/// triangles and whose vertices there have the front's numbers (`Piece::surface_numbers`, gone after it).
-/// Pieces of the front are those of the wall, the same ones in the same order, but for planes that were
-/// meshed again: theirs come last.
+/// Appends the layer cells to the tetrahedra outside the layer cap. The boundary of these tetrahedra is still
+/// the cap. `Piece::surface_numbers` holds the cap's vertex numbers and is removed. Pieces of the cap are
+/// those of the wall in the same order; planes that were meshed again come last.
 ///
-/// Over a triangle of the wall with the columns a, b, c layer k = 1 .. max(counts) lies between the nodes
-/// min(k - 1, count) and min(k, count) of each: three that go on make a prism, two a pyramid, one a
-/// tetrahedron. What lies over an edge depends on its two columns alone, so cells conform for any counts.
-/// Elements that are tetrahedra cut each of these: the quadrilateral over an edge by the diagonal from its
-/// corner of the smallest number, that of the front's vertex and then of the node (Dompierre, Labbe, Vallet
-/// and Camarero, How to subdivide pyramids, prisms, and hexahedra into tetrahedra, 8th International Meshing
-/// Roundtable, 1999). So its columns rise to the next node one after another, that of the largest number
-/// first, and each step is a tetrahedron. Any such cut of cells that build_layers() makes is positive.
-/// Pieces are ranges of the
-/// triangles of a piece of the wall, in the order of pieces, their ids follow those of the tetrahedra, and
-/// they live where the wall's piece does. `Piece::layers` tells the layer of each cell.
+/// Layer k over a wall triangle lies between nodes min(k - 1, count) and min(k, count) of its columns, as
+/// columns.hpp describes. If only tetrahedra are wanted, each cell is cut (Dompierre, Labbe, Vallet and
+/// Camarero, How to subdivide pyramids, prisms, and hexahedra into tetrahedra, 8th International Meshing
+/// Roundtable, 1999). The diagonal of a lateral face starts at the corner of the smallest number, first of
+/// the cap vertex, then of the node. All tetrahedra cut from cells of build_layers() have positive volume.
 ///
-/// Boundary faces of walls with a column at a corner go over to the layers as the wall has them; those of
-/// other patches stay, and what layers end on there (a plane of symmetry) gets quadrilaterals and triangles
-/// of its CAD face and patch. Vertices of the front that are off the wall now lie in their region,
-/// or on the plane that layers end on. Collective.
-void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& front,
+/// A piece of layer cells is a range of triangles of one wall piece and lives on the rank of that piece. Its
+/// id follows those of the tetrahedra, in the order of wall pieces. `Piece::layers` holds the layer of each
+/// cell.
+///
+/// Wall triangles with a column at a corner become boundary of the layer cells. Other boundary triangles
+/// stay. Planes that layers end on get lateral quadrilaterals and triangles. Nodes above the wall are
+/// classified on their region, or on the plane that layers end on. Collective.
+void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume);
 
-/// Whether triangles of the patch get cells: those of walls.
+/// Whether triangles of the patch get layer cells: those of walls do.
 inline bool bears_layers(const mesh::DistributedMesh& wall, std::int32_t patch) {
   return wall.type_of_patch(patch) == mesh::PatchType::wall;
 }

@@ -68,23 +68,23 @@ private:
   }
 
   void add_node(LocalIndex v, std::int32_t k) {
-    const bool on_wall = k == 0, on_front = k == count(v);
+    const bool on_wall = k == 0, on_cap = k == count(v);
     const LocalIndex here = _piece.vertex_count();
-    const Vec3 p = on_wall    ? _source.wall.point(v)
-                   : on_front ? _source.front.point(v)
-                              : node(_source.wall, _source.columns, v, k);
+    const Vec3 p = on_wall  ? _source.wall.point(v)
+                   : on_cap ? _source.cap.point(v)
+                            : node(_source.wall, _source.columns, v, k);
     _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
     _piece.vertex_dimension.push_back(on_wall ? _source.wall.vertex_dimension[v]
                                               : mesh::CadDimension::region);
     _piece.vertex_entity.push_back(on_wall ? _source.wall.vertex_entity[v] : _source.region);
-    if (!on_front && !_shared[v]) return;
+    if (!on_cap && !_shared[v]) return;
     _piece.shared_vertices.push_back(here);
-    _piece.shared_keys.push_back(on_front ? mesh::running_key(_source.numbers[v])
-                                          : mesh::layer_key(_source.numbers[v], k));
+    _piece.shared_keys.push_back(on_cap ? mesh::running_key(_source.numbers[v])
+                                        : mesh::layer_key(_source.numbers[v], k));
   }
 
-  /// The wall's triangles are counter-clockwise seen from outside, cells begin with the triangle as their
-  /// opposite corners see it.
+  /// Wall triangles are counter-clockwise seen from outside. Cells start with the triangle as seen from
+  /// inside.
   void add_cell(const Triangle& v, std::int32_t k) {
     const auto live = std::count_if(v.begin(), v.end(), [&](LocalIndex each) { return count(each) >= k; });
     const auto layer = static_cast<std::int16_t>(k);
@@ -94,7 +94,7 @@ private:
       _of_prisms.push_back(layer);
       return;
     }
-    // Turned until the two columns that go on, or the one, come first.
+    // Rotated until the columns that continue come first.
     Triangle w = v;
     while (count(w[0]) < k || (live == 2 && count(w[1]) < k)) std::rotate(w.begin(), w.begin() + 1, w.end());
     const LocalIndex last = at(w[2], k);
@@ -149,8 +149,8 @@ private:
     }
   }
 
-  /// What lies over an edge, seen from outside of the cells: quadrilaterals where both columns go on, a
-  /// triangle in each layer where one does.
+  /// The lateral faces over an edge, seen from outside the cells: quadrilaterals if both columns continue,
+  /// triangles if one does.
   void add_lateral(const LateralEdge& edge) {
     const Triangle v = corners_of(_source.wall, edge.half_edge / 3);
     const LocalIndex p = v[edge.half_edge % 3], q = v[(edge.half_edge + 1) % 3];

@@ -1,4 +1,4 @@
-/// The cells over some triangles of a piece of the wall.
+/// Makes the layer cells over some triangles of a wall piece.
 #pragma once
 
 #include "layers/columns.hpp"
@@ -10,35 +10,35 @@
 
 namespace aeroloom::layers {
 
-/// A piece of the wall with all that its layers are made of. Refers to what lives elsewhere.
+/// A wall piece with everything its layer cells are made from. Keeps references.
 struct LayeredPiece {
   const mesh::Piece& wall;
-  const mesh::Piece& front;
+  const mesh::Piece& cap;
   const PieceColumns& columns;
-  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the front's vertices
-  const std::vector<std::uint8_t>& bears;         ///< by triangle
+  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the cap's vertices
+  const std::vector<std::uint8_t>& bears;         ///< by triangle: whether it gets layer cells
   std::span<const LateralEdge> laterals;          ///< by half-edge
   mesh::RegionId region = 0;
   LayerElements elements = LayerElements::prisms;
 
-  /// Layers over a triangle; 0: it stays boundary of what lies behind the front.
+  /// Number of layers over a triangle; 0: it stays boundary of the tetrahedra.
   std::int32_t layers_over(mesh::LocalIndex triangle) const;
   std::int32_t cells_over(mesh::LocalIndex triangle) const;
 };
 
-/// Consecutive triangles.
+/// Consecutive triangles of a wall piece.
 struct TriangleRange {
   mesh::LocalIndex begin = 0, end = 0;
 };
 
-/// Ranges with at most so many cells each, or one triangle; those without cells are left out.
+/// Ranges of at most `most_cells` cells, or of a single triangle. Ranges without cells are left out.
 std::vector<TriangleRange> cut_into_ranges(const LayeredPiece& source, std::int64_t most_cells);
 
-/// The vertices of the wall's piece that other pieces may know, or several of the ranges. By vertex.
+/// By vertex of the wall piece: whether other pieces or several of the ranges may have it.
 std::vector<std::uint8_t> find_shared(const LayeredPiece& source, std::span<const TriangleRange> ranges);
 
-/// The cells over the triangles of a range as a piece without an id. Vertices of the front have the key that
-/// the volume's pieces give them, others that may be shared, by find_shared(), keys of their own.
+/// Makes the cells over a range as a piece without id. Cap vertices get the shared-vertex keys of the
+/// volume's pieces. Other vertices that find_shared() marks get keys of their own.
 mesh::Piece make_layer_piece(const LayeredPiece& source, TriangleRange range,
                              const std::vector<std::uint8_t>& shared);
 

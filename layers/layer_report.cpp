@@ -20,11 +20,11 @@ constexpr double isotropic_enough = 0.35;  // of the mean edge: half of what is 
 /// A third of a triangle's area, under one of its columns.
 void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLayers& patch) {
   const std::int32_t count = limits.count(v);
-  const bool full = count >= limits.wanted_count(v), squeezed = count > 0 && limits.is_squeezed(v);
+  const bool full = count >= limits.wanted_count(v), compressed = count > 0 && limits.is_compressed(v);
   (full ? patch.full_area : count > 0 ? patch.partial_area : patch.empty_area) += area;
   if (full && limits.last_height(v) >= isotropic_enough * limits.mean_edge(v)) patch.isotropic_area += area;
-  if (squeezed) patch.squeezed_area += area;
-  if (!full || squeezed) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
+  if (compressed) patch.compressed_area += area;
+  if (!full || compressed) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
   patch.layers_area += area * count;
   patch.most_layers = std::max<std::int64_t>(patch.most_layers, count);
 }
@@ -40,7 +40,7 @@ void add_cells(const std::array<std::int32_t, 3>& counts, LayerElements elements
   patch.tetrahedra += counts[2] - counts[1];
 }
 
-void add_triangle(const WallShare& wall, const ColumnLimits& limits, std::int32_t t, LayerElements elements,
+void add_triangle(const LocalWall& wall, const ColumnLimits& limits, std::int32_t t, LayerElements elements,
                   PatchLayers& patch) {
   const auto& [a, b, c] = wall.triangles[t];
   const double area = 0.5 * norm(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
@@ -55,7 +55,7 @@ void add_triangle(const WallShare& wall, const ColumnLimits& limits, std::int32_
 void add_row(const PatchLayers& row, PatchLayers& sum) {
   for (double PatchLayers::*member :
        {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
-        &PatchLayers::isotropic_area, &PatchLayers::squeezed_area, &PatchLayers::layers_area})
+        &PatchLayers::isotropic_area, &PatchLayers::compressed_area, &PatchLayers::layers_area})
     sum.*member += row.*member;
   for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
   for (std::int64_t PatchLayers::*member :
@@ -66,9 +66,8 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 
 }  // namespace
 
-std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimits& limits,
+std::vector<PatchLayers> report_patches(const LocalWall& wall, const ColumnLimits& limits,
                                         LayerElements elements) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
   std::vector<PieceRow> rows;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     std::vector<PatchLayers> patches(wall.mesh.patches.size());
@@ -81,7 +80,7 @@ std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimit
         rows.push_back({patches[i], static_cast<std::int32_t>(i), wall.mesh.pieces[p].id});
     }
   }
-  rows = communicator.gather_sorted(rows, &PieceRow::piece);
+  rows = wall.mesh.communicator.gather_sorted(rows, &PieceRow::piece);
   std::vector<PatchLayers> patches(wall.mesh.patches.size());
   for (const PieceRow& row : rows) add_row(row.layers, patches[row.patch]);
   return patches;

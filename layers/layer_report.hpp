@@ -1,4 +1,4 @@
-/// The table of layers by patch.
+/// Statistics of the layers by patch.
 #pragma once
 
 #include "layers/column_limits.hpp"
@@ -7,9 +7,9 @@
 
 namespace aeroloom::layers {
 
-/// By patch index of the mesh, with the cells that there are of such elements; sums in the order of pieces.
-/// Collective, the same on every rank and for any number of ranks.
-std::vector<PatchLayers> report_patches(const WallShare& wall, const ColumnLimits& limits,
+/// By patch index of the mesh. Cells are counted for the given kind of elements. Sums run in the order of
+/// pieces. Collective; equal on all ranks and for any number of ranks.
+std::vector<PatchLayers> report_patches(const LocalWall& wall, const ColumnLimits& limits,
                                         LayerElements elements);
 
 }  // namespace aeroloom::layers

@@ -22,7 +22,7 @@ Vec3 doubled_area(const Level& level) {
   return cross(level[1] - level[0], level[2] - level[0]);
 }
 
-/// No vector between two of the six nodes has a larger sum of absolute components.
+/// At least the sum of absolute components of any vector between two of the six nodes.
 double extent(const Level& q, const Level& t) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,8 +33,8 @@ double extent(const Level& q, const Level& t) {
   return sum;
 }
 
-/// Whether all twelve tetrahedra of corners are positive, as far as rounding cannot matter; their
-/// determinants share normals of triangles and of lateral halves.
+/// Whether all twelve corner tetrahedra are positive beyond rounding errors. Their determinants share normals
+/// of triangles and of halves of lateral faces.
 bool is_clearly_positive(const Level& q, const Level& t, Vec3 below, Vec3 above) {
   constexpr double beyond_rounding = 1e-14;
   const double size = extent(q, t);
@@ -104,7 +104,7 @@ public:
     }
   }
   const Level& level() const { return _level; }
-  /// One layer on; columns that end here stay.
+  /// Goes up by one layer; columns that end here stay.
   void advance() {
     ++_k;
     for (int i = 0; i < 3; ++i) {
@@ -123,7 +123,7 @@ private:
   std::int32_t _k = 0;
 };
 
-/// The cell of layer k between two levels, by how many of its columns are live there.
+/// Whether the cell of layer k between two levels is good, by the columns that continue there.
 bool is_good_cell(const TriangleColumns& columns, std::int32_t k, const Level& lower, const Level& upper,
                   Vec3 below, Vec3 above) {
   const bool live[3] = {columns[0].count >= k, columns[1].count >= k, columns[2].count >= k};
@@ -134,7 +134,7 @@ bool is_good_cell(const TriangleColumns& columns, std::int32_t k, const Level& l
   return has_positive_volume(lower[0], lower[1], lower[2], upper[alone]);
 }
 
-/// What cells may not fall below, of the wall triangle.
+/// Bounds for cells, taken from the wall triangle.
 struct Least {
   double determinant, cosine;
 
@@ -159,15 +159,15 @@ struct Ends {
   double highest() const { return std::max({totals[0], totals[1], totals[2]}); }
 };
 
-/// Whether front and uppermost prism are good where all columns shrink to a height.
+/// Whether cap and uppermost prism are good where all columns shrink to a height.
 bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least& least, double height) {
-  Level front, prism;
+  Level cap, prism;
   for (int i = 0; i < 3; ++i) {
     const double ratio = ends.totals[i] > height ? height / ends.totals[i] : 1;
-    front[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
+    cap[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
     prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
   }
-  return largest_cosine(front) <= least.cosine &&
+  return largest_cosine(cap) <= least.cosine &&
          corner_determinant(prism, doubled_area(prism), columns) >= least.determinant;
 }
 
@@ -192,7 +192,7 @@ std::int32_t good_layers(const TriangleColumns& columns) {
   return most;
 }
 
-bool has_good_front(const TriangleColumns& columns) {
+bool has_good_cap(const TriangleColumns& columns) {
   return is_good_below(columns, Ends(columns), Least(columns), std::numeric_limits<double>::infinity());
 }
 

@@ -1,4 +1,4 @@
-/// Whether the cells over a wall triangle are good.
+/// Tests whether the layer cells over a wall triangle are good.
 #pragma once
 
 #include "layers/column_heights.hpp"
@@ -8,7 +8,7 @@
 
 namespace aeroloom::layers {
 
-/// A column as the cells of one triangle see it.
+/// One of the three columns over a triangle.
 struct CornerColumn {
   geometry::Vec3 point, direction;
   Heights heights;
@@ -17,17 +17,18 @@ struct CornerColumn {
 /// Corners counter-clockwise seen from the fluid.
 using TriangleColumns = std::array<CornerColumn, 3>;
 
-/// The number of layers from the wall whose cells are good: exactly positive all twelve tetrahedra of prisms,
-/// all four of pyramids, and tetrahedra themselves; the scaled Jacobian of prisms at least half of that at
-/// vanishing height.
+/// The number of layers, counted from the wall, whose cells are all good. The volumes of all corner
+/// tetrahedra must be positive by exact predicates: twelve in a prism, four in a pyramid. The scaled Jacobian
+/// of a prism must be at least half of its value at vanishing height.
 std::int32_t good_layers(const TriangleColumns& columns);
-/// Whether the smallest angle of the front's triangle is at least 0.6 of the wall triangle's, and the
-/// uppermost prism has its scaled Jacobian: what most often fails, and quickly told.
-bool has_good_front(const TriangleColumns& columns);
+/// Whether the cap triangle and the uppermost prism are good. The smallest angle of the cap triangle must be
+/// at least 0.6 of the wall triangle's; the prism must have its scaled Jacobian. This cheap test finds most
+/// failures.
+bool has_good_cap(const TriangleColumns& columns);
 
-/// A height that no column over the triangle may exceed so that front and cells become good, below the
-/// highest of them: the tallest columns fall first. Infinite where all is good. Where columns below it still
-/// are not, the next answer is lower.
+/// A bound on the column heights over the triangle that brings cap and cells closer to being good. It is
+/// below the highest column, so the tallest columns shrink first. Infinite if all is good. If a bound does
+/// not suffice, the next call returns a lower one.
 double fitting_height(const TriangleColumns& columns);
 
 }  // namespace aeroloom::layers

@@ -1,6 +1,6 @@
-/// All that host programs need of the stage of boundary layers. From a surface mesh it grows columns of nodes
-/// on the walls, and turns them into prisms, pyramids and tetrahedra once the volume in front of them is
-/// filled.
+/// All that host programs need of the boundary-layer stage. The stage grows columns of nodes on the walls of
+/// a surface mesh. Once the volume outside their cap is filled, it makes prisms, pyramids and tetrahedra from
+/// them.
 #pragma once
 
 #include "layers/columns.hpp"

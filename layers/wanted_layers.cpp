@@ -32,7 +32,7 @@ VertexLayers both(const VertexLayers& a, const VertexLayers& b) {
 
 }  // namespace
 
-std::vector<VertexLayers> gather_wanted_layers(const WallShare& wall, const LayerOptions& options) {
+std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const LayerOptions& options) {
   std::vector<VertexLayers> all_wanted(wall.points.size());
   for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
     if (wall.roles[t] != WallRole::layered) continue;

@@ -1,7 +1,7 @@
-/// What the patches around a vertex ask of its column.
+/// The layers that the patches around a vertex request for its column.
 #pragma once
 
-#include "layers/wall_share.hpp"
+#include "layers/local_wall.hpp"
 
 #include <cstdint>
 #include <tuple>
@@ -9,11 +9,11 @@
 
 namespace aeroloom::layers {
 
-/// Of a vertex with several patches each value is the smallest.
+/// Of several patches at a vertex the smallest value of each kind counts.
 struct VertexLayers {
-  double first = 0, growth = 0, total = 0;  ///< total: infinite where none is asked for
-  double edge_sum = 0;  ///< lengths of the edges of layered triangles, each from both its sides
-  std::int64_t edges = 0, count = 0, constant = 0;  ///< count: most_layers where none is asked for
+  double first = 0, growth = 0, total = 0;  ///< total: infinite if not limited
+  double edge_sum = 0;  ///< edge lengths of triangles with layers; each edge counts from both sides
+  std::int64_t edges = 0, count = 0, constant = 0;  ///< count: most_layers if not limited
 
   static constexpr auto fields() {
     return std::tuple(&VertexLayers::first, &VertexLayers::growth, &VertexLayers::total,
@@ -24,6 +24,6 @@ struct VertexLayers {
 };
 
 /// By vertex, equal in all pieces. Vertices without layered triangles have no edges. Collective.
-std::vector<VertexLayers> gather_wanted_layers(const WallShare& wall, const LayerOptions& options);
+std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const LayerOptions& options);
 
 }  // namespace aeroloom::layers

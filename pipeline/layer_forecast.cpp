@@ -118,8 +118,8 @@ private:
     std::int32_t count = wanted;
     if (gap < layers::ample_gap(total, size)) {
       const double room = layers::room_in_gap(gap, size, wanted * heights.first);
-      count = layers::squeeze(heights, wanted, room).count;
-      if (room < total) (count < wanted ? sum.lacking_area : sum.squeezed_area) += area;
+      count = layers::compress(heights, wanted, room).count;
+      if (room < total) (count < wanted ? sum.lacking_area : sum.compressed_area) += area;
       if (room < total && gap < sum.narrowest_gap) sum.narrowest_gap = gap, sum.narrowest_at = middle;
     }
     const int of_prism = _elements == layers::LayerElements::tets ? 3 : 1;
@@ -166,7 +166,7 @@ std::string describe_patch(const LayerForecast& forecast, const PatchLayerForeca
       from_to(patch.least_count, patch.most_count), patch.asked.first,
       y_plus ? fmt::format(" (y+ {:.3g} at its node, {:.3g} at its centre)", *y_plus, 0.5 * *y_plus) : "",
       patch.asked.growth, from_to(patch.least_total, patch.most_total));
-  const double narrow = patch.squeezed_area + patch.lacking_area;
+  const double narrow = patch.compressed_area + patch.lacking_area;
   if (narrow > 0)
     text += fmt::format(
         "       no room for that on {:.3g} % of its area, where gaps are down to {:.3g} (near {}): heights "
@@ -227,7 +227,7 @@ nlohmann::ordered_json to_json(const LayerForecast& forecast) {
   json["patches"] = Json::array();
   for (const PatchLayerForecast& patch : forecast.patches) {
     const std::optional<double> y_plus = y_plus_at_node(forecast, patch.asked.first);
-    const bool narrow = patch.squeezed_area + patch.lacking_area > 0;
+    const bool narrow = patch.compressed_area + patch.lacking_area > 0;
     json["patches"].push_back({{"name", patch.name},
                                {"first", patch.asked.first},
                                {"y_plus_node", y_plus ? Json(*y_plus) : Json()},
@@ -239,7 +239,7 @@ nlohmann::ordered_json to_json(const LayerForecast& forecast) {
                                {"total_min", patch.least_total},
                                {"total_max", patch.most_total},
                                {"cells", patch.cells},
-                               {"squeezed", patch.squeezed_area / patch.area},
+                               {"squeezed", patch.compressed_area / patch.area},
                                {"lacking", patch.lacking_area / patch.area},
                                {"narrowest_gap", narrow ? Json(patch.narrowest_gap) : Json()},
                                {"narrowest_at", narrow ? report::to_json(patch.narrowest_at) : Json()}});

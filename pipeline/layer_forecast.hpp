@@ -24,8 +24,8 @@ struct PatchLayerForecast {
   double least_total = 0, most_total = 0;        ///< total height wanted
   double cells = 0;
   double area = 0;
-  double squeezed_area = 0;  ///< gaps are narrower than the total height: growth is reduced
-  double lacking_area = 0;   ///< gaps do not hold the wanted number of layers, even at the first height
+  double compressed_area = 0;  ///< gaps are narrower than the total height: growth is reduced
+  double lacking_area = 0;     ///< gaps do not hold the wanted number of layers, even at the first height
   double narrowest_gap = std::numeric_limits<double>::infinity();  ///< of the areas above
   geometry::Vec3 narrowest_at = {};                                ///< point on the wall
 };

@@ -105,7 +105,7 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) 
                                 ? surface.field.refined(sizes)
                                 : surface.field;
   return {std::move(made.columns),
-          {mesh::number_mesh(std::move(made.front)), std::move(field)},
+          {mesh::number_mesh(std::move(made.cap)), std::move(field)},
           {options, std::move(made.report)}};
 }
 

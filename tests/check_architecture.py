@@ -32,7 +32,7 @@ ORDER = {
     "sizing": ["field", "features", "sources", "choice", "lifting", "."],
     "surface": ["front", "curves", "remesh", "charts", "division", "cusps", "."],
     "volume": ["lattice", "core", "zones", "filling", "."],
-    "improve": ["attribution", "limits", "operations", "borders", "."],
+    "improve": ["attribution", "tets", "limits", "operations", "pieces", "borders", "."],
     "io": [".", "import"],
     "pipeline": ["case", "domain", "report/page", "report/picture", "study", "report", ".", "commands"],
 }
@@ -41,7 +41,8 @@ RESTRICTED = {
     "surface/front": {"geometry"},
     "surface/division": BASE | {"surface/remesh", "surface/charts", "surface/curves"},
     "improve/attribution": {"geometry", "parallel", "mesh", "sizing"},
-    "improve/limits": {"geometry", "mesh", "sizing"},
+    "improve/limits": {"geometry", "mesh", "sizing", "improve/tets"},
+    "improve/tets": {"geometry", "mesh"},
     "pipeline/case": ALLOWED["pipeline"],
     "pipeline/report/page": set(),
     "pipeline/report/picture": {"geometry", "parallel", "mesh"},
@@ -49,7 +50,8 @@ RESTRICTED = {
 }
 # One folder each: nobody outside of it includes what serves it alone.
 INNER = ["surface/front", "surface/curves", "surface/remesh", "surface/charts", "surface/cusps", "volume/lattice", "volume/core",
-         "volume/zones", "volume/filling", "improve/limits", "improve/operations", "improve/borders"]
+         "volume/zones", "volume/filling", "improve/tets", "improve/limits", "improve/operations",
+         "improve/pieces", "improve/borders"]
 # What tells the versions of libraries, for the report.
 VERSIONS = re.compile(r"_version\.hpp$")
 
@@ -96,7 +98,7 @@ TYPE = re.compile(r"^(?:struct|class|union|enum(?: class| struct)?) (\w+)(?!\w|:
 
 # A library of a folder's CMakeLists, with what is given to it.
 LIBRARY = re.compile(r"aeroloom_library\((\S+)([^)]*)\)")
-KEYWORDS = {"SOURCES", "ALONE", "HEADERS", "PUBLIC", "PRIVATE", "FOLDER"}
+KEYWORDS = {"SOURCES", "ALONE", "HEADERS", "PUBLIC", "PRIVATE"}
 
 
 def sources(root):
@@ -117,7 +119,7 @@ def libraries(root):
                     keyword = word if word in KEYWORDS else keyword
                     if word not in KEYWORDS and keyword:
                         given[keyword].append(word)
-                yield (given["FOLDER"] or [match.group(1)])[0], given
+                yield match.group(1), given
 
 
 def public_headers(root):

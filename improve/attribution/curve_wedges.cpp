@@ -15,14 +15,14 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// The share of one piece in what is known of an edge.
-struct EdgeShare {
+/// What one piece knows of an edge.
+struct PieceEdge {
   std::int64_t edge, piece;
   double angle;                       ///< degrees that its tetrahedra enclose
   std::array<std::int32_t, 2> faces;  ///< CAD faces of its boundary triangles there, -1 for none
 
   static constexpr auto fields() {
-    return std::tuple(&EdgeShare::edge, &EdgeShare::piece, &EdgeShare::angle, &EdgeShare::faces);
+    return std::tuple(&PieceEdge::edge, &PieceEdge::piece, &PieceEdge::angle, &PieceEdge::faces);
   }
 };
 
@@ -38,9 +38,9 @@ void add_face(std::array<std::int32_t, 2>& faces, std::int32_t face) {
   if (faces[1] >= 0 && faces[0] > faces[1]) std::swap(faces[0], faces[1]);
 }
 
-void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const std::vector<EdgeName>& edges,
-                std::vector<EdgeShare>& shares) {
-  std::vector<EdgeShare> mine;
+void measure_edges(const Piece& piece, const std::vector<GlobalIndex>& names,
+                   const std::vector<EdgeName>& edges, std::vector<PieceEdge>& rows) {
+  std::vector<PieceEdge> mine;
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const LocalIndex* c = piece.cell(t);
     int curved = 0;
@@ -68,14 +68,14 @@ void add_shares(const Piece& piece, const std::vector<GlobalIndex>& names, const
   }
   // One record per edge.
   std::stable_sort(mine.begin(), mine.end(),
-                   [](const EdgeShare& a, const EdgeShare& b) { return a.edge < b.edge; });
-  for (const EdgeShare& share : mine) {
-    if (shares.empty() || shares.back().edge != share.edge || shares.back().piece != share.piece) {
-      shares.push_back(share);
+                   [](const PieceEdge& a, const PieceEdge& b) { return a.edge < b.edge; });
+  for (const PieceEdge& row : mine) {
+    if (rows.empty() || rows.back().edge != row.edge || rows.back().piece != row.piece) {
+      rows.push_back(row);
       continue;
     }
-    shares.back().angle += share.angle;
-    add_face(shares.back().faces, share.faces[0]);
+    rows.back().angle += row.angle;
+    add_face(rows.back().faces, row.faces[0]);
   }
 }
 
@@ -91,18 +91,17 @@ std::int64_t find_edge(const std::vector<EdgeName>& edges, const EdgeName& edge)
 }
 
 std::vector<EdgeWedge> measure_wedges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges) {
-  const parallel::Communicator& communicator = mesh.communicator;
-  std::vector<EdgeShare> mine;
+  std::vector<PieceEdge> mine;
   if (!edges.empty()) {
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-      add_shares(mesh.pieces[i], mesh.numbering.vertices[i], edges, mine);
+      measure_edges(mesh.pieces[i], mesh.numbering.vertices[i], edges, mine);
   }
-  std::vector<EdgeShare> all =
-      communicator.gather_sorted(mine, [](const EdgeShare& each) { return std::tie(each.edge, each.piece); });
+  const std::vector<PieceEdge> all = mesh.communicator.gather_sorted(
+      mine, [](const PieceEdge& each) { return std::tie(each.edge, each.piece); });
   std::vector<EdgeWedge> wedges(edges.size());
-  for (const EdgeShare& share : all) {
-    wedges[share.edge].angle += share.angle;
-    for (const std::int32_t face : share.faces) add_face(wedges[share.edge].faces, face);
+  for (const PieceEdge& row : all) {
+    wedges[row.edge].angle += row.angle;
+    for (const std::int32_t face : row.faces) add_face(wedges[row.edge].faces, face);
   }
   return wedges;
 }

@@ -3,9 +3,9 @@
 #include "geometry/angle.hpp"
 #include "geometry/sort_unique.hpp"
 #include "improve/attribution/curve_wedges.hpp"
-#include "improve/attribution/front_vertices.hpp"
+#include "improve/attribution/layer_vertices.hpp"
+#include "improve/attribution/narrow_regions.hpp"
 #include "improve/attribution/sharp_curves.hpp"
-#include "improve/attribution/strip_edges.hpp"
 #include "improve/attribution/wall_pairs.hpp"
 #include "mesh/data/cad_dimension.hpp"
 #include "mesh/quality/quality.hpp"
@@ -25,9 +25,9 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
-/// Estimates for wedges hold up to this factor: curves are no lines, faces no planes. Chosen, not measured.
+/// Estimates for wedges hold up to this factor, since curves and faces are curved. Chosen, not measured.
 constexpr double wedge_slack = 2;
-/// Degrees by which rounding may set the two measures of an angle apart, at most.
+/// Degrees; the two measures of an angle differ by less, from rounding.
 constexpr double angle_slack = 1e-6;
 
 /// The largest angle that goes with a target for the smallest one, 138 degrees with 28 (docs/improvement.md).
@@ -44,8 +44,7 @@ class PinnedSearch {
 public:
   PinnedSearch(const mesh::NumberedMesh& mesh, double target, const mesh::CellsOutside& suspects,
                bool surface_may_change)
-      : _communicator(mesh.communicator),
-        _mesh(mesh),
+      : _mesh(mesh),
         _suspects(suspects),
         _target(target),
         _surface_may_change(surface_may_change),
@@ -61,9 +60,9 @@ public:
     collect_edges();
     _wedges = measure_wedges(_mesh, _edges);
     list_sharp_curves();
-    _strips = find_strip_edges(_mesh, _edges);
-    if (!_surface_may_change) _on_front = find_front_vertices(_mesh);
-    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) judge(i);
+    _narrow = find_narrow_edges(_mesh, _edges);
+    if (!_surface_may_change) _on_layers = find_layer_vertices(_mesh);
+    for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) classify(i);
     return merge();
   }
 
@@ -85,13 +84,13 @@ private:
 
   void collect_edges();
   void list_sharp_curves();
-  void judge(std::size_t piece);
+  void classify(std::size_t piece);
   bool pinned_by_faces(std::size_t piece, const BadTet& bad);
   bool pinned_by_curves(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
   std::vector<std::array<LocalIndex, 4>> sharp_corners(const Piece& piece) const;
   bool pinned_by_wedge(std::size_t piece, const BadTet& bad, const WallPair& walls);
-  bool is_at_strip(std::size_t piece, const BadTet& bad);
+  bool is_in_narrow_region(std::size_t piece, const BadTet& bad);
   bool is_held(std::size_t piece, const BadTet& bad) const;
   bool is_in_gap(std::size_t piece, const BadTet& bad, const WallPair& walls);
   MissedTarget& kind_of(std::size_t piece, const BadTet& bad,
@@ -101,7 +100,6 @@ private:
   void total(MissedTarget& kind) const;
   PinnedReport merge();
 
-  const parallel::Communicator& _communicator;
   const mesh::NumberedMesh& _mesh;
   const mesh::CellsOutside& _suspects;
   double _target;
@@ -110,11 +108,11 @@ private:
   VertexFaces _vertex_faces;
   WallFinder _walls;
   SharpCurves _sharp_curves;
-  std::vector<std::vector<BadTet>> _bad;             // per piece
-  std::vector<std::vector<std::uint8_t>> _on_front;  // per piece and vertex, where surfaces may not change
-  std::vector<EdgeName> _edges;                      // of bad tetrahedra on all ranks, ascending
-  std::vector<EdgeWedge> _wedges;                    // per edge
-  std::vector<StripEdge> _strips;                    // those of them across strips
+  std::vector<std::vector<BadTet>> _bad;              // per piece
+  std::vector<std::vector<std::uint8_t>> _on_layers;  // per piece and vertex, where surfaces may not change
+  std::vector<EdgeName> _edges;                       // of bad tetrahedra on all ranks, ascending
+  std::vector<EdgeWedge> _wedges;                     // per edge
+  std::vector<NarrowEdge> _narrow;                    // those of them across narrow regions
   std::vector<PinningEntity> _entities;
   std::vector<UnresolvedFeature> _features;
   PinnedReport _report;
@@ -137,11 +135,11 @@ void PinnedSearch::collect_edges() {
       }
     }
   }
-  _edges = _communicator.all_gather_items<EdgeName>(mine);
+  _edges = _mesh.communicator.all_gather_items<EdgeName>(mine);
   geometry::sort_unique(_edges);
 }
 
-/// Edges that belong to bad tetrahedra are all there are: whatever fills less than the target is bad.
+/// Edges of bad tetrahedra suffice: what fills less than the target angle is bad.
 void PinnedSearch::list_sharp_curves() {
   std::vector<SharpSegment> mine;
   std::vector<std::int32_t> of_a, of_b, both;
@@ -165,7 +163,7 @@ void PinnedSearch::list_sharp_curves() {
       }
     }
   }
-  _sharp_curves = SharpCurves(_communicator, mine);
+  _sharp_curves = SharpCurves(_mesh, mine);
 }
 
 bool PinnedSearch::pinned_by_faces(std::size_t i, const BadTet& bad) {
@@ -228,7 +226,7 @@ bool PinnedSearch::pinned_by_curves(std::size_t i, const BadTet& bad,
   return false;
 }
 
-/// Behind the first row of a wedge: as narrow as the wedge is so far from its curve, and no flatter.
+/// In later rows of a wedge: about as narrow as the wedge at that distance from its curve, and no flatter.
 bool PinnedSearch::pinned_by_wedge(std::size_t i, const BadTet& bad, const WallPair& walls) {
   const Piece& piece = _mesh.pieces[i];
   const auto p = points(piece, bad.tet);
@@ -253,16 +251,16 @@ bool PinnedSearch::is_in_gap(std::size_t i, const BadTet& bad, const WallPair& w
   return true;
 }
 
-/// The narrowest strip that the tetrahedron reaches across counts.
-bool PinnedSearch::is_at_strip(std::size_t i, const BadTet& bad) {
+/// The narrowest region that the tetrahedron reaches across counts.
+bool PinnedSearch::is_in_narrow_region(std::size_t i, const BadTet& bad) {
   const LocalIndex* c = _mesh.pieces[i].cell(bad.tet);
-  const StripEdge* narrowest = nullptr;
+  const NarrowEdge* narrowest = nullptr;
   for (const auto& [a, b] : mesh::tetrahedron_edges) {
     const std::int64_t edge = find(name(i, c[a], c[b]));
-    const StripEdge* strip = edge < 0 ? nullptr : find_strip_edge(_strips, edge);
-    if (!strip) continue;
-    if (!narrowest || std::tie(strip->width, strip->face) < std::tie(narrowest->width, narrowest->face))
-      narrowest = strip;
+    const NarrowEdge* found = edge < 0 ? nullptr : find_narrow_edge(_narrow, edge);
+    if (!found) continue;
+    if (!narrowest || std::tie(found->width, found->face) < std::tie(narrowest->width, narrowest->face))
+      narrowest = found;
   }
   if (!narrowest) return false;
   _features.push_back({narrowest->face, -1, narrowest->width, bad.angles.smallest, narrowest->at, 1});
@@ -274,7 +272,7 @@ bool PinnedSearch::is_held(std::size_t i, const BadTet& bad) const {
   const Piece& piece = _mesh.pieces[i];
   const LocalIndex* c = piece.cell(bad.tet);
   return std::count_if(c, c + 4, [&](LocalIndex v) {
-           return is_on_boundary(piece.vertex_dimension[v]) || _on_front[i][v] != 0;
+           return is_on_boundary(piece.vertex_dimension[v]) || _on_layers[i][v] != 0;
          }) >= 3;
 }
 
@@ -289,23 +287,23 @@ MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
   if (pinned_by_faces(i, bad) || pinned_by_curves(i, bad, corners)) return _report.pinned;
   const std::optional<WallPair> walls = _walls.find(_mesh.pieces[i], bad.tet);
   if (walls && pinned_by_wedge(i, bad, *walls)) return _report.pinned;
-  if (is_at_strip(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
+  if (is_in_narrow_region(i, bad) || (walls && is_in_gap(i, bad, *walls))) return _report.at_features;
   if (is_held(i, bad)) return _report.held;
   return _report.rest;
 }
 
-void PinnedSearch::judge(std::size_t i) {
+void PinnedSearch::classify(std::size_t i) {
   const std::vector<std::array<LocalIndex, 4>> corners = sharp_corners(_mesh.pieces[i]);
   for (const BadTet& bad : _bad[i]) count(kind_of(i, bad, corners), bad.angles);
 }
 
 void PinnedSearch::total(MissedTarget& kind) const {
-  kind.tetrahedra = _communicator.sum(kind.tetrahedra);
-  kind.smallest_angle = _communicator.minimum(kind.smallest_angle);
-  kind.largest_angle = _communicator.maximum(kind.largest_angle);
+  kind.tetrahedra = _mesh.communicator.sum(kind.tetrahedra);
+  kind.smallest_angle = _mesh.communicator.minimum(kind.smallest_angle);
+  kind.largest_angle = _mesh.communicator.maximum(kind.largest_angle);
 }
 
-/// Tetrahedra of the same face become one entry, on each rank before they travel.
+/// Merges tetrahedra of the same faces into one entry, on each rank before they are sent.
 void PinnedSearch::merge_features() {
   const auto merge = [](std::vector<UnresolvedFeature> rows) {
     std::sort(rows.begin(), rows.end(), [](const UnresolvedFeature& a, const UnresolvedFeature& b) {
@@ -324,12 +322,13 @@ void PinnedSearch::merge_features() {
     }
     return merged;
   };
-  _report.features = merge(_communicator.all_gather_items<UnresolvedFeature>(merge(std::move(_features))));
+  _report.features =
+      merge(_mesh.communicator.all_gather_items<UnresolvedFeature>(merge(std::move(_features))));
 }
 
 PinnedReport PinnedSearch::merge() {
   const auto key = [](const PinningEntity& e) { return std::tuple(e.kind, e.faces, e.vertex); };
-  const std::vector<PinningEntity> all = _communicator.gather_sorted(
+  const std::vector<PinningEntity> all = _mesh.communicator.gather_sorted(
       _entities, [&](const PinningEntity& e) { return std::tuple(key(e), e.angle, e.at.x, e.at.y, e.at.z); });
   for (const PinningEntity& entity : all) {
     if (_report.entities.empty() || key(_report.entities.back()) != key(entity)) {

@@ -8,8 +8,8 @@
 
 namespace aeroloom::attribution {
 
-SharpCurves::SharpCurves(const parallel::Communicator& communicator, const std::vector<SharpSegment>& mine)
-    : _segments(communicator.all_gather_items<SharpSegment>(mine)) {
+SharpCurves::SharpCurves(const mesh::DistributedMesh& mesh, const std::vector<SharpSegment>& mine)
+    : _segments(mesh.communicator.all_gather_items<SharpSegment>(mine)) {
   const auto key = [](const SharpSegment& s) { return std::tie(s.region, s.low, s.high, s.edge); };
   const auto same = [&](const SharpSegment& s, const SharpSegment& t) { return key(s) == key(t); };
   geometry::sort_unique(

@@ -1,9 +1,8 @@
-/// Curves of the CAD at which two faces enclose a small angle: where wedges begin.
+/// CAD curves where two faces enclose a small angle and form a wedge.
 #pragma once
 
 #include "geometry/vec.hpp"
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/features/segment_tree.hpp"
 
 #include <cstdint>
@@ -14,13 +13,13 @@
 
 namespace aeroloom::attribution {
 
-/// An edge of the mesh on such a curve, for two of the faces that meet there.
+/// A mesh edge on such a curve, for two of the faces that meet there.
 struct SharpSegment {
-  std::int64_t edge;       ///< its number, the same on every rank
-  mesh::RegionId region;   ///< that the wedge lies in
-  std::int32_t low, high;  ///< the faces, low < high
-  double angle;            ///< degrees that the boundary encloses
-  geometry::Vec3 a, b;     ///< its ends, alike on every rank
+  std::int64_t edge;       ///< its number, equal on all ranks
+  mesh::RegionId region;   ///< region of the wedge
+  std::int32_t low, high;  ///< CAD faces, low < high
+  double angle;            ///< degrees, enclosed by the boundary
+  geometry::Vec3 a, b;     ///< its ends, equal on all ranks
 
   static constexpr auto fields() {
     return std::tuple(&SharpSegment::edge, &SharpSegment::region, &SharpSegment::low, &SharpSegment::high,
@@ -28,18 +27,18 @@ struct SharpSegment {
   }
 };
 
-/// All of them, to be asked for the nearest one between two faces.
+/// All such segments of a mesh, for nearest-segment queries.
 class SharpCurves {
 public:
   SharpCurves() = default;
-  /// From each rank's own, some of which others may have too. Collective.
-  SharpCurves(const parallel::Communicator& communicator, const std::vector<SharpSegment>& mine);
+  /// Collects the segments of all ranks; ranks may have some in common. Collective.
+  SharpCurves(const mesh::DistributedMesh& mesh, const std::vector<SharpSegment>& mine);
 
   struct Nearest {
     double distance, angle;
-    geometry::Vec3 at;  ///< the middle of the segment
+    geometry::Vec3 at;  ///< middle of the segment
   };
-  /// The segment between two faces in a region that is nearest to a point, if there is any.
+  /// The segment between two faces in a region that is nearest to a point, if there is one.
   std::optional<Nearest> nearest(mesh::RegionId region, std::int32_t low, std::int32_t high,
                                  geometry::Vec3 point) const;
 

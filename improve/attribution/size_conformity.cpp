@@ -3,7 +3,6 @@
 #include "mesh/data/cell_stars.hpp"
 
 #include <algorithm>
-#include <vector>
 
 namespace aeroloom::attribution {
 
@@ -11,14 +10,14 @@ using mesh::LocalIndex;
 
 SizeConformity measure_conformity(const mesh::DistributedMesh& mesh, const sizing::SizeField& field) {
   const parallel::Communicator& communicator = mesh.communicator;
-  // In sizes: an edge halved at the longest is as long as the shortest. What lies between conforms.
+  // Over the size: halving an edge of the largest ratio gives the smallest. Ratios between conform.
   constexpr double shortest = 0.7, longest = 1.4;
   constexpr double fairly_short = 0.5, fairly_long = 2;  // a factor that solvers bear, as users name it
   constexpr LocalIndex most_looked_at = 200;             // vertices of a piece, about
   std::int64_t edges = 0, good = 0, fair = 0, bytes = 0, cells = 0;
   double sum = 0;
   for (const mesh::Piece& piece : mesh.pieces) {
-    if (!piece.layers.empty()) continue;  // as flat as they were asked for
+    if (!piece.layers.empty()) continue;  // flat by intention
     bytes += mesh::bytes_at_rest(piece);
     cells += piece.cell_count();
     const LocalIndex stride = 1 + piece.vertex_count() / most_looked_at;

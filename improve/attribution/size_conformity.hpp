@@ -1,22 +1,21 @@
-/// How well a mesh keeps to the sizes asked for.
+/// Comparison of edge lengths with the size field.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
-#include "parallel/communication/communicator.hpp"
 #include "sizing/field/size_field.hpp"
 
 namespace aeroloom::attribution {
 
 struct SizeConformity {
-  /// Part of the edges with 0.7 to 1.4 times the size at their middles; an edge counts once in each piece. Of
-  /// pieces with more than 200 vertices those of some 200 are looked at.
+  /// Fraction of edges with 0.7 to 1.4 times the size at their midpoint. An edge counts once in each piece.
+  /// In pieces with more than 200 vertices about 200 vertices are sampled.
   double good_edges = 0;
   double fair_edges = 0;      ///< the same with 0.5 to 2 times the size
-  double mean_edge = 0;       ///< in local sizes
-  double bytes_per_cell = 0;  ///< of memory the pieces occupy
+  double mean_edge = 0;       ///< over the local size
+  double bytes_per_cell = 0;  ///< memory of the pieces
 };
 
-/// Collective. A report: sums depend on how pieces are spread over ranks in the last bits.
+/// Collective. For reports only: the last bits of sums depend on the ranks.
 SizeConformity measure_conformity(const mesh::DistributedMesh& mesh, const sizing::SizeField& field);
 
 }  // namespace aeroloom::attribution

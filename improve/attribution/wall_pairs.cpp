@@ -43,7 +43,6 @@ double longest_edge(const std::array<Vec3, 4>& p) {
 }  // namespace
 
 VertexFaces::VertexFaces(const mesh::DistributedMesh& mesh) {
-  const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<Classification>& rows) { geometry::sort_unique(rows); };
   std::vector<Classification> mine;
   for (const Piece& piece : mesh.pieces) {
@@ -57,7 +56,7 @@ VertexFaces::VertexFaces(const mesh::DistributedMesh& mesh) {
     }
     sort_out(mine);
   }
-  _rows = communicator.all_gather_items<Classification>(mine);
+  _rows = mesh.communicator.all_gather_items<Classification>(mine);
   sort_out(_rows);
 }
 

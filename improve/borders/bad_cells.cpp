@@ -25,7 +25,7 @@ void BadCells::add(const Piece& piece, std::size_t p, LocalIndex first) {
 void BadCells::update(const mesh::DistributedMesh& mesh, const cavities::CavityRound& round) {
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const std::vector<LocalIndex>& left = round.changes[p].left;
-    auto gone = left.begin();  // those before the cell
+    auto gone = left.begin();  // removed cells before cell t
     std::erase_if(_cells[p], [&](LocalIndex& t) {
       while (gone != left.end() && *gone < t) ++gone;
       if (gone != left.end() && *gone == t) return true;
@@ -45,7 +45,7 @@ BadState BadCells::state(const mesh::DistributedMesh& mesh) const {
       all.least_angle = std::min(all.least_angle, mesh::dihedral_range(c[0], c[1], c[2], c[3]).smallest);
     }
   }
-  // All others have their angles within the target's bounds.
+  // All other cells have angles within the bounds of the target.
   if (std::sin(all.least_angle * std::numbers::pi / 180) < _measure.target() && all.least_angle < 90)
     return all;
   for (const Piece& piece : mesh.pieces)

@@ -1,5 +1,5 @@
-/// The tetrahedra of pieces that miss the target, kept up to date from round to round of cavities without
-/// another look at all.
+/// Lists of the bad tetrahedra of all pieces. They are updated after each round of cavities without a scan of
+/// all cells.
 #pragma once
 
 #include "improve/borders/rounds.hpp"
@@ -13,22 +13,22 @@ namespace aeroloom::improve {
 
 class BadCells {
 public:
-  /// Looks at every cell of this rank.
+  /// Scans all cells of this rank.
   BadCells(const mesh::DistributedMesh& mesh, const mesh::TetQuality& measure);
 
-  /// Follows a round: what it left, and those among what it brought.
+  /// Removes the cells that a round replaced and adds the bad ones among the new cells.
   void update(const mesh::DistributedMesh& mesh, const cavities::CavityRound& round);
 
-  /// Of a local piece, ascending.
+  /// Bad cells of a local piece, ascending.
   const std::vector<mesh::LocalIndex>& of_piece(std::size_t p) const { return _cells[p]; }
-  /// Of this rank. The least angle is looked for among all cells only where no bad one has it.
+  /// State of this rank. Scans all cells for the smallest angle only if no bad cell can have it.
   BadState state(const mesh::DistributedMesh& mesh) const;
 
 private:
   void add(const mesh::Piece& piece, std::size_t p, mesh::LocalIndex first);
 
   mesh::TetQuality _measure;
-  std::vector<std::vector<mesh::LocalIndex>> _cells;  ///< per local piece
+  std::vector<std::vector<mesh::LocalIndex>> _cells;  ///< by local piece
 };
 
 }  // namespace aeroloom::improve

@@ -1,5 +1,6 @@
 #include "improve/borders/border_smoothing.hpp"
 
+#include "improve/limits/examination.hpp"
 #include "improve/operations/inverse_ratios.hpp"
 #include "improve/operations/mean_ratio_smoothing.hpp"
 #include "mesh/data/mixing.hpp"
@@ -19,7 +20,7 @@ using mesh::Piece;
 using mesh::SharedVertexKey;
 
 constexpr int group_count = 2;
-/// Steps that are looked at together: the wanted one, its half, its quarter.
+/// Steps that are tried at once: the wanted one, its half, its quarter.
 constexpr int trial_count = 3;
 
 int group_of(SharedVertexKey vertex_key) {
@@ -119,7 +120,7 @@ private:
   std::vector<LocalIndex> _cells;
 };
 
-/// A vertex on its way, in one piece.
+/// A vertex to be moved, in one piece.
 struct Mover {
   std::size_t copy;     ///< in SharedVertices
   std::uint32_t piece;  ///< in mesh.pieces
@@ -136,14 +137,14 @@ class BorderSmoothing {
 public:
   BorderSmoothing(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                   const mesh::TetQuality& measure)
-      : _communicator(mesh.communicator), _mesh(mesh), _shared(shared), _measure(measure) {
+      : _mesh(mesh), _shared(shared), _measure(measure) {
     for (const Piece& piece : mesh.pieces) {
       _stars.emplace_back(piece);
       _moved.emplace_back(piece.vertex_count(), -1);
     }
   }
 
-  /// Returns how many of the moves are counted here.
+  /// Returns the number of moves counted on this rank.
   std::int64_t move(int group) {
     choose(group);
     find_steps();
@@ -185,7 +186,6 @@ private:
     std::erase_if(_movers, [&](Mover& mover) { return !keep(mover, of_copies[mover.copy]); });
   }
 
-  const parallel::Communicator& _communicator;
   mesh::DistributedMesh& _mesh;
   const mesh::SharedVertices& _shared;
   const mesh::TetQuality& _measure;
@@ -211,7 +211,7 @@ VertexState BorderSmoothing::measure_state(const Piece& piece, LocalIndex v,
   const Vec3 origin = piece.point(v);
   for (const LocalIndex t : cells) {
     const LocalIndex* c = piece.cell(t);
-    const Vec3 p[4] = {piece.point(c[0]), piece.point(c[1]), piece.point(c[2]), piece.point(c[3])};
+    const auto p = points_of(piece, t);
     here.ratios += mesh::mean_ratio(p[0], p[1], p[2], p[3]);
     here.worst = std::min(here.worst, _measure(p[0], p[1], p[2], p[3]));
     here.edge_sum += distance(origin, c[0] == v ? p[1] : p[0]);
@@ -310,8 +310,8 @@ bool BorderSmoothing::allows(const Piece& piece, const std::vector<std::int32_t>
   return _measure(p[0], p[1], p[2], p[3]) >= least && geometry::has_positive_volume(p[0], p[1], p[2], p[3]);
 }
 
-// Who moves alone was tried already. Where several move, none does unless all may; then fewer move, and so
-// on.
+// A single move was checked by try_steps(). Where several vertices of a tetrahedron move, either all may or
+// none does. This repeats with the remaining ones.
 void BorderSmoothing::withdraw() {
   while (true) {
     std::vector<Veto> entries;
@@ -328,7 +328,7 @@ void BorderSmoothing::withdraw() {
       vetoes += !free;
     }
     for (const Mover& mover : _movers) _moved[mover.piece][star_vertex(mover)] = -1;
-    if (_communicator.sum(vetoes) == 0) return;
+    if (_mesh.communicator.sum(vetoes) == 0) return;
     sum_and_filter(entries, [](Mover&, const Veto& veto) { return veto.any == 0; });
   }
 }
@@ -337,13 +337,12 @@ void BorderSmoothing::withdraw() {
 
 std::int64_t smooth_borders(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                             const mesh::TetQuality& measure, int passes) {
-  const parallel::Communicator communicator = mesh.communicator;
   BorderSmoothing relaxation(mesh, shared, measure);
   std::int64_t moves = 0;
   for (int pass = 0; pass < passes; ++pass) {
     for (int group = 0; group < group_count; ++group) moves += relaxation.move(group);
   }
-  return communicator.sum(moves);
+  return mesh.communicator.sum(moves);
 }
 
 }  // namespace aeroloom::improve

@@ -1,7 +1,8 @@
 #include "improve/borders/cavity_improver.hpp"
 
-#include "improve/borders/scatter.hpp"
+#include "improve/borders/perturbation.hpp"
 #include "improve/improver.hpp"
+#include "improve/limits/examination.hpp"
 #include "improve/limits/local_target.hpp"
 #include "mesh/data/mixing.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
@@ -50,10 +51,10 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
     std::vector<char> beside;  // a border, once needed
     for (const LocalIndex t : bad.of_piece(i)) {
       const LocalIndex* v = piece.cell(t);
-      const std::array<Vec3, 4> p{piece.point(v[0]), piece.point(v[1]), piece.point(v[2]), piece.point(v[3])};
+      const std::array<Vec3, 4> p = points_of(piece, t);
       const double quality = measure(p[0], p[1], p[2], p[3]);
       if (quality >= local_target(v)) continue;
-      // Beside a strip what was tried inside a piece is not tried again.
+      // In narrow regions what was tried inside a piece is not tried again.
       if (local_target.is_limited(v) && !local_target.is_severe(quality)) {
         if (shift > 0) continue;
         if (beside.empty()) beside = near_borders(piece);
@@ -68,8 +69,8 @@ std::int64_t claim_for_bad(const mesh::DistributedMesh& mesh, const BadCells& ba
   return count;
 }
 
-// Other tetrahedra have their vertices in common with the walls: faces that are no triangles of the surface
-// mesh. Vertices on CAD curves may be known in other pieces.
+// Other tetrahedra share faces with the cavity that are not on the surface mesh; their vertices stay. So do
+// vertices on CAD curves, which other pieces may have.
 void CavityImprover::order_vertices(const cavities::Cavity& cavity) {
   std::vector<mesh::TetFace> walls = mesh::boundary_faces(cavity.tets);
   std::vector<std::array<LocalIndex, 3>> free;
@@ -120,8 +121,7 @@ void CavityImprover::build_piece(const cavities::Cavity& cavity) {
   }
 }
 
-// Vertices inside are new ones in the content; those on the CAD are known by it as long as they stay where
-// they are.
+// Interior vertices count as new ones. Vertices on the CAD keep their names while they stay in place.
 cavities::CavityContent CavityImprover::build_content(const cavities::Cavity& cavity) const {
   cavities::CavityContent result;
   std::vector<LocalIndex> named(_piece.vertex_count());
@@ -156,11 +156,8 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
     before = std::min(
         before, _measure(cavity.points[t[0]], cavity.points[t[1]], cavity.points[t[2]], cavity.points[t[3]]));
   }
-  for (LocalIndex t = 0; t < _piece.cell_count(); ++t) {
-    const LocalIndex* c = _piece.cell(t);
-    after = std::min(
-        after, _measure(_piece.point(c[0]), _piece.point(c[1]), _piece.point(c[2]), _piece.point(c[3])));
-  }
+  for (LocalIndex t = 0; t < _piece.cell_count(); ++t)
+    after = std::min(after, quality_of(_piece, t, _measure));
   constexpr double rounding =
       1e-12;  // vertices of a tetrahedron may come in another order, with other last bits
   return after < before - rounding;
@@ -169,7 +166,7 @@ bool CavityImprover::is_worse_than(const cavities::Cavity& cavity) const {
 namespace {
 
 /// The worst quality, then how many miss the target: what is greater is better.
-std::pair<double, std::int64_t> judge(const Piece& piece, const mesh::TetQuality& measure) {
+std::pair<double, std::int64_t> score(const Piece& piece, const mesh::TetQuality& measure) {
   std::pair<double, std::int64_t> result{std::numeric_limits<double>::max(), 0};
   for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
     const double quality = quality_of(piece, t, measure);
@@ -201,14 +198,14 @@ std::optional<cavities::CavityContent> CavityImprover::improve_by_trials(const c
   order_vertices(cavity);
   build_piece(cavity);
   const Piece start = _piece;
-  auto best = judge(start, _measure);
+  auto best = score(start, _measure);
   std::optional<cavities::CavityContent> result;
   ImproveReport changes;
   for (int trial = 0; trial < trials && best.second < 0; ++trial) {
     _piece = start;
-    if (trial > 0) scatter(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
+    if (trial > 0) perturb(_piece, fraction, mesh::mix_in(seed, static_cast<std::uint64_t>(trial)));
     const ImproveReport mine = improve_piece(_piece, _options, _source, &_numbered, Effort::full);
-    const auto now = judge(_piece, _measure);
+    const auto now = score(_piece, _measure);
     if (now <= best) continue;
     best = now;
     changes = mine;

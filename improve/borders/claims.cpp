@@ -1,18 +1,16 @@
 #include "improve/borders/claims.hpp"
 
 #include "mesh/data/mixing.hpp"
-#include "mesh/exchange/findings.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace aeroloom::cavities {
 namespace {
 
 using geometry::Vec3;
 
-/// 1 for the vertices of tetrahedra that different cavities claim.
+/// 1 for vertices of tetrahedra that two cavities claim.
 std::vector<char> find_contested(const mesh::Piece& piece, const std::vector<CavityId>& claims) {
   std::vector<char> contested(piece.vertex_count(), 0);
   for (mesh::LocalIndex c = 0; c < piece.cell_count(); ++c) {
@@ -32,8 +30,8 @@ std::vector<char> find_contested(const mesh::Piece& piece, const std::vector<Cav
 }  // namespace
 
 CavityId cavity_at(Vec3 p, double size, double width, int shift) {
-  // Shares of a cell: far from each other in every direction, so that few places are at borders twice. Half a
-  // cell, and what the golden section makes of one.
+  // Offsets of the grid in cell widths, from halves and the golden section. They differ much in each
+  // direction, so that few places are at borders twice.
   constexpr double step[3] = {0.5, 0.382, 0.618}, level_step = 0.38;
   const double level = std::floor(std::log2(width * size) / 3 + level_step * shift);
   const double edge = std::exp2(3 * (level + 1 - level_step * shift));
@@ -44,31 +42,17 @@ CavityId cavity_at(Vec3 p, double size, double width, int shift) {
   return id == no_cavity ? CavityId{1} : id;
 }
 
-void spread_claims(const mesh::SharedVertices& shared, CavityClaims& claims) {
-  std::vector<CavityId> of_copies(shared.size());
-  shared.for_each(
-      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { of_copies[copy] = claims[p][v]; });
-  shared.reduce_and_scatter(of_copies, [](CavityId a, CavityId b) { return std::max(a, b); });
-  shared.for_each(
-      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { claims[p][v] = of_copies[copy]; });
-}
-
 void withdraw_contested_claims(const mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                                CavityClaims& claims) {
   std::vector<std::vector<char>> contested;
-  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p)
     contested.push_back(find_contested(mesh.pieces[p], claims[p]));
+  shared.combine(contested, [](char a, char b) { return static_cast<char>(a | b); });
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
       if (contested[p][v]) claims[p][v] = no_cavity;
     }
   }
-  std::vector<char> refused(shared.size());
-  shared.for_each(
-      [&](std::size_t p, mesh::LocalIndex v, std::size_t copy) { refused[copy] = contested[p][v]; });
-  shared.reduce_and_scatter(refused, [](char a, char b) { return static_cast<char>(a | b); });
-  shared.for_each([&](std::size_t p, mesh::LocalIndex v, std::size_t copy) {
-    if (refused[copy]) claims[p][v] = no_cavity;
-  });
 }
 
 void widen(const mesh::Piece& piece, bool along_surface, std::vector<CavityId>& claims) {

@@ -1,4 +1,4 @@
-/// Tetrahedra that leave a piece and others that come. Used by rounds.cpp.
+/// Exchange of tetrahedra between a piece and cavities. Used by rounds.cpp.
 #pragma once
 
 #include "improve/borders/rounds.hpp"
@@ -8,7 +8,7 @@
 
 namespace aeroloom::cavities {
 
-// A tetrahedron as it travels between pieces and cavities, its vertices by shared-vertex key.
+// A tetrahedron on its way between pieces and cavities. Vertices are given by shared-vertex keys.
 struct WireTet {
   CavityId cavity;
   mesh::PieceId piece;
@@ -22,7 +22,7 @@ struct WireTet {
 struct WireVertex {
   CavityId cavity;
   mesh::PieceId piece;
-  std::int32_t dimension;  ///< a mesh::CadDimension; as wide as its neighbours, so that there is no padding
+  std::int32_t dimension;  ///< a mesh::CadDimension; as wide as its neighbours to avoid padding
   mesh::SharedVertexKey vertex_key;
   geometry::Vec3 point;
   std::int32_t entity;
@@ -47,18 +47,19 @@ struct WireTriangle {
   }
 };
 
-/// A piece without what was taken and with what it got. Vertices that are known elsewhere become shared.
+/// Rebuilds a piece without the cells that left, and with new ones. Vertices known to other pieces become
+/// shared.
 class PieceUpdate {
 public:
-  /// `shared-vertex keys` names every vertex of the piece in this round.
+  /// `vertex_keys` holds a key for every vertex of the piece, valid in this round.
   PieceUpdate(const mesh::Piece& old, const std::vector<mesh::SharedVertexKey>& vertex_keys);
 
-  /// A cell that leaves: those of its vertices that stay behind are shared from now on.
+  /// A cell leaves. Vertices of it that remain in the piece become shared.
   void leave(mesh::LocalIndex cell);
   void keep(mesh::LocalIndex cell);
   void keep_triangle(mesh::LocalIndex triangle) { _kept_triangles.push_back(triangle); }
 
-  /// The piece with what comes; `vertices` has at least those of `tets` that the piece does not know.
+  /// Returns the new piece. `vertices` must contain the vertices of `tets` that the piece does not have.
   mesh::Piece finish(std::span<const WireTet> tets, const std::vector<WireVertex>& vertices,
                      const std::vector<WireTriangle>& triangles);
 
@@ -81,8 +82,8 @@ private:
   const mesh::Piece& _old;
   const std::vector<mesh::SharedVertexKey>& _vertex_keys;
   mesh::Piece _piece;
-  std::vector<mesh::LocalIndex> _number;  // new number of an old vertex, -1: gone
-  std::vector<char> _named;               // per old vertex: shared from now on
+  std::vector<mesh::LocalIndex> _number;  // new number of an old vertex, or -1
+  std::vector<char> _named;               // per old vertex: whether it is shared now
   std::vector<mesh::LocalIndex> _kept, _kept_triangles;
   std::vector<Named> _names;  // by shared-vertex key
 };

@@ -3,17 +3,16 @@
 #include "geometry/runs.hpp"
 #include "geometry/sort_unique.hpp"
 #include "improve/borders/claims.hpp"
+#include "improve/borders/piece_assignment.hpp"
 #include "improve/borders/piece_update.hpp"
-#include "improve/borders/shares.hpp"
 #include "mesh/data/mixing.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/delivery.hpp"
-#include "mesh/exchange/findings.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
+#include "parallel/observation/timers.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -21,7 +20,7 @@
 namespace aeroloom::cavities {
 namespace {
 
-/// The fate of a cavity, the same on every rank.
+/// What happened to a cavity; equal on all ranks.
 struct Outcome {
   CavityId cavity;
   std::int32_t replaced;  ///< 0: it stays as it was
@@ -29,11 +28,6 @@ struct Outcome {
 
   static constexpr auto fields() { return std::tuple(&Outcome::cavity, &Outcome::replaced, &Outcome::added); }
 };
-
-template <class T, class Less>
-void sort_by(std::vector<T>& items, const Less& less) {
-  std::sort(items.begin(), items.end(), less);
-}
 
 /// The names of a piece's vertices in this round.
 std::vector<mesh::SharedVertexKey> vertex_keys_of(const mesh::Piece& piece, int round) {
@@ -50,11 +44,32 @@ std::array<mesh::LocalIndex, 3> sorted(std::array<mesh::LocalIndex, 3> v) {
   return v;
 }
 
-/// The tetrahedra that this rank's pieces give to cavities.
-struct Contribution {
+/// Tetrahedra of cavities on their way between ranks, with their vertices and triangles of the surface mesh.
+struct WireParts {
   std::vector<WireTet> tets;
   std::vector<WireVertex> vertices;
   std::vector<WireTriangle> triangles;
+};
+
+/// Sends each item to the rank that `rank_of` gives. Vertices and triangles arrive by cavity, then by key,
+/// tetrahedra by the rank that sent them. Collective.
+template <class RankOf>
+WireParts deliver(const mesh::DistributedMesh& mesh, WireParts parts, const RankOf& rank_of) {
+  WireParts in{mesh::deliver(mesh.communicator, std::move(parts.tets), rank_of),
+               mesh::deliver(mesh.communicator, std::move(parts.vertices), rank_of),
+               mesh::deliver(mesh.communicator, std::move(parts.triangles), rank_of)};
+  std::sort(in.vertices.begin(), in.vertices.end(), [](const WireVertex& a, const WireVertex& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
+  });
+  std::sort(in.triangles.begin(), in.triangles.end(), [](const WireTriangle& a, const WireTriangle& b) {
+    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
+  });
+  return in;
+}
+
+/// The tetrahedra that this rank's pieces give to cavities.
+struct Contribution {
+  WireParts parts;
   std::vector<std::vector<CavityId>> of_cell;                   ///< per local piece, per cell
   std::vector<std::vector<CavityId>> of_triangle;               ///< per local piece, per boundary triangle
   std::vector<std::vector<mesh::SharedVertexKey>> vertex_keys;  ///< per local piece, per vertex
@@ -108,27 +123,27 @@ Contribution collect(const mesh::DistributedMesh& mesh, const CavityClaims& clai
       const CavityId claim = cavity_of(claims[p], v, 4);
       if (claim == no_cavity) continue;
       of_cell[c] = within_region(claim, piece.region);
-      result.tets.push_back({of_cell[c],
-                             piece.id,
-                             piece.region,
-                             {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]], vertex_key[v[3]]}});
+      result.parts.tets.push_back({of_cell[c],
+                                   piece.id,
+                                   piece.region,
+                                   {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]], vertex_key[v[3]]}});
       for (int k = 0; k < 4; ++k) used.push_back({of_cell[c], v[k]});
     }
     geometry::sort_unique(used);
     for (const auto& [cavity, v] : used)
-      result.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
-                                 vertex_key[v], piece.point(v), piece.vertex_entity[v],
-                                 piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v]});
+      result.parts.vertices.push_back({cavity, piece.id, static_cast<std::int32_t>(piece.vertex_dimension[v]),
+                                       vertex_key[v], piece.point(v), piece.vertex_entity[v],
+                                       piece.surface_numbers.empty() ? -1 : piece.surface_numbers[v]});
     mark_triangles(piece, of_cell, result.of_triangle.emplace_back());
     for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
       const CavityId cavity = result.of_triangle.back()[t];
       if (cavity == no_cavity) continue;
       const mesh::LocalIndex* v = piece.boundary_triangle(t);
-      result.triangles.push_back({cavity,
-                                  piece.id,
-                                  piece.triangle_face[t],
-                                  {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]]},
-                                  piece.triangle_patch[t]});
+      result.parts.triangles.push_back({cavity,
+                                        piece.id,
+                                        piece.triangle_face[t],
+                                        {vertex_key[v[0]], vertex_key[v[1]], vertex_key[v[2]]},
+                                        piece.triangle_patch[t]});
     }
   }
   return result;
@@ -146,7 +161,7 @@ struct CavityTable {
   parallel::Rank owner(CavityId id) const { return owners[slot(id)]; }
 };
 
-CavityTable list_cavities(const parallel::Communicator& communicator, const Contribution& mine) {
+CavityTable list_cavities(const mesh::DistributedMesh& mesh, const std::vector<WireTet>& tets) {
   struct CavitySize {
     CavityId cavity;
     std::int64_t tets;
@@ -154,14 +169,14 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
     static constexpr auto fields() { return std::tuple(&CavitySize::cavity, &CavitySize::tets); }
   };
   std::vector<CavityId> all;
-  for (const WireTet& t : mine.tets) all.push_back(t.cavity);
+  for (const WireTet& t : tets) all.push_back(t.cavity);
   std::sort(all.begin(), all.end());
   std::vector<CavitySize> rows;
   geometry::for_each_run(std::span<const CavityId>(all), std::equal_to<>{},
                          [&](std::size_t first, std::size_t last) {
                            rows.push_back({all[first], static_cast<std::int64_t>(last - first)});
                          });
-  std::vector<CavitySize> table = communicator.gather_sorted(rows, &CavitySize::cavity);
+  const std::vector<CavitySize> table = mesh.communicator.gather_sorted(rows, &CavitySize::cavity);
   CavityTable result;
   for (const CavitySize& row : table) {
     if (result.ids.empty() || result.ids.back() != row.cavity) {
@@ -170,7 +185,7 @@ CavityTable list_cavities(const parallel::Communicator& communicator, const Cont
     }
     result.loads.back() += static_cast<double>(row.tets);
   }
-  result.owners = parallel::assign_largest_first(result.loads, communicator.size());
+  result.owners = parallel::assign_largest_first(result.loads, mesh.communicator.size());
   return result;
 }
 
@@ -181,24 +196,16 @@ struct OwnedCavity {
   std::vector<mesh::GlobalIndex> surface_numbers;  ///< per point
   std::vector<mesh::PieceId> donor;                ///< per tetrahedron: the piece it comes from
   std::optional<CavityContent> content;
-  CavityShares shares;  ///< of the content
+  CavityAssignment assignment;  ///< of the content
 };
 
-std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, const CavityTable& table,
-                                  Contribution& mine) {
-  const auto owner = [&](const auto& item) { return table.owner(item.cavity); };
-  auto tets = mesh::deliver(communicator, std::move(mine.tets), owner);
-  auto vertices = mesh::deliver(communicator, std::move(mine.vertices), owner);
-  auto triangles = mesh::deliver(communicator, std::move(mine.triangles), owner);
-  // Within a piece the order of tetrahedra is kept: it depends on no rank.
+std::vector<OwnedCavity> assemble(const mesh::DistributedMesh& mesh, WireParts parts) {
+  const CavityTable table = list_cavities(mesh, parts.tets);
+  auto [tets, vertices, triangles] =
+      deliver(mesh, std::move(parts), [&](const auto& item) { return table.owner(item.cavity); });
+  // Tetrahedra keep their order within a piece, so that it does not depend on ranks.
   std::stable_sort(tets.begin(), tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.cavity != b.cavity ? a.cavity < b.cavity : a.piece < b.piece;
-  });
-  sort_by(vertices, [](const WireVertex& a, const WireVertex& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
-  });
-  sort_by(triangles, [](const WireTriangle& a, const WireTriangle& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
   });
   std::vector<OwnedCavity> cavities;
   std::size_t v = 0, s = 0;
@@ -233,29 +240,22 @@ std::vector<OwnedCavity> assemble(const parallel::Communicator& communicator, co
   return cavities;
 }
 
-/// Replaced cavities on their way to the pieces that take them.
-struct Delivery {
-  std::vector<WireTet> tets;
-  std::vector<WireVertex> vertices;
-  std::vector<WireTriangle> triangles;
-};
-
 /// Adds a replaced cavity. `first_added` is the number of its first new vertex among those of the round.
-void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added, Delivery& out) {
+void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added, WireParts& out) {
   const CavityId id = owned.cavity.id;
   const auto known = static_cast<mesh::LocalIndex>(owned.vertex_keys.size());
   const auto vertex_key = [&](mesh::LocalIndex v) {
     return v < known ? owned.vertex_keys[v] : mesh::placed_key(round, first_added + (v - known));
   };
-  const CavityShares& shares = owned.shares;
+  const CavityAssignment& assignment = owned.assignment;
   std::vector<std::pair<mesh::PieceId, mesh::LocalIndex>> uses;
   for (std::size_t i = 0; i < owned.content->tets.size(); ++i) {
     const auto& t = owned.content->tets[i];
     out.tets.push_back({id,
-                        shares.of_tet[i],
+                        assignment.of_tet[i],
                         owned.cavity.region,
                         {vertex_key(t[0]), vertex_key(t[1]), vertex_key(t[2]), vertex_key(t[3])}});
-    for (const mesh::LocalIndex v : t) uses.emplace_back(shares.of_tet[i], v);
+    for (const mesh::LocalIndex v : t) uses.emplace_back(assignment.of_tet[i], v);
   }
   geometry::sort_unique(uses);
   for (const auto& [piece, v] : uses) {
@@ -275,17 +275,19 @@ void pack_replaced(const OwnedCavity& owned, int round, std::int64_t first_added
     const CavityTriangle& t = triangles[i];
     out.triangles.push_back(
         {id,
-         shares.of_triangle[i],
+         assignment.of_triangle[i],
          t.face,
          {vertex_key(t.vertices[0]), vertex_key(t.vertices[1]), vertex_key(t.vertices[2])},
          t.patch});
   }
 }
 
-Delivery deliver_replaced(const parallel::Communicator& communicator,
-                          const std::vector<OwnedCavity>& cavities, const std::vector<Outcome>& outcomes,
-                          const std::vector<parallel::Rank>& owner_of_piece, int round) {
-  Delivery out;
+/// Brings replaced cavities to the pieces that take their tetrahedra. Collective.
+WireParts deliver_replaced(const mesh::DistributedMesh& mesh, const std::vector<OwnedCavity>& cavities,
+                           const std::vector<Outcome>& outcomes, int round) {
+  const std::vector<parallel::Rank> here(mesh.pieces.size(), mesh.communicator.rank());
+  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
+  WireParts out;
   std::int64_t first_new = 0;
   std::size_t next = 0;
   for (const Outcome& outcome : outcomes) {  // ascending, as the cavities of this rank
@@ -295,39 +297,23 @@ Delivery deliver_replaced(const parallel::Communicator& communicator,
     const OwnedCavity& owned = cavities[next++];
     if (owned.content) pack_replaced(owned, round, first, out);
   }
-  const auto receiver_rank = [&](const auto& item) { return owner_of_piece[item.piece]; };
-  Delivery in;
-  in.tets = mesh::deliver(communicator, std::move(out.tets), receiver_rank);
-  in.vertices = mesh::deliver(communicator, std::move(out.vertices), receiver_rank);
-  in.triangles = mesh::deliver(communicator, std::move(out.triangles), receiver_rank);
+  WireParts in = deliver(mesh, std::move(out), [&](const auto& item) { return owner_of_piece[item.piece]; });
   std::stable_sort(in.tets.begin(), in.tets.end(), [](const WireTet& a, const WireTet& b) {
     return a.piece != b.piece ? a.piece < b.piece : a.cavity < b.cavity;
-  });
-  sort_by(in.vertices, [](const WireVertex& a, const WireVertex& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertex_key < b.vertex_key;
-  });
-  sort_by(in.triangles, [](const WireTriangle& a, const WireTriangle& b) {
-    return a.cavity != b.cavity ? a.cavity < b.cavity : a.vertices < b.vertices;
   });
   return in;
 }
 
 std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contribution& mine,
-                                       const std::vector<Outcome>& outcomes, const Delivery& delivery) {
-  const auto outcome_of = [&](CavityId id) {
-    return std::lower_bound(outcomes.begin(), outcomes.end(), id,
-                            [](const Outcome& o, CavityId c) { return o.cavity < c; });
+                                       const std::vector<Outcome>& outcomes, const WireParts& delivery) {
+  const auto gone = [&](CavityId id) {
+    const auto is_before = [](const Outcome& o, CavityId c) { return o.cavity < c; };
+    return id != no_cavity && std::lower_bound(outcomes.begin(), outcomes.end(), id, is_before)->replaced;
   };
-  const auto gone = [&](CavityId id) { return id != no_cavity && outcome_of(id)->replaced; };
   std::vector<std::vector<WireTriangle>> triangles(mesh.pieces.size());
-  const auto local_piece = [&](mesh::PieceId id) {
-    const auto at = std::lower_bound(mesh.pieces.begin(), mesh.pieces.end(), id,
-                                     [](const mesh::Piece& piece, mesh::PieceId p) { return piece.id < p; });
-    return static_cast<std::size_t>(at - mesh.pieces.begin());
-  };
   std::vector<std::vector<WireVertex>> vertices(mesh.pieces.size());
-  for (const WireVertex& v : delivery.vertices) vertices[local_piece(v.piece)].push_back(v);
-  for (const WireTriangle& t : delivery.triangles) triangles[local_piece(t.piece)].push_back(t);
+  for (const WireVertex& v : delivery.vertices) vertices[mesh::position_of(mesh, v.piece)].push_back(v);
+  for (const WireTriangle& t : delivery.triangles) triangles[mesh::position_of(mesh, t.piece)].push_back(t);
   std::vector<PieceChange> changes(mesh.pieces.size());
   std::size_t first = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
@@ -362,33 +348,29 @@ std::vector<PieceChange> update_pieces(mesh::DistributedMesh& mesh, const Contri
 
 CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                              const ReplacementRequest& request) {
-  const parallel::Communicator communicator = mesh.communicator;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const int round = mesh.cavity_rounds++;
   if (round >= mesh::most_key_rounds) throw std::logic_error("replace_cavities: too many rounds");
   CavityClaims uncontested = request.claims;
-  spread_claims(shared, uncontested);
+  shared.combine(uncontested, [](CavityId a, CavityId b) { return std::max(a, b); });  // the same for all
   withdraw_contested_claims(mesh, shared, uncontested);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (int ring = 0; ring < request.extent.rings; ++ring)
       widen(mesh.pieces[p], request.extent.along_surface, uncontested[p]);
   }
   Contribution mine = collect(mesh, uncontested, round);
-  const CavityTable table = list_cavities(communicator, mine);
-  std::vector<OwnedCavity> cavities = assemble(communicator, table, mine);
+  std::vector<OwnedCavity> cavities = assemble(mesh, std::move(mine.parts));
   std::vector<Outcome> outcomes;
-  parallel::agree(communicator, [&] {
+  parallel::agree(mesh.communicator, [&] {
     for (OwnedCavity& owned : cavities) {
       owned.content = request.replace(owned.cavity);
-      if (owned.content) owned.shares = share_out(owned.cavity, owned.donor, *owned.content);
+      if (owned.content) owned.assignment = assign_to_pieces(owned.cavity, owned.donor, *owned.content);
       const auto added = owned.content ? static_cast<std::int32_t>(owned.content->added.size()) : 0;
       outcomes.push_back({owned.cavity.id, owned.content ? 1 : 0, added});
     }
   });
-  outcomes = communicator.gather_sorted(outcomes, &Outcome::cavity);
-  std::vector<std::int32_t> here(mesh.pieces.size(), communicator.rank());
-  const std::vector<parallel::Rank> owner_of_piece = mesh::gather_by_piece(mesh, here);
-  const Delivery delivery = deliver_replaced(communicator, cavities, outcomes, owner_of_piece, round);
+  outcomes = mesh.communicator.gather_sorted(outcomes, &Outcome::cavity);
+  const WireParts delivery = deliver_replaced(mesh, cavities, outcomes, round);
   CavityRound result;
   result.changes = update_pieces(mesh, mine, outcomes, delivery);
   result.cavities = static_cast<std::int64_t>(outcomes.size());

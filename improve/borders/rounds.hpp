@@ -1,12 +1,10 @@
-/// Cavities that reach over several pieces: tetrahedra around chosen vertices are taken out, brought together
-/// on one rank, replaced by others, and given back to the pieces. Pieces change their outline by this;
-/// the mesh stays one mesh, whatever the rank count.
+/// Cavities across pieces. Tetrahedra around chosen vertices are taken out of their pieces, collected on one
+/// rank, replaced, and returned to the pieces. Pieces change their outlines by this. The result does not
+/// depend on the number of ranks.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
-#include "parallel/communication/communicator.hpp"
-#include "parallel/observation/timers.hpp"
 
 #include <array>
 #include <cstdint>
@@ -16,89 +14,87 @@
 
 namespace aeroloom::cavities {
 
-/// Cavities are named by numbers that follow from the mesh alone.
+/// A cavity's number; it depends only on the mesh.
 using CavityId = std::uint64_t;
 inline constexpr CavityId no_cavity = 0;
 
-/// A cavity per cell of a grid whose cells are `width` times as wide as `size`, up to eight times that: sizes
-/// may grow a lot within a cell. Another `shift` gives a grid whose borders lie elsewhere.
+/// The cavity at a place: the cell of a grid. Cells are between `width` and 8 `width` times as wide as
+/// `size`, because sizes may vary a lot within a cell. Another `shift` moves the borders of the grid.
 CavityId cavity_at(geometry::Vec3 p, double size, double width, int shift);
 
-/// A triangle of the surface mesh that bounds a cavity.
+/// A surface triangle on the boundary of a cavity.
 struct CavityTriangle {
   std::array<mesh::LocalIndex, 3> vertices;
   std::int32_t face, patch;
 };
 
-/// One cavity before it is replaced. Vertices are numbered within the cavity; those that pieces share come
-/// by shared-vertex key, the others by piece, so the order is the same for any rank count.
+/// A cavity before its replacement. Vertices have local numbers: shared ones are ordered by key, others by
+/// piece. So their order does not depend on ranks.
 struct Cavity {
   CavityId id = no_cavity;
   mesh::RegionId region = 0;
   std::vector<geometry::Vec3> points;
   std::vector<mesh::CadDimension> dimension;  ///< per point: classification
-  std::vector<std::int32_t> entity;           ///< per point
+  std::vector<std::int32_t> entity;           ///< per point: CAD entity
   std::vector<std::array<mesh::LocalIndex, 4>> tets;
-  std::vector<CavityTriangle> triangles;  ///< of the surface mesh, on the cavity's boundary
+  std::vector<CavityTriangle> triangles;  ///< of the surface mesh
 };
 
-/// A vertex that comes with the new content; inside the region unless it says otherwise.
+/// A new vertex of a replaced cavity; inside the region by default.
 struct AddedVertex {
   geometry::Vec3 point;
   mesh::CadDimension dimension = mesh::CadDimension::region;
-  std::int32_t entity = 0;  ///< of a vertex on the CAD
+  std::int32_t entity = 0;  ///< CAD entity of a vertex on the boundary
 };
 
-/// Tetrahedra that take the place of a cavity's. They cover the same region with the same boundary faces,
-/// but for those on the surface mesh where `triangles` says so: the faces they leave open there.
+/// The replacement of a cavity. The new tetrahedra fill the same space and have the same boundary faces. Only
+/// faces on the surface mesh may differ; `triangles` then lists the new ones.
 struct CavityContent {
-  std::vector<AddedVertex> added;  ///< numbered after those of the cavity
+  std::vector<AddedVertex> added;  ///< numbered after the vertices of the cavity
   std::vector<std::array<mesh::LocalIndex, 4>> tets;
-  std::optional<std::vector<CavityTriangle>> triangles;  ///< in the place of the cavity's
+  std::optional<std::vector<CavityTriangle>> triangles;  ///< if present, replace those of the cavity
 
   const std::vector<CavityTriangle>& triangles_of(const Cavity& cavity) const {
     return triangles ? *triangles : cavity.triangles;
   }
 };
 
-/// Refills a cavity; nothing: it stays as it was. Must be a function of its argument alone.
+/// Computes the replacement of a cavity, or nothing to keep it. The result must depend only on the argument.
 using ReplaceCavity = std::function<std::optional<CavityContent>(const Cavity&)>;
 
-/// Per local piece, per vertex: the cavity that wants the star of this vertex; no_cavity for none. What one
-/// piece claims a shared vertex, the others do too; where they differ the higher number counts.
+/// Per local piece and vertex: the cavity that claims the star of the vertex, or no_cavity. If pieces claim a
+/// shared vertex for different cavities, the highest number counts.
 using CavityClaims = std::vector<std::vector<CavityId>>;
 
-/// The effect of a round on a piece: the cells that are left kept their order, and new ones stand after
-/// them.
+/// How a round changed a piece. Remaining cells keep their order; new cells follow them.
 struct PieceChange {
-  std::vector<mesh::LocalIndex> left;  ///< cells that went, ascending, as they were numbered before
-  mesh::LocalIndex first_new = 0;      ///< the first cell that came
+  std::vector<mesh::LocalIndex> left;  ///< cells removed, by old number, ascending
+  mesh::LocalIndex first_new = 0;      ///< index of the first new cell
 };
 
 struct CavityRound {
-  std::int64_t cavities = 0, replaced = 0;  ///< of the whole mesh, the same on every rank
-  std::vector<PieceChange> changes;         ///< per local piece
+  std::int64_t cavities = 0, replaced = 0;  ///< of the whole mesh, equal on all ranks
+  std::vector<PieceChange> changes;         ///< by local piece
 };
 
-/// How far cavities extend beyond the stars of claimed vertices: how often they take the stars of their
-/// vertices too, where these lie inside a piece and near one cavity only; those on the surface where asked
-/// for.
+/// `rings`: how many times a cavity grows by one layer of elements beyond the claimed stars. It grows only at
+/// vertices inside a piece and next to no other cavity. `along_surface`: also at vertices on the surface.
 struct CavityExtent {
   int rings = 1;
   bool along_surface = false;
 };
 
-/// The cavities that a round takes out of the pieces, and how they are replaced.
+/// What a round replaces, and how.
 struct ReplacementRequest {
   const CavityClaims& claims;
   CavityExtent extent;
   const ReplaceCavity& replace;
 };
 
-/// One round. A cavity lies in one region. A vertex's star is taken when no neighbour is claimed by another
-/// cavity, so cavities do not touch in a tetrahedron; the others have to wait for another round with other
-/// claims. Cavities are assigned to ranks by size. At most 255 rounds on one mesh. `shared` are those of the
-/// mesh as it comes in. Collective. Throws CollectiveError.
+/// Does one round. A cavity lies in one region. A claimed star is taken only if no neighbour of its vertex is
+/// claimed by another cavity. So cavities share no tetrahedra; other claims wait for a later round. Cavities
+/// are assigned to ranks by size. At most 255 rounds per mesh. `shared` must belong to the mesh as it comes
+/// in. Collective. Throws CollectiveError.
 CavityRound replace_cavities(mesh::DistributedMesh& mesh, const mesh::SharedVertices& shared,
                              const ReplacementRequest& request);
 

@@ -11,7 +11,7 @@ constexpr double least = 0.3,
                  most = 3;  // of the size, the former also of the mean edge before; docs/improvement.md
 
 constexpr double decent_ratio = 0.5;  // below this a mean ratio must not fall; chosen, not measured
-constexpr double flattening = 0.3;    // of the ratio before, where a severe case beside a strip gets better
+constexpr double flattening = 0.3;    // of the ratio before, where a severe case in a narrow region improves
 constexpr double full_effort_flattening = 0.5;  // where any does, with full effort
 
 double ratio_of(const std::array<Vec3, 4>& p) {
@@ -77,7 +77,7 @@ bool ChangeLimits::allow_moved_sizes(const TetMesh& mesh, LocalIndex vertex, std
   return for_neighbours([&](Vec3 other) { return allow_edge(before, p, other); });
 }
 
-bool ChangeLimits::is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const {
+bool ChangeLimits::touches_narrow_region(const TetMesh& mesh, std::span<const LocalIndex> tets) const {
   return _local_target && std::any_of(tets.begin(), tets.end(), [&](LocalIndex t) {
            return _local_target->is_limited(mesh.corners(t));
          });
@@ -88,7 +88,7 @@ bool ChangeLimits::allow(const TetMesh& mesh, const CavityReplacement& cavity) c
   double poorest = decent_ratio;
   for (const LocalIndex t : cavity.old_tets) poorest = std::min(poorest, ratio_of(mesh.points(t)));
   if (_local_target && (_effort == Effort::full || _local_target->is_severe(cavity.before)) &&
-      is_beside_strip(mesh, cavity.old_tets)) {
+      touches_narrow_region(mesh, cavity.old_tets)) {
     poorest *= _local_target->is_severe(cavity.before) ? flattening : full_effort_flattening;
   }
   return std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(), [&](const Corners& c) {
@@ -100,14 +100,14 @@ bool ChangeLimits::allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<
                               Vec3 origin) const {
   if (!allow_moved_sizes(mesh, vertex, star, origin)) return false;
   double before = decent_ratio, after = decent_ratio;
-  const bool beside_strip = is_beside_strip(mesh, star);
+  const bool narrow = touches_narrow_region(mesh, star);
   bool severe = false;
   for (const LocalIndex t : star) {
     std::array<Vec3, 4> p = mesh.points(t);
     after = std::min(after, ratio_of(p));
     p[mesh.local_vertex(t, vertex)] = origin;
     before = std::min(before, ratio_of(p));
-    severe = severe || (beside_strip && _local_target->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
+    severe = severe || (narrow && _local_target->is_severe(mesh.measure()(p[0], p[1], p[2], p[3])));
   }
   return after >= (severe ? flattening * before : before);
 }

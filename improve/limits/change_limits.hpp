@@ -1,9 +1,9 @@
-/// Limits to a change beside the quality that it is made for: sizes and decent shapes.
+/// Limits on local changes: edge lengths and shapes of the new tetrahedra.
 #pragma once
 
 #include "improve/improve_options.hpp"
 #include "improve/limits/local_target.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "sizing/field/size_field.hpp"
 
 #include <limits>
@@ -11,26 +11,26 @@
 
 namespace aeroloom::improve {
 
-/// A change may make an edge longer than all that were there before it only up to 3 times the size in its
-/// middle, and shorter than all only down to 0.3 times that size or, where edges are shorter because the CAD
-/// is, 0.3 times their mean. Where no size field is known, every length will do.
-/// Nor may it leave a tetrahedron with a mean ratio below 0.5 where none as poor was; down to 0.3 times the
-/// poorest where severe cases beside strips (local_target.hpp) get better: large angles over a triangle that
-/// is longer than wide need a flat tetrahedron. With full effort, beside strips by as much as the worst angle
-/// gains.
+/// Limits on edge length: a new longest edge may be at most 3 h, a new shortest edge at least 0.3 h, with h
+/// the size at its midpoint. If the CAD forces shorter edges, 0.3 times the mean of the old edges replaces
+/// 0.3 h. Without a size field every length is allowed.
+///
+/// Limits on shape: no new mean ratio may be below 0.5 unless an old one was as low. In narrow regions
+/// (local_target.hpp) a severe case may lower it to 0.3 times the old one, since large angles over a
+/// stretched triangle need a flat tetrahedron. With full effort every case there may lower it, to 0.5 times.
 class ChangeLimits {
 public:
   explicit ChangeLimits(const sizing::SizeField* field = nullptr, const LocalTarget* local_target = nullptr,
                         Effort effort = Effort::reduced)
       : _field(field), _local_target(local_target), _effort(effort) {}
 
-  /// Whether the new tetrahedra of a cavity keep to that.
+  /// Whether the new tetrahedra of a cavity keep to the limits.
   bool allow(const TetMesh& mesh, const CavityReplacement& cavity) const;
-  /// Whether the tetrahedra around a vertex do once it has moved from `origin`.
+  /// Whether the tetrahedra around a vertex do, after its move from `origin`.
   bool allow_move(const TetMesh& mesh, LocalIndex vertex, std::span<const LocalIndex> star,
                   Vec3 origin) const;
 
-  /// The part of allow() that is about lengths of edges.
+  /// The limits on edge length alone.
   bool allow_sizes(const TetMesh& mesh, const CavityReplacement& cavity) const;
 
 private:
@@ -44,7 +44,7 @@ private:
   };
   bool allow_edge(const Lengths& before, Vec3 a, Vec3 b) const;
 
-  bool is_beside_strip(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
+  bool touches_narrow_region(const TetMesh& mesh, std::span<const LocalIndex> tets) const;
 
   const sizing::SizeField* _field;
   const LocalTarget* _local_target;

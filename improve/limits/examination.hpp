@@ -1,4 +1,4 @@
-/// How far tetrahedra are from the target: quality, least angle, and how many miss it.
+/// Scans of tetrahedra: how many are bad, and the smallest dihedral angle.
 #pragma once
 
 #include "improve/improve_report.hpp"
@@ -9,7 +9,7 @@
 
 namespace aeroloom::improve {
 
-/// Adds tetrahedra to a state, their qualities known.
+/// Collects the state of tetrahedra whose qualities are known.
 class Examination {
 public:
   explicit Examination(const mesh::TetQuality& measure) : _target(measure.target()) {}
@@ -19,13 +19,13 @@ public:
 
 private:
   double _target;
-  /// The quality is at most the sine of the smallest angle: above this nothing can lower the least angle.
+  /// A quality is at most the sine of the smallest angle. Tetrahedra above this bound cannot lower it.
   double _bound = 2;
 };
 
 std::array<geometry::Vec3, 4> points_of(const mesh::Piece& piece, mesh::LocalIndex cell);
 
-/// The quality of a piece's cell.
+/// The quality of a tetrahedron of a piece.
 double quality_of(const mesh::Piece& piece, mesh::LocalIndex cell, const mesh::TetQuality& measure);
 
 BadState examine(const mesh::Piece& piece, const mesh::TetQuality& measure);

@@ -10,11 +10,11 @@ namespace {
 using geometry::Vec3;
 using mesh::LocalIndex;
 
-/// Of the target: a lower one must hold where a strip counts as one. Triangles up to five times as long
-/// as wide are improved like others.
+/// Of the target: a surface triangle is narrow if it lowers the target below this. Triangles up to five times
+/// as long as wide are improved like others.
 constexpr double narrow = 0.9;
-/// Times the worst before: what a severe case must get to where it leaves more to improve than there was.
-/// Chosen, not measured.
+/// Over the worst quality before: a severe case must reach this if it leaves a larger total deficit. Chosen,
+/// not measured.
 constexpr double far_better = 1.5;
 
 /// The square of what a tetrahedron lacks of its local target, as a fraction of it.

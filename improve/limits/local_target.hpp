@@ -1,30 +1,29 @@
-/// The quality that tetrahedra should have, lower where the surface is finer across than along: beside strips
-/// between two CAD curves that are narrower than the elements along them.
+/// The quality that a tetrahedron should reach. It is lower in narrow regions: where two CAD curves are
+/// closer than the elements along them.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/data/piece.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 namespace aeroloom::improve {
 
-/// A triangle between curves stays w wide and l long whatever is done. A tetrahedron over it whose apex is h
-/// away has angles of about w / h at the edges to the apex, and leaves faces of height h on edges of length l
-/// to its neighbours, whose angles are about h / l: the best worst of both is sqrt(w / l). What touches such
-/// a triangle with fewer vertices comes in geometric steps between that and the target.
+/// A surface triangle between two curves keeps its width w and length l. A tetrahedron on it with height h
+/// has dihedral angles of about w / h, and leaves about h / l to its neighbours. So the worst quality is
+/// about sqrt(w / l) at best, which is the local target. For tetrahedra with fewer vertices on the triangle,
+/// it rises to the target in geometric steps.
 class LocalTarget {
 public:
-  /// The target holds everywhere.
+  /// Uses the same target everywhere.
   explicit LocalTarget(const mesh::TetQuality& measure) : _target(measure.target()) {}
-  /// Reads the boundary triangles of a piece.
+  /// Takes local targets from the boundary triangles of a piece.
   LocalTarget(const mesh::Piece& piece, const mesh::TetQuality& measure);
 
-  /// The quality, at most the target, below which a tetrahedron with these vertices is worth working on.
-  /// Vertices that the piece did not have count as free ones.
+  /// The quality, at most the target, below which a tetrahedron with these vertices is worked on. Vertices
+  /// added after construction count as unconstrained.
   template <class Vertices>
   double operator()(const Vertices& corners) const {
     if (_least.empty()) return _target;
@@ -38,17 +37,16 @@ public:
     }
     return count == 0 ? _target : between(least, count);
   }
-  /// Whether that is less than the target.
+  /// Whether it is below the target.
   template <class Vertices>
   bool is_limited(const Vertices& corners) const {
     return (*this)(corners) < _target;
   }
-  /// Whether a quality is so low that everything is worth a gain.
+  /// Whether a quality is so low that any gain is worth its cost.
   bool is_severe(double quality) const { return quality < severe * _target; }
-  /// Whether a change that lifts the worst is worth what it leaves. Away from strips always. Beside them what
-  /// lifts one tetrahedron easily leaves ten below their targets, all worked on in vain: the sum of squares
-  /// of what is missing, as fractions of the local target, must fall, or a severe case end or get far
-  /// better.
+  /// Whether a change that raises the worst quality may be made. Outside narrow regions always. Inside, one
+  /// tetrahedron is easily improved at the cost of ten others. There the sum of squared relative deficits
+  /// must fall, or a severe case must end or improve by half.
   bool accepts(const TetMesh& mesh, const CavityReplacement& cavity) const;
 
 private:
@@ -56,7 +54,7 @@ private:
   double between(double least, int count) const;
 
   double _target;
-  std::vector<float> _least;  ///< of each vertex, over its triangles; empty where there is nothing to say
+  std::vector<float> _least;  ///< per vertex, the minimum over its triangles; empty if nothing is lowered
 };
 
 }  // namespace aeroloom::improve

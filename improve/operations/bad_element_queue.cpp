@@ -13,10 +13,10 @@ constexpr auto later = [](const auto& a, const auto& b) {
 }  // namespace
 
 BadElementQueue::BadElementQueue(const TetMesh& mesh, const LocalTarget& local_target,
-                                 int last_level_beside_strips)
+                                 int last_level_in_narrow_regions)
     : _mesh(mesh),
       _local_target(local_target),
-      _last_level_beside_strips(last_level_beside_strips),
+      _last_level_in_narrow_regions(last_level_in_narrow_regions),
       _slots(mesh.slot_count()),
       _changed(mesh.vertex_count(), start) {}
 
@@ -52,9 +52,9 @@ void BadElementQueue::push(LocalIndex t) {
 bool BadElementQueue::is_worth_trying(LocalIndex t, int level) const {
   const SlotHistory& slot = _slots[t];
   if (slot.attempt == 0) return true;
-  // Beside a strip every try moves what the next one finds, little comes of it, and no other operation
+  // In narrow regions a try rarely succeeds, but changes what the next one finds, and no other operation
   // follows.
-  if (slot.attempt_level >= _last_level_beside_strips && skips_costly(t)) return false;
+  if (slot.attempt_level >= _last_level_in_narrow_regions && skips_costly(t)) return false;
   if (slot.attempt_level < level) return true;
   const Corners& corners = _mesh.corners(t);
   return std::any_of(corners.begin(), corners.end(),

@@ -1,16 +1,15 @@
-/// How much the boundary may change where tetrahedra on it are improved: it stays a smooth image of the CAD
-/// face.
+/// Limits on changes of the boundary, so that it stays a smooth image of its CAD face.
 #pragma once
 
 #include "geometry/half_edges.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <span>
 
 namespace aeroloom::improve {
 
-/// Of a boundary triangle counter-clockwise seen from outside.
+/// Corners of a boundary triangle, counter-clockwise seen from outside.
 using geometry::TriangleCorners;
 using TrianglePoints = std::array<Vec3, 3>;
 
@@ -18,16 +17,15 @@ inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corn
   return {mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
 }
 
-/// Of edges of the boundary, over the longest one before. Chosen, not measured.
+/// Largest ratio of a new boundary edge to the longest old one. Chosen, not measured.
 inline constexpr double most_growth = 1.5;
 
-/// Whether new triangles may take the place of old ones: no normal turns by more than 20 degrees against any
-/// old one, no edge is longer than 1.5 times the longest one before, and the worst shape is at least as good
-/// as before or 0.5 (of a mean ratio). All corners stay on the CAD face, so the chordal error stays that of
-/// edges of such lengths.
+/// Whether new boundary triangles may replace old ones. No normal turns by more than 20 degrees, and no edge
+/// is longer than 1.5 times the longest old one. The worst mean ratio is at least the old one or 0.5. All
+/// corners stay on the CAD face, so edge lengths bound the chordal error.
 bool is_gentle_change(std::span<const TrianglePoints> before, std::span<const TrianglePoints> after);
 
-/// Edges of the boundary, also of its parts that must not change.
+/// Finds edges of the boundary, its fixed parts included.
 class BoundaryEdges {
 public:
   /// Whether there is one between two vertices.

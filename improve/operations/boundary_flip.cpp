@@ -1,7 +1,6 @@
 #include "improve/operations/boundary_flip.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace aeroloom::improve {
 
@@ -24,8 +23,7 @@ bool BoundaryFlip::keeps_boundary(TetMesh& mesh) {
 
 bool BoundaryFlip::propose(TetMesh& mesh, LocalIndex t, int edge, double floor, CavityReplacement& cavity) {
   if (!mesh.collect_fan(t, edge, RingFilling::largest_ring - 1, _fan)) return false;
-  double before = std::numeric_limits<double>::max();
-  for (const LocalIndex tet : _fan.tets) before = std::min(before, mesh.quality(tet));
+  const double before = mesh.worst_of(_fan.tets);
   floor = std::max(floor, before);
   const double after = _filling.solve(mesh, _fan.start, _fan.end, _fan.ring, floor);
   if (after <= floor || !keeps_boundary(mesh)) return false;

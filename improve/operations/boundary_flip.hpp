@@ -1,17 +1,17 @@
-/// Flip of an edge between two boundary triangles together with the tetrahedra around it: edge removal on the
-/// boundary. With a single tetrahedron around the edge, flat on the boundary, the flip takes it away.
+/// Flip of a boundary edge together with the tetrahedra around it, as edge removal on the boundary. A single
+/// flat tetrahedron at the edge is removed by the flip.
 #pragma once
 
 #include "improve/operations/boundary_change.hpp"
 #include "improve/operations/ring_filling.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 namespace aeroloom::improve {
 
 class BoundaryFlip {
 public:
-  /// Proposes the flip of edge i of tetrahedron t, both of whose triangles lie on one CAD face. False when
-  /// nothing beats both the cavity as it is and `floor`, or the boundary would change too much.
+  /// Proposes to flip edge i of tetrahedron t, whose two boundary triangles lie on one CAD face. False if
+  /// nothing beats both the cavity and `floor`, or the boundary would change too much.
   bool propose(TetMesh& mesh, LocalIndex t, int edge, double floor, CavityReplacement& cavity);
 
 private:

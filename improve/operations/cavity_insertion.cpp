@@ -11,8 +11,8 @@ constexpr int rounds = 3;            // of growing the cavity and placing the po
 constexpr std::size_t patience = 6;  // tetrahedra taken in without a gain; chosen, not measured
 constexpr double flat = 0.1;         // of the target: tetrahedra of less than about a degree
 constexpr double least_gain = 1e-3;  // of quality: a smaller gain does not count as one
-// Of the target: what a cavity that stays below it has to gain. Without a floor, one that adds tetrahedra
-// is followed by others without end.
+// Of the target: the least gain of a cavity that stays below the target. Without it, each new vertex would be
+// followed by another.
 constexpr double gain_when_moved = 0.05;
 constexpr double gain_when_added = 0.12;
 
@@ -53,15 +53,14 @@ void CavityInsertion::collect_walls(const TetMesh& mesh) {
   for (const LocalIndex t : _tets) add_walls(mesh, t);
 }
 
-void CavityInsertion::swallow(const TetMesh& mesh, LocalIndex t) {
+void CavityInsertion::absorb(const TetMesh& mesh, LocalIndex t) {
   std::erase_if(_walls, [&](const Wall& w) { return mesh.twin(w.side) >= 0 && mesh.twin(w.side) >> 2 == t; });
   _tets.push_back(t);
   add_walls(mesh, t);
 }
 
-// The neighbour over the worst wall that has one joins, whether that helps at once or not: where a wall
-// runs through the point, only the tetrahedra on both sides of it together help. The best state on the way is
-// kept.
+// Adds the neighbour across the worst face, whether that helps at once or not. If a face runs through the
+// point, only both its tetrahedra together help. The best state on the way is kept.
 void CavityInsertion::grow(const TetMesh& mesh) {
   std::size_t best_size = _tets.size();
   double best = -std::numeric_limits<double>::max();
@@ -81,7 +80,7 @@ void CavityInsertion::grow(const TetMesh& mesh) {
         _tets.size() >= best_size + patience) {
       break;
     }
-    swallow(mesh, mesh.twin(worst_open->side) >> 2);
+    absorb(mesh, mesh.twin(worst_open->side) >> 2);
   }
   _tets.resize(best_size);
   collect_walls(mesh);
@@ -117,8 +116,7 @@ bool CavityInsertion::propose(TetMesh& mesh, LocalIndex apex, CavityReplacement&
     after = placed;
     if (!gained) break;
   }
-  double before = std::numeric_limits<double>::max();
-  for (const LocalIndex t : _tets) before = std::min(before, mesh.quality(t));
+  const double before = mesh.worst_of(_tets);
   const double wanted = apex == mesh.vertex_count() ? gain_when_added : gain_when_moved;
   if (after < std::min(before + wanted * mesh.measure().target(), mesh.measure().target())) return false;
   if (after < before + least_gain || !keeps_fixed_vertices(mesh)) return false;
@@ -145,7 +143,7 @@ bool CavityInsertion::propose_new_vertex(TetMesh& mesh, LocalIndex t, int start,
   return start == 0 && is_flat && start_at_neighbour(mesh, t) && propose(mesh, mesh.vertex_count(), cavity);
 }
 
-// From inside a tetrahedron that lies flat on the boundary every cone is flat.
+// Inside a tetrahedron that is flat on the boundary all cones are flat.
 bool CavityInsertion::start_at_neighbour(const TetMesh& mesh, LocalIndex t) {
   _tets.assign(1, t);
   bool on_boundary = false;

@@ -3,7 +3,6 @@
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace aeroloom::improve {
@@ -78,8 +77,7 @@ bool EdgeContraction::propose(TetMesh& mesh, LocalIndex from, LocalIndex to, dou
   if (mesh.is_shared(from) || is_on_curve(mesh.dimension(from))) return false;
   mesh.collect_star(from, _star);
   cavity.clear();
-  cavity.before = std::numeric_limits<double>::max();
-  for (const LocalIndex t : _star) cavity.before = std::min(cavity.before, mesh.quality(t));
+  cavity.before = mesh.worst_of(_star);
   floor = std::max(floor, cavity.before);
   cavity.after = 1;
   for (const LocalIndex t : _star) {

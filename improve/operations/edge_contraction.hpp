@@ -1,22 +1,22 @@
-/// Contraction of an edge: one of its vertices moves into the other, the tetrahedra at the edge vanish.
+/// Contraction of an edge: one vertex moves into the other, and the tetrahedra at the edge vanish.
 #pragma once
 
 #include "improve/operations/boundary_change.hpp"
 #include "improve/operations/operation.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <vector>
 
 namespace aeroloom::improve {
 
-/// Vertices inside the region vanish into any neighbour, vertices inside a CAD face into one along the
-/// boundary of this face. No edge becomes longer than 1.5 times the longest one at the vertex.
+/// A vertex inside the region contracts into any neighbour, one inside a CAD face along the boundary on that
+/// face. No edge gets longer than 1.5 times the longest one at the vertex.
 class EdgeContraction final : public LocalOperation {
 public:
-  /// Contracts the edge of the tetrahedron that gains most.
+  /// Contracts the edge of the tetrahedron that improves the mesh most.
   bool improve(OperationContext& context, LocalIndex t) override;
-  /// Proposes to move `from` into its neighbour `to`. False when nothing beats both the tetrahedra around
-  /// `from` as they are and `floor`, `from` must stay, or the boundary would change too much.
+  /// Proposes to contract `from` into its neighbour `to`. False if nothing beats both the star of `from` and
+  /// `floor`, `from` must stay, or the boundary would change too much.
   bool propose(TetMesh& mesh, LocalIndex from, LocalIndex to, double floor, CavityReplacement& cavity);
 
 private:

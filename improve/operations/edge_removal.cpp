@@ -1,15 +1,13 @@
 #include "improve/operations/edge_removal.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace aeroloom::improve {
 
 bool EdgeRemoval::propose(const TetMesh& mesh, LocalIndex t, int edge, double floor,
                           CavityReplacement& cavity) {
   if (!mesh.collect_edge_ring(t, edge, largest_ring, _edge_ring) || _edge_ring.ring.size() < 3) return false;
-  double before = std::numeric_limits<double>::max();
-  for (const LocalIndex tet : _edge_ring.tets) before = std::min(before, mesh.quality(tet));
+  const double before = mesh.worst_of(_edge_ring.tets);
   floor = std::max(floor, before);
   const double after = _filling.solve(mesh, _edge_ring.start, _edge_ring.end, _edge_ring.ring, floor);
   if (after <= floor) return false;

@@ -1,20 +1,20 @@
-/// The sum of the inverse mean ratios around a vertex, as a function of its place: what smoothing for the
-/// average lowers.
+/// The sum of inverse mean ratios around a vertex, as a function of its position: the objective of smoothing
+/// for average quality.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <limits>
 #include <vector>
 
 namespace aeroloom::improve {
 
-/// The tetrahedra around a vertex without the vertex itself. The sum of their inverse mean ratios
-/// (mesh::mean_ratio) counts the worst most and is convex near its minimum (Freitag and Knupp, Int. J. Numer.
-/// Meth. Engng 53, 2002, doi:10.1002/nme.341). All is negated: what is smaller is worse.
+/// The tetrahedra around a vertex, without the vertex. The sum of their inverse mean ratios
+/// (mesh::mean_ratio) weighs the worst most and is convex near its minimum (Freitag and Knupp, Int. J. Numer.
+/// Meth. Engng 53, 2002, doi:10.1002/nme.341). Values are negated: smaller is worse.
 class InverseRatios {
 public:
-  /// The sum where a tetrahedron is not positive: worse than any other.
+  /// The value if a tetrahedron is not positive; worse than all others.
   static constexpr double invalid = -std::numeric_limits<double>::max();
 
   void clear() { _cones.clear(); }
@@ -22,22 +22,22 @@ public:
   void add(Vec3 a, Vec3 b, Vec3 c);
   std::size_t size() const { return _cones.size(); }
 
-  /// With the vertex at p.
+  /// The negated sum with the vertex at p.
   double operator()(Vec3 p) const;
-  /// The sum with its gradient; invalid ones are left out of the latter.
+  /// The same with its gradient, which leaves out invalid tetrahedra.
   double with_gradient(Vec3 p, Vec3& gradient) const;
 
 private:
   struct Cone {
-    Vec3 a, sum;     ///< a corner of the face opposite to the vertex, and the sum of the three
-    Vec3 normal;     ///< of that face, twice its area long, towards the vertex
-    double squares;  ///< of the face's edges and of its corners' places relative to a, summed
+    Vec3 a, sum;     ///< a corner of the face opposite the vertex, and the sum of its corners
+    Vec3 normal;     ///< of that face, with twice its area as length, towards the vertex
+    double squares;  ///< squared edges of the face and squared corners relative to a, summed
   };
   std::vector<Cone> _cones;
 };
 
-/// Where a function that is to rise is highest along a line, from its slope at the start and its rise after
-/// `step`: that parabola's peak, at most twice the step; the step itself where the function bends upwards.
+/// The maximum along a line of a function with the given slope at 0 and the given rise after `step`. It is
+/// the peak of the parabola, at most at twice the step; the step itself if the parabola opens upwards.
 struct Peak {
   double step, rise;
 };

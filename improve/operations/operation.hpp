@@ -1,4 +1,4 @@
-/// An operation: one way to improve a tetrahedron. And what all operations work on.
+/// The interface of an operation, which improves a tetrahedron in one way, and the context it works in.
 #pragma once
 
 #include "cad/model/evaluation/point_locator.hpp"
@@ -7,7 +7,7 @@
 #include "improve/limits/local_target.hpp"
 #include "improve/operations/bad_element_queue.hpp"
 #include "improve/operations/over_constrained_count.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -15,17 +15,17 @@
 
 namespace aeroloom::improve {
 
-/// Changes that operations made.
+/// Counts of changes made by operations.
 struct OperationCounts {
-  std::int64_t smoothed = 0;  ///< vertices moved inside
+  std::int64_t smoothed = 0;  ///< interior vertices moved
   std::int64_t slid = 0;      ///< vertices moved along CAD faces and curves
-  std::int64_t replaced = 0;  ///< cavities
+  std::int64_t replaced = 0;  ///< cavities replaced
 };
 
-/// The mesh that operations change, the rules they keep to, and the queue that hears of each change.
+/// The mesh that operations change, the limits on changes, and the queue that records each change.
 class OperationContext {
 public:
-  /// All must outlive it. With a locator, vertices of the boundary may slide on its model.
+  /// All arguments must outlive the object. With a locator, boundary vertices may slide on its CAD model.
   OperationContext(TetMesh& mesh, const LocalTarget& local_target, const ChangeLimits& limits, Effort effort,
                    cad::PointLocator* locator, BadElementQueue& queue)
       : _mesh(mesh),
@@ -43,19 +43,19 @@ public:
   /// The quality below which a tetrahedron is worked on.
   double target_of(LocalIndex t) const { return _queue.target_of(t); }
 
-  /// From now on no change may leave more tetrahedra with several faces on the boundary.
+  /// From now on, rejects changes that add over-constrained tetrahedra (over_constrained_count.hpp).
   void forbid_over_constrained() { _over_constrained.emplace(); }
 
-  /// Makes a change that is allowed: each new tetrahedron is positive and better than the worst old one, and
-  /// all limits hold. False: nothing has changed.
+  /// Makes a change if each new tetrahedron is positive and better than the worst old one, and all limits
+  /// hold. Otherwise returns false, and nothing has changed.
   bool apply(const CavityReplacement& change);
-  /// As apply, where a vertex of the new tetrahedra moves.
+  /// The same for a change that moves vertex v.
   bool apply_moving(const CavityReplacement& change, LocalIndex v, Vec3 position);
-  /// As apply, where the last vertex of the new tetrahedra is a new one in the region of `beside`.
+  /// The same for a change that adds a vertex. It has the highest number and lies in the region of `beside`.
   bool apply_adding(const CavityReplacement& change, Vec3 position, LocalIndex beside);
   /// Whether apply_adding would make the change.
   bool allows_adding(const CavityReplacement& change, Vec3 position, LocalIndex beside);
-  /// A vertex has moved. `star`: its tetrahedra; `t`, which is worked on, waits for the next sweep.
+  /// Records that a vertex with this star moved. Tetrahedron t waits for the next sweep.
   void note_moved(const std::vector<LocalIndex>& star, LocalIndex t) { _queue.note_moved(star, t); }
 
   OperationCounts counts;
@@ -69,21 +69,21 @@ private:
   Effort _effort;
   cad::PointLocator* _locator;
   BadElementQueue& _queue;
-  std::optional<OverConstrainedCount> _over_constrained;  ///< where their number must not rise
+  std::optional<OverConstrainedCount> _over_constrained;  ///< if their number must not rise
   std::vector<LocalIndex> _placed;
 };
 
-/// Improves one tetrahedron at a time, and keeps its memory from one to the next. All operations stand in
-/// one array (operations.cpp).
+/// An operation that improves one tetrahedron at a time and keeps its working memory. All are listed in
+/// operations.cpp.
 class LocalOperation {
 public:
   virtual ~LocalOperation() = default;
-  /// Changes the mesh around a tetrahedron below its target so that the worst quality there rises. False:
+  /// Changes the mesh around a tetrahedron below its target so that the worst quality there rises. False if
   /// nothing has changed.
   virtual bool improve(OperationContext& context, LocalIndex t) = 0;
 };
 
-/// Vertices on which an operation failed: each rests until something around it has changed.
+/// Vertices on which an operation failed. Each is skipped until something around it changes.
 class RestingVertices {
 public:
   bool contains(const BadElementQueue& queue, LocalIndex v) const {
@@ -96,7 +96,7 @@ public:
   }
 
 private:
-  std::vector<std::uint32_t> _failed;  ///< per vertex: when; 0: never
+  std::vector<std::uint32_t> _failed;  ///< per vertex: time of failure; 0: none
 };
 
 }  // namespace aeroloom::improve

@@ -65,7 +65,7 @@ int last_level() {
   return latest(any_sweep, costly);
 }
 
-int last_level_beside_strips() {
+int last_level_in_narrow_regions() {
   return latest(any_sweep, !costly);
 }
 

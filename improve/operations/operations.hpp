@@ -1,4 +1,4 @@
-/// The list of all operations, in the order in which they are tried.
+/// The list of all operations, in the order of use.
 #pragma once
 
 #include "improve/operations/operation.hpp"
@@ -9,23 +9,22 @@
 
 namespace aeroloom::improve {
 
-/// An operation, and where it is tried.
+/// An operation and when it is used.
 struct ListedOperation {
   std::string_view name;  ///< as in docs/improvement.md
-  int from_sweep;         ///< the first sweep that tries it
-  double below;           ///< tried where quality is below this fraction of the local target; 1: everywhere
-  bool is_costly;         ///< not tried beside strips with reduced effort, except on severe tetrahedra
+  int from_sweep;         ///< first sweep that uses it
+  double below;           ///< used below this fraction of the local target; 1: everywhere
+  bool is_costly;         ///< with reduced effort, skipped in narrow regions unless a tetrahedron is severe
   std::unique_ptr<LocalOperation> (*make)(const OperationContext& context);
 };
 
-/// The table in docs/improvement.md (Steps, Sweeps) is this array.
+/// The list; the table in docs/improvement.md (Steps, Sweeps) shows it.
 std::span<const ListedOperation> operations();
 
-/// The level of a sweep: the last sweep up to it that adds an operation. At the same level the same
-/// operations are tried.
+/// The level of a sweep: the last sweep up to it that adds an operation. Equal levels use equal operations.
 int level_of_sweep(int sweep);
-/// The highest level; of operations that are not costly alone, the highest beside strips.
+/// The highest level of all operations, and of those used in narrow regions.
 int last_level();
-int last_level_beside_strips();
+int last_level_in_narrow_regions();
 
 }  // namespace aeroloom::improve

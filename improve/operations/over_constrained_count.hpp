@@ -1,24 +1,24 @@
-/// Counting over-constrained tetrahedra: those with several faces on the boundary.
+/// Counts of over-constrained tetrahedra: those with several faces on the boundary.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <array>
 #include <vector>
 
 namespace aeroloom::improve {
 
-/// How many faces of a tetrahedron are on the boundary.
+/// The number of faces of a tetrahedron on the boundary.
 int count_boundary_faces(const TetMesh& mesh, LocalIndex t);
 
-/// How changes that leave the boundary as it is alter the number of over-constrained tetrahedra.
+/// Counts over-constrained tetrahedra before and after a change that keeps the boundary.
 class OverConstrainedCount {
 public:
-  /// How many more a change leaves than there are.
+  /// How many a change adds; negative if it removes some.
   int added_by(const TetMesh& mesh, const CavityReplacement& cavity);
 
 private:
-  std::vector<std::array<LocalIndex, 3>> _sides;  ///< on the boundary, of what goes
+  std::vector<std::array<LocalIndex, 3>> _sides;  ///< boundary faces of the old tetrahedra
 };
 
 }  // namespace aeroloom::improve

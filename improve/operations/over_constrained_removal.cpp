@@ -1,19 +1,12 @@
 #include "improve/operations/over_constrained_removal.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 namespace aeroloom::improve {
 namespace {
 
 constexpr int passes = 2;  // chosen, not measured
-
-double worst_of(const TetMesh& mesh, const std::vector<LocalIndex>& tets) {
-  double worst = std::numeric_limits<double>::max();
-  for (const LocalIndex t : tets) worst = std::min(worst, mesh.quality(t));
-  return worst;
-}
 
 }  // namespace
 
@@ -92,7 +85,7 @@ void OverConstrainedRemoval::remove_edge(const TetMesh& mesh, LocalIndex t, int 
     return;
   _trial.clear();
   _trial.old_tets = _edge_ring.tets;
-  const double bar = bar_of(mesh, worst_of(mesh, _trial.old_tets));
+  const double bar = bar_of(mesh, mesh.worst_of(_trial.old_tets));
   constexpr double just_below = 1 - 1e-12;  // what is as good as the bar must be found
   if (_filling.solve(mesh, _edge_ring.start, _edge_ring.end, _edge_ring.ring, just_below * bar) < bar) return;
   _filling.emit(_trial.new_tets);
@@ -100,15 +93,15 @@ void OverConstrainedRemoval::remove_edge(const TetMesh& mesh, LocalIndex t, int 
 }
 
 void OverConstrainedRemoval::consider(const TetMesh& mesh) {
-  _trial.before = worst_of(mesh, _trial.old_tets);
+  _trial.before = mesh.worst_of(_trial.old_tets);
   _trial.after = std::numeric_limits<double>::max();
   for (const Corners& c : _trial.new_tets) _trial.after = std::min(_trial.after, mesh.quality_of(c));
   if (is_good(mesh, _trial)) _found.push_back({_trial, {}});
 }
 
-/// The trial's new tetrahedra are the cones of a vertex, which starts from there.
+/// The trial's new tetrahedra are cones of a new vertex, which is optimised from this place.
 void OverConstrainedRemoval::consider_vertex(TetMesh& mesh, Vec3 place) {
-  _trial.before = worst_of(mesh, _trial.old_tets);
+  _trial.before = mesh.worst_of(_trial.old_tets);
   _trial.after = _cones.optimise(mesh.measure(), place, _cones.worst(mesh.measure(), place, -1));
   if (_trial.after < bar_of(mesh, _trial.before)) return;
   mesh.add_vertex(place, mesh.corners(_trial.old_tets.front())[0]);

@@ -1,13 +1,13 @@
-/// Removal of over-constrained tetrahedra, those with two or more faces on the boundary: all their vertices
-/// are on it, where a solver knows the values, so they add nothing to its equations (or a determinant of
-/// zero). Where the angles allow they are swapped or split.
+/// Removal of over-constrained tetrahedra, which have two or more faces on the boundary. All their vertices
+/// are then on the boundary, where a solver knows the values. So they add nothing to its equations, or a
+/// determinant of zero. They are swapped or split if the angles allow it.
 #pragma once
 
 #include "improve/limits/change_limits.hpp"
 #include "improve/operations/over_constrained_count.hpp"
 #include "improve/operations/ring_filling.hpp"
 #include "improve/operations/smoothing.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -15,28 +15,28 @@
 
 namespace aeroloom::improve {
 
-/// A change that leaves fewer of them. With a place, the new tetrahedra share a vertex there, whose number is
-/// the mesh's vertex count.
+/// A change that leaves fewer of them. If `place` is set, the new tetrahedra share a new vertex there with
+/// the number mesh.vertex_count().
 struct OverConstrainedChange {
   CavityReplacement cavity;
   std::optional<Vec3> place;
 };
 
-/// For each such tetrahedron, by slot: a face between it and a neighbour gives way to an edge (2-3 swap), or
-/// the edge that is on neither triangle goes (edge removal), or gets a vertex, or the tetrahedron and its
-/// neighbours give way to those of a vertex between them. What leaves fewer of them is done where no new
-/// tetrahedron is below a fraction of the target, or below the worst of those that go. Edges keep to sizes;
-/// the mean ratio may fall, which angles bound here. The boundary stays as it is.
+/// Treats each such tetrahedron, in the order of slots. Possible changes are a 2-3 swap of a face, the
+/// removal or the splitting of the interior edge, and a new vertex inside the tetrahedron and its neighbours.
+/// A change must leave fewer over-constrained tetrahedra. No new tetrahedron may be worse than the worst old
+/// one, unless it reaches a fraction of the target. Size limits hold; mean ratios may fall, since angles are
+/// bounded here. The boundary stays.
 class OverConstrainedRemoval {
 public:
-  /// `fraction`: of the target; below one where what gets worse is improved afterwards.
+  /// `fraction` of the target; below 1 if the result is improved afterwards.
   explicit OverConstrainedRemoval(const ChangeLimits& limits, double fraction = 1)
       : _limits(limits), _fraction(fraction) {}
 
-  /// Does the best for each, without a new vertex where that is possible. Returns how many cavities were
-  /// filled anew.
+  /// Makes the best change for each, preferably without a new vertex. Returns the number of replaced
+  /// cavities.
   std::int64_t run(TetMesh& mesh);
-  /// All there are for one, the best worst quality first.
+  /// All possible changes for one tetrahedron, best first.
   const std::vector<OverConstrainedChange>& find(TetMesh& mesh, LocalIndex t);
   /// Returns the slots of the new tetrahedra.
   const std::vector<LocalIndex>& apply(TetMesh& mesh, const OverConstrainedChange& change);
@@ -48,16 +48,16 @@ private:
   void swap_face(const TetMesh& mesh, LocalIndex t, int face);
   void remove_edge(const TetMesh& mesh, LocalIndex t, int edge);
   void split_edge(TetMesh& mesh, LocalIndex t, int edge);
-  /// The cavity of these tetrahedra gets a vertex inside, that sees all its faces.
+  /// Considers a new vertex that sees all faces of this cavity.
   void fill_around_vertex(TetMesh& mesh, const std::vector<LocalIndex>& cavity);
   void split_neighbourhood(TetMesh& mesh, LocalIndex t);
-  /// The cavities of tetrahedra around one or two of the vertices get a vertex inside.
+  /// Considers new vertices in the stars of one or two vertices of t.
   void fill_stars(TetMesh& mesh, LocalIndex t);
   void sort_found();
   void consider(const TetMesh& mesh);
   void consider_vertex(TetMesh& mesh, Vec3 place);
   bool is_good(const TetMesh& mesh, const CavityReplacement& cavity);
-  /// The quality that new tetrahedra must have.
+  /// The least quality of new tetrahedra.
   double bar_of(const TetMesh& mesh, double before) const;
 
   const ChangeLimits& _limits;

@@ -1,5 +1,4 @@
-/// Moving a vertex of the boundary along its CAD face or curve so that the worst of the tetrahedra around it
-/// gets better.
+/// Sliding of a boundary vertex along its CAD face or curve to improve the worst tetrahedron around it.
 #pragma once
 
 #include "cad/model/evaluation/point_locator.hpp"
@@ -10,14 +9,14 @@
 
 namespace aeroloom::improve {
 
-/// Slides vertices that no other piece knows. Each triangle stays a gentle change of what it was
-/// (boundary_change.hpp), and the vertex stays on the CAD.
+/// Slides vertices that are not shared. The vertex stays on the CAD, and its triangles change within the
+/// limits of boundary_change.hpp.
 class Sliding {
 public:
   Sliding(cad::PointLocator& locator, const ChangeLimits& limits) : _locator(locator), _smoothing(limits) {}
 
-  /// Moves a vertex inside a CAD face or curve where that lifts the worst quality around it noticeably; false
-  /// for all others. `star` receives its tetrahedra.
+  /// Moves a vertex inside a CAD face or curve if this noticeably raises the worst quality around it. False
+  /// for all other vertices. `star` receives its tetrahedra.
   bool slide(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star);
 
 private:

@@ -26,7 +26,7 @@ void SmallPolyhedron::grow(const TetMesh& mesh, LocalIndex t) {
     return std::find(list.begin(), list.end(), value) != list.end();
   };
   while (static_cast<int>(_tets.size()) < most_tets) {
-    // Whoever adds no vertex, then the worst one.
+    // Prefers neighbours that add no vertex, then the worst one.
     LocalIndex next = -1, apex = -1;
     bool inside = false;
     for (const LocalIndex tet : _tets) {
@@ -90,8 +90,8 @@ double SmallPolyhedron::quality(const TetMesh& mesh, const Face& base, Local ape
   return odd ? -known : known;
 }
 
-// Vertices that make a tetrahedron on a face: better than the best filling so far, and not into what is
-// filled.
+// Vertices that make a tetrahedron on a face: better than the best solution so far, and outside the filled
+// part.
 void SmallPolyhedron::list_apexes(const TetMesh& mesh, const Face& face, std::vector<Apex>& apexes) {
   apexes.clear();
   for (Local v = 0; v < static_cast<Local>(_vertices.size()); ++v) {
@@ -144,8 +144,8 @@ void SmallPolyhedron::close(const Face& face) {
   _front.pop_back();
 }
 
-// A set of positive tetrahedra whose faces cancel but for those of the polyhedron fills it exactly once: no
-// test for intersections is needed.
+// Positive tetrahedra whose faces cancel, up to those of the polyhedron, fill it exactly once. So no test for
+// intersections is needed.
 void SmallPolyhedron::search(const TetMesh& mesh, double worst) {
   if (_front.empty()) {
     _best = worst;
@@ -180,8 +180,7 @@ void SmallPolyhedron::search(const TetMesh& mesh, double worst) {
 bool SmallPolyhedron::propose(const TetMesh& mesh, LocalIndex t, double floor, CavityReplacement& cavity) {
   grow(mesh, t);
   if (_tets.size() < 2 || !open_front(mesh)) return false;
-  double before = std::numeric_limits<double>::max();
-  for (const LocalIndex tet : _tets) before = std::min(before, mesh.quality(tet));
+  const double before = mesh.worst_of(_tets);
   _qualities.fill(unknown);
   _filling.clear();
   _best_filling.clear();

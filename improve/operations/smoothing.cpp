@@ -54,7 +54,7 @@ double ConeOptimiser::worst(const mesh::TetQuality& measure, Vec3 p, double floo
   return least;
 }
 
-// A place that promises nothing need not be projected: projections cost more than measures of quality.
+// A place without a gain need not be projected: projections cost more than measures of quality.
 double ConeOptimiser::worst_on(const mesh::TetQuality& measure, Vec3& p, double floor, Locus& locus) {
   const Vec3 before = p;
   const double found = worst(measure, p, floor);

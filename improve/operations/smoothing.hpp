@@ -1,48 +1,48 @@
-/// Moving one vertex so that the worst of the tetrahedra around it gets better.
+/// Smoothing: moves one vertex to improve the worst tetrahedron around it.
 #pragma once
 
 #include "improve/limits/change_limits.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
-#include <array>
 #include <vector>
 
 namespace aeroloom::improve {
 
-/// Where a free point may go.
+/// The set of positions that a point may take.
 class Locus {
 public:
   virtual ~Locus() = default;
   /// The part of a direction along which the point may move.
   virtual Vec3 admissible(Vec3 direction) const = 0;
-  /// The admissible point next to p, into p; false: there is none that will do.
+  /// Moves p to the nearest admissible position. False if there is none.
   virtual bool project(Vec3& p) = 0;
 };
 
-/// Everywhere.
+/// All of space.
 class Space final : public Locus {
 public:
   Vec3 admissible(Vec3 direction) const override { return direction; }
   bool project(Vec3&) override { return true; }
 };
 
-/// The cones from one free point to a set of triangles, and the point that makes the worst of them best.
+/// The cones from one free point to a set of triangles, and the point with the best worst cone.
 class ConeOptimiser {
 public:
-  /// Starts a set of cones.
+  /// Removes all cones.
   void clear() { _bases.clear(); }
-  /// Adds the cone to triangle (a,b,c), which is counter-clockwise seen from the free point.
+  /// Adds the cone on triangle (a,b,c), which is counter-clockwise seen from the free point.
   void add(Vec3 a, Vec3 b, Vec3 c) { _bases.push_back({a, b, c}); }
   bool empty() const { return _bases.empty(); }
 
-  /// The worst quality with the free point at p; where it is not above `floor`, some value not above `floor`.
-  /// Bases that once decided move to the front.
+  /// The worst quality with the free point at p. If it is not above `floor`, returns some value not above
+  /// `floor`. Triangles that decided move to the front of the list.
   double worst(const mesh::TetQuality& measure, Vec3 p, double floor);
 
-  /// Improves the point from p, which is on the locus, with worst quality `quality`: first towards the mean
-  /// of the bases' corners, then by steepest ascent of the active qualities (Freitag and Ollivier-Gooch, Int.
-  /// J. Numer. Meth. Engng 40, 1997, doi:10.1002/(SICI)1097-0207(19971115)40:21<3979::AID-NME251>3.0.CO;2-9).
-  /// Returns the new worst quality and moves p.
+  /// Improves the point from p, which is on the locus and has worst quality `quality`. First tries the mean
+  /// of the triangles' corners. Then follows the steepest ascent of the worst qualities (Freitag and
+  /// Ollivier-Gooch, Int. J. Numer. Meth. Engng 40, 1997,
+  /// doi:10.1002/(SICI)1097-0207(19971115)40:21<3979::AID-NME251>3.0.CO;2-9). Moves p and returns its worst
+  /// quality.
   double optimise(const mesh::TetQuality& measure, Vec3& p, double quality, Locus& locus);
   double optimise(const mesh::TetQuality& measure, Vec3& p, double quality) {
     Space space;
@@ -68,16 +68,15 @@ class Smoothing {
 public:
   explicit Smoothing(const ChangeLimits& limits) : _limits(limits) {}
 
-  static constexpr double least_gain = 1e-3;  ///< of quality: a smaller gain does not count as one
+  static constexpr double least_gain = 1e-3;  ///< smallest change of quality that counts as a gain
 
-  /// Moves a vertex on the locus, its tetrahedra given, where that lifts the worst quality around it by
-  /// `gain`.
+  /// Moves a vertex with the given star on the locus, if this raises the worst quality by `gain`.
   bool smooth_on(TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus,
                  double gain = least_gain);
-  /// Whether there is such a gain to be had on the locus.
+  /// Whether such a gain is possible on the locus.
   bool promises(const TetMesh& mesh, LocalIndex vertex, const std::vector<LocalIndex>& star, Locus& locus,
                 double gain);
-  /// Smooths a vertex that may go everywhere; `star` receives its tetrahedra.
+  /// Smooths a vertex that may move freely; `star` receives its tetrahedra.
   bool smooth(TetMesh& mesh, LocalIndex vertex, std::vector<LocalIndex>& star);
 
 private:

@@ -1,4 +1,4 @@
-/// Swaps: the tetrahedra at an edge or a face are replaced, vertices stay.
+/// Swaps: replace the tetrahedra at an edge or a face and keep all vertices.
 #pragma once
 
 #include "improve/operations/boundary_flip.hpp"
@@ -8,8 +8,7 @@
 
 namespace aeroloom::improve {
 
-/// Does the best of all removals of an edge or a face of the tetrahedron; where the edge is on the boundary,
-/// it flips.
+/// Makes the best of all edge and face removals at a tetrahedron. Edges on the boundary flip.
 class Swap final : public LocalOperation {
 public:
   bool improve(OperationContext& context, LocalIndex t) override;

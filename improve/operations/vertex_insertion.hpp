@@ -1,4 +1,4 @@
-/// Replacement of a cavity by tetrahedra around one vertex: an old one that moves, or a new one.
+/// Replacement of a cavity by the tetrahedra around one vertex, which is moved or new.
 #pragma once
 
 #include "improve/operations/cavity_insertion.hpp"
@@ -6,7 +6,7 @@
 
 namespace aeroloom::improve {
 
-/// Replaces a cavity that grows from the star of a free vertex of the tetrahedron.
+/// Replaces a cavity grown from the star of a free vertex of the tetrahedron.
 class VertexReinsertion final : public LocalOperation {
 public:
   bool improve(OperationContext& context, LocalIndex t) override;
@@ -17,7 +17,7 @@ private:
   CavityReplacement _trial;
 };
 
-/// Replaces a cavity that grows from the tetrahedron. With full effort, growth begins at several places.
+/// Replaces a cavity grown from the tetrahedron. With full effort, growth starts at several places.
 class VertexInsertion final : public LocalOperation {
 public:
   bool improve(OperationContext& context, LocalIndex t) override;

@@ -1,4 +1,4 @@
-/// Moves of the vertices of a tetrahedron, inside and on the CAD.
+/// Moves of the vertices of a tetrahedron, in the interior and on the CAD.
 #pragma once
 
 #include "improve/operations/operation.hpp"
@@ -10,7 +10,7 @@
 
 namespace aeroloom::improve {
 
-/// Smooths the vertices inside one after the other until the tetrahedron reaches its target.
+/// Smooths the interior vertices one by one until the tetrahedron reaches its target.
 class VertexSmoothing final : public LocalOperation {
 public:
   explicit VertexSmoothing(const OperationContext& context) : _smoothing(context.limits()) {}
@@ -22,7 +22,7 @@ private:
   std::vector<LocalIndex> _star;
 };
 
-/// Slides the vertices on the boundary likewise, where the CAD is known.
+/// Slides the boundary vertices in the same way, if the CAD is known.
 class VertexSliding final : public LocalOperation {
 public:
   explicit VertexSliding(const OperationContext& context) {

@@ -171,6 +171,22 @@ inline std::span<const LocalIndex> corners_of_boundary(const Piece& piece, Local
   return std::span(piece.quads).subspan(4 * static_cast<std::size_t>(face - piece.boundary_count()), 4);
 }
 
+/// Removes the boundary triangles of a volume piece for which keep(triangle) is false.
+template <class Keep>
+void keep_boundary_triangles(Piece& piece, const Keep& keep) {
+  std::size_t kept = 0;
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    if (!keep(t)) continue;
+    std::copy_n(piece.boundary_triangle(t), 3, piece.boundary.data() + 3 * kept);
+    piece.triangle_face[kept] = piece.triangle_face[t];
+    piece.triangle_patch[kept] = piece.triangle_patch[t];
+    ++kept;
+  }
+  piece.boundary.resize(3 * kept);
+  piece.triangle_face.resize(kept);
+  piece.triangle_patch.resize(kept);
+}
+
 /// The edges of boundary faces are counted face by face.
 struct EdgeOfFace {
   LocalIndex face = 0;

@@ -58,6 +58,14 @@ public:
   /// Reduces over all copies, and gives each the result. Collective.
   template <parallel::Flat T, class Op>
   void reduce_and_scatter(std::vector<T>& copies, const Op& op) const;
+  /// The same for values by piece on this rank and vertex; those of vertices on no list stay. Collective.
+  template <parallel::Flat T, class Op>
+  void combine(std::vector<std::vector<T>>& values, const Op& op) const {
+    std::vector<T> copies(size());
+    for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { copies[copy] = values[p][v]; });
+    reduce_and_scatter(copies, op);
+    for_each([&](std::size_t p, LocalIndex v, std::size_t copy) { values[p][v] = copies[copy]; });
+  }
 
   /// Strikes the copies that no other piece knows off this list, and off those of the mesh it was made from.
   /// Returns their number on this rank.

@@ -32,7 +32,7 @@ Json patch_json(const std::string& name, const layers::WallLayers& asked, const 
                {"full", fraction(patch.full_area, patch.area)},
                {"partial", fraction(patch.partial_area, patch.area)},
                {"empty", fraction(patch.empty_area, patch.area)},
-               {"squeezed", fraction(patch.squeezed_area, patch.area)},
+               {"squeezed", fraction(patch.compressed_area, patch.area)},
                {"isotropic", fraction(patch.isotropic_area, patch.area)},
                {"layers_mean", fraction(patch.layers_area, patch.area)},
                {"layers_max", patch.most_layers},
@@ -62,7 +62,7 @@ Json layers_json(const RunRecord& record) {
           {"validity_rounds", report.validity_rounds},
           {"crossing_rounds", report.crossing_rounds},
           {"crossings", report.crossings},
-          {"swallowing", report.swallowing},
+          {"swallowing", report.enclosing},
           {"emptied_last", report.zeroed_by_force},
           {"patches", std::move(patches)}};
 }

@@ -1,7 +1,7 @@
 #include "improve/borders/bad_cells.hpp"
 #include "improve/borders/border_smoothing.hpp"
 #include "improve/borders/cavity_improver.hpp"
-#include "improve/borders/scatter.hpp"
+#include "improve/borders/perturbation.hpp"
 #include "tests/improve/shaken.hpp"
 #include "tests/several_ranks.hpp"
 
@@ -108,13 +108,13 @@ TEST(BorderSmoothingLocal, LeavesASinglePieceAlone) {
   EXPECT_EQ(relax(mesh, 2), 0);
 }
 
-TEST(ScatterLocal, MovesVerticesInsideALittleAndInvertsNothing) {
+TEST(PerturbationLocal, MovesVerticesInsideALittleAndInvertsNothing) {
   const auto self = Communicator::self();
   DistributedMesh mesh = mesh::examples::distribute(self, examples::shaken_cube(5, 1, 25, 4), 1);
   Piece& piece = mesh.pieces.front();
   piece.shared_vertices = {piece.vertex_count() - 1};
   const Piece before = piece;
-  scatter(piece, 0.3, 1);
+  perturb(piece, 0.3, 1);
   piece.shared_vertices.clear();
   examples::expect_valid(mesh);
   int moved = 0, inside = 0;
@@ -128,8 +128,8 @@ TEST(ScatterLocal, MovesVerticesInsideALittleAndInvertsNothing) {
   }
   EXPECT_GT(moved, inside / 4);
   Piece again = before, other = before;
-  scatter(again, 0.3, 1);
-  scatter(other, 0.3, 2);
+  perturb(again, 0.3, 1);
+  perturb(other, 0.3, 2);
   EXPECT_EQ(again.coordinates, piece.coordinates);
   EXPECT_NE(other.coordinates, piece.coordinates);
 }

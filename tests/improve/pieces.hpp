@@ -1,7 +1,7 @@
 /// Small pieces for tests of single operations.
 #pragma once
 
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <algorithm>
 #include <array>

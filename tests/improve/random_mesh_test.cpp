@@ -137,7 +137,7 @@ mesh::Piece cube_with_strip(std::uint32_t seed) {
   throw std::logic_error("no triangle inside a face");
 }
 
-// Beside a strip a run with reduced effort leaves what one with full effort still improves.
+// In a narrow region a run with reduced effort leaves what one with full effort still improves.
 TEST(RandomMeshes, GetBetterBesideStripsWithFullEffort) {
   const mesh::TetQuality measure(28);
   int better = 0, valid = 0;

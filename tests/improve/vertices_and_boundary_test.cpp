@@ -1,7 +1,7 @@
 #include "improve/operations/boundary_flip.hpp"
 #include "improve/operations/edge_contraction.hpp"
 #include "improve/operations/mean_ratio_smoothing.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/quality/quality.hpp"
 #include "tests/improve/pieces.hpp"
 

@@ -29,7 +29,7 @@ void expect_same(const Shapes& shapes, int pieces, const LayerOptions& options) 
     EXPECT_EQ(a.counts, b.counts);
     EXPECT_EQ(a.growth, b.growth);
     EXPECT_EQ(a.first, b.first);
-    EXPECT_EQ(spread.front.pieces[p].coordinates, alone.front.pieces[other].coordinates);
+    EXPECT_EQ(spread.cap.pieces[p].coordinates, alone.cap.pieces[other].coordinates);
   }
   EXPECT_EQ(spread.report.validity_rounds, alone.report.validity_rounds);
   EXPECT_EQ(spread.report.crossings, alone.report.crossings);
@@ -120,7 +120,7 @@ TEST(BuildLayers, FillTheCornersOfABox) {
   expect_valid(mesh, layers);
   const PatchLayers& patch = layers.report.patches[0];
   EXPECT_EQ(patch.empty_area, 0);
-  EXPECT_GT(patch.squeezed_area, 0) << "towards the edges";
+  EXPECT_GT(patch.compressed_area, 0) << "towards the edges";
   EXPECT_GT(patch.full_area, 0.7 * patch.area);
 }
 
@@ -131,11 +131,11 @@ TEST(BuildLayers, LeaveRoomInASlit) {
   expect_valid(mesh, layers);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
-      const Vec3 from = mesh.pieces[p].point(v), to = layers.front.pieces[p].point(v);
+      const Vec3 from = mesh.pieces[p].point(v), to = layers.cap.pieces[p].point(v);
       const bool in_slit = from.x > 0.3 && from.x < 1.7 && from.y > 0.3 && from.y < 1.7;
       if (!in_slit || (from.z != 0 && from.z != -0.3)) continue;
       EXPECT_LT(std::abs(to.z - from.z), 0.4 * 0.3 * (1 + 1e-6));
-      EXPECT_GT(layers.columns.pieces[p].counts[v], 15) << "squeezed before layers are dropped";
+      EXPECT_GT(layers.columns.pieces[p].counts[v], 15) << "compressed before layers are dropped";
     }
   }
   EXPECT_GT(layers.report.patches[1].limited_area[static_cast<std::size_t>(LayerLimit::gap)], 1);
@@ -192,8 +192,8 @@ TEST(BuildLayers, LeaveAWallWithoutLayersAsItIs) {
   const mesh::DistributedMesh mesh = sphere_in_a_sphere().distribute(world, 3);
   const Layers layers = build(mesh, {});
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    EXPECT_EQ(layers.front.pieces[p].coordinates, mesh.pieces[p].coordinates);
-    EXPECT_EQ(layers.front.pieces[p].vertex_dimension, mesh.pieces[p].vertex_dimension);
+    EXPECT_EQ(layers.cap.pieces[p].coordinates, mesh.pieces[p].coordinates);
+    EXPECT_EQ(layers.cap.pieces[p].vertex_dimension, mesh.pieces[p].vertex_dimension);
   }
 }
 

@@ -104,7 +104,7 @@ inline double check_cells(const mesh::Piece& piece, const PieceColumns& columns,
   return volume;
 }
 
-/// All cells are valid and fill what lies between wall and front, which is free of intersections; counts of
+/// All cells are valid and fill what lies between wall and cap, which is free of intersections; counts of
 /// neighbours are within the stairs.
 inline void expect_valid(const mesh::DistributedMesh& wall, const Layers& layers, std::int32_t stairs = 3) {
   const Communicator& communicator = wall.communicator;
@@ -120,12 +120,12 @@ inline void expect_valid(const mesh::DistributedMesh& wall, const Layers& layers
         EXPECT_LE(std::abs(columns.counts[v[i]] - columns.counts[v[(i + 1) % 3]]), stairs);
     }
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
-      EXPECT_EQ(layers.front.pieces[p].point(v), node(piece, columns, v, columns.counts[v]));
+      EXPECT_EQ(layers.cap.pieces[p].point(v), node(piece, columns, v, columns.counts[v]));
   }
-  const double between = enclosed_volume(wall) - enclosed_volume(layers.front);
+  const double between = enclosed_volume(wall) - enclosed_volume(layers.cap);
   EXPECT_NEAR(communicator.sum(volume), communicator.sum(between),
               1e-10 * std::abs(communicator.sum(enclosed_volume(wall))));
-  EXPECT_TRUE(mesh::find_intersections(layers.front).empty());
+  EXPECT_TRUE(mesh::find_intersections(layers.cap).empty());
 }
 
 }  // namespace aeroloom::layers::checked

@@ -45,20 +45,20 @@ TEST(ColumnHeightsLocal, EndAtACountOrATotal) {
   EXPECT_EQ(wanted_count(wanted, 1), 12) << "without growth the count alone ends them";
 }
 
-TEST(ColumnHeightsLocal, SqueezeKeepsTheCountThenDropsLayers) {
+TEST(ColumnHeightsLocal, CompressionKeepsTheCountThenDropsLayers) {
   const Heights heights{1, 1.5, 2};
   const double total = heights.total(10);
-  const Squeezed free = squeeze(heights, 10, total);
+  const Compressed free = compress(heights, 10, total);
   EXPECT_EQ(free.count, 10);
   EXPECT_EQ(free.growth, 1.5);
-  const Squeezed tight = squeeze(heights, 10, 20);
+  const Compressed tight = compress(heights, 10, 20);
   EXPECT_EQ(tight.count, 10);
   EXPECT_LE((Heights{1, tight.growth, 2}.total(10)), 20);
   EXPECT_NEAR((Heights{1, tight.growth, 2}.total(10)), 20, 1e-6);
-  const Squeezed few = squeeze(heights, 10, 6.5);
+  const Compressed few = compress(heights, 10, 6.5);
   EXPECT_EQ(few.count, 6);
   EXPECT_EQ(few.growth, 1);
-  EXPECT_EQ(squeeze(heights, 10, 0.5).count, 0);
+  EXPECT_EQ(compress(heights, 10, 0.5).count, 0);
 }
 
 }  // namespace

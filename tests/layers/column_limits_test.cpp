@@ -25,7 +25,7 @@ struct Limited {
       : communicator(ranks),
         mesh(cube_in_a_box().distribute(ranks, pieces)),
         base(mesh, options),
-        columns(base.wall, options, base.fans, base.directions) {}
+        columns(base.wall, options, base.stars, base.directions) {}
 
   template <class T>
   std::vector<T> at_corner(T there, T elsewhere) const {
@@ -59,14 +59,14 @@ TEST(ColumnLimits, BeginAsThePatchesAsk) {
     EXPECT_GT(limited.columns.count(v), 10);
     EXPECT_EQ(limited.columns.count(v), limited.columns.wanted_count(v));
     EXPECT_EQ(limited.columns.heights(v).growth, 1.2);
-    EXPECT_FALSE(limited.columns.is_squeezed(v));
+    EXPECT_FALSE(limited.columns.is_compressed(v));
     EXPECT_EQ(limited.columns.cause(v), LayerLimit::none);
   }
   EXPECT_EQ(limited.columns.take_changed().size(), static_cast<std::size_t>(n));
   EXPECT_TRUE(limited.columns.take_changed().empty());
 }
 
-TEST(ColumnLimits, TotalsSqueezeTheGrowthBeforeTheCount) {
+TEST(ColumnLimits, TotalsCompressTheGrowthBeforeTheCount) {
   Limited limited(Communicator::world());
   ColumnLimits& columns = limited.columns;
   limited.columns.take_changed();
@@ -80,7 +80,7 @@ TEST(ColumnLimits, TotalsSqueezeTheGrowthBeforeTheCount) {
     EXPECT_LE(columns.total(v), halves[v]);
     EXPECT_GT(columns.total(v), 0.99 * halves[v]);
     EXPECT_EQ(columns.count(v), columns.wanted_count(v));
-    EXPECT_TRUE(columns.is_squeezed(v));
+    EXPECT_TRUE(columns.is_compressed(v));
     EXPECT_EQ(columns.cause(v), LayerLimit::gap);
   }
   // Two layers and a half of the first height: two layers.
@@ -98,7 +98,7 @@ TEST(ColumnLimits, CountsFallFromOneVertexByStairs) {
   const std::int32_t wanted = columns.count(0);
   // What one piece knows of the corner counts for all of them.
   columns.limit_counts(limited.at_corner<std::int32_t>(0, most_layers), LayerLimit::crossing);
-  columns.converge(limited.communicator);
+  columns.converge();
   std::int64_t steps = 0;
   limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
     EXPECT_LE(columns.count(v), columns.count(u) + limited.options.stairs);
@@ -122,7 +122,7 @@ TEST(ColumnLimits, TotalsRiseNoFasterThanTheSlope) {
   ColumnLimits& columns = limited.columns;
   const double low = 2e-3;
   columns.limit_totals(limited.at_corner(low, unlimited), LayerLimit::gap);
-  columns.converge(limited.communicator);
+  columns.converge();
   limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
     if (!limited.is_corner(v)) return;
     EXPECT_LE(columns.total(v), low);
@@ -135,7 +135,7 @@ TEST(ColumnLimits, AreTheSameHoweverTheWallIsCut) {
   const auto outcome = [](const Communicator& communicator, int pieces) {
     Limited limited(communicator, pieces);
     limited.columns.limit_counts(limited.at_corner<std::int32_t>(1, most_layers), LayerLimit::crossing);
-    limited.columns.converge(communicator);
+    limited.columns.converge();
     std::map<std::array<double, 3>, std::tuple<std::int32_t, double, double>> by_place;
     for (std::int32_t v = 0; v < limited.base.wall.vertex_count(); ++v) {
       const Vec3 p = limited.base.wall.points[v];

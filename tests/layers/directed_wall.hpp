@@ -2,7 +2,7 @@
 #pragma once
 
 #include "layers/directions.hpp"
-#include "layers/fans.hpp"
+#include "layers/vertex_stars.hpp"
 #include "tests/meshes/wall_meshes.hpp"
 
 #include <cstddef>
@@ -17,13 +17,13 @@ inline LayerOptions layers_on(std::size_t patches) {
   return options;
 }
 
-/// A wall with its fans and directions. Refers to the mesh.
+/// A wall with its stars and directions. Refers to the mesh.
 struct DirectedWall {
   DirectedWall(const mesh::DistributedMesh& mesh, const LayerOptions& options)
-      : wall(mesh, options), fans(gather_fans(wall)), directions(find_directions(wall, fans)) {}
+      : wall(mesh, options), stars(gather_stars(wall)), directions(find_directions(wall, stars)) {}
 
-  WallShare wall;
-  Fans fans;
+  LocalWall wall;
+  VertexStars stars;
   Directions directions;
 };
 

@@ -25,7 +25,7 @@ TEST(Directions, PointIntoTheFluidOffEdgesAndCorners) {
   const Directed directed(mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const Vec3 p = directed.wall.points[v], d = directed.directions.most_normal[v];
-    ASSERT_EQ(directed.fans.kinds[v], FanKind::plain);
+    ASSERT_EQ(directed.stars.kinds[v], StarKind::plain);
     ASSERT_NEAR(norm(d), 1, 1e-14);
     for (int axis = 0; axis < 3; ++axis) {
       for (const double end : {0.0, 1.0, -4.0, 5.0}) {
@@ -43,7 +43,7 @@ TEST(Directions, AreSmoothedWithoutLosingSight) {
   const Directed directed(mesh, layers_on(2));
   std::int64_t moved = 0;
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
-    const auto normals = directed.fans.normals_at(v);
+    const auto normals = directed.stars.normals_at(v);
     const double best = visibility_of(directed.directions.most_normal[v], normals);
     EXPECT_GE(directed.directions.visibility[v], 0.9 * best - 1e-14);
     EXPECT_EQ(directed.directions.visibility[v], visibility_of(directed.directions.smoothed[v], normals));
@@ -65,7 +65,7 @@ TEST(Directions, AreTheSameOnAnyNumberOfRanks) {
       const std::int32_t other = from + v - spread.wall.first_vertex[p];
       EXPECT_EQ(spread.directions.smoothed[v], alone.directions.smoothed[other]);
       EXPECT_EQ(spread.directions.visibility[v], alone.directions.visibility[other]);
-      EXPECT_EQ(spread.fans.kinds[v], alone.fans.kinds[other]);
+      EXPECT_EQ(spread.stars.kinds[v], alone.stars.kinds[other]);
     }
   }
 }
@@ -101,7 +101,7 @@ TEST(Directions, AreNoneBesideFacesWhereLayersMayNotEnd) {
     const Vec3 p = directed.wall.points[v];
     if (p.z != 1) continue;
     const bool rim = p.x == 0 || p.x == 1 || p.y == 0 || p.y == 1;
-    EXPECT_EQ(directed.fans.kinds[v], rim ? FanKind::ending : FanKind::off_wall);
+    EXPECT_EQ(directed.stars.kinds[v], rim ? StarKind::ending : StarKind::off_wall);
     EXPECT_EQ(directed.directions.smoothed[v], Vec3{});
   }
 }
@@ -114,12 +114,12 @@ TEST(Directions, AreNoneOnFacesBetweenTwoRegions) {
   const Directed directed(mesh, layers_on(2));
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
     const bool on_box = norm(directed.wall.points[v] - Vec3{0.5, 0.5, 0.5}) > 2;
-    EXPECT_EQ(directed.fans.kinds[v], on_box ? FanKind::plain : FanKind::off_wall);
+    EXPECT_EQ(directed.stars.kinds[v], on_box ? StarKind::plain : StarKind::off_wall);
   }
 }
 
 TEST(Directions, AreNoneWhereTwoFansMeet) {
-  // Two cubes with a common corner: the vertex is on two fans.
+  // Two cubes with a common corner: the vertex is on two stars.
   const auto self = Communicator::self();
   examples::Shapes shapes;
   shapes.add_box({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, examples::Fluid::outside);
@@ -129,8 +129,8 @@ TEST(Directions, AreNoneWhereTwoFansMeet) {
   const Directed directed(mesh, layers_on(2));
   int broken = 0;
   for (std::int32_t v = 0; v < directed.wall.vertex_count(); ++v) {
-    if (directed.fans.kinds[v] == FanKind::plain) continue;
-    EXPECT_EQ(directed.fans.kinds[v], FanKind::broken);
+    if (directed.stars.kinds[v] == StarKind::plain) continue;
+    EXPECT_EQ(directed.stars.kinds[v], StarKind::broken);
     EXPECT_EQ(directed.wall.points[v], (Vec3{1, 1, 1}));
     ++broken;
   }

@@ -48,18 +48,18 @@ LayerOptions layers_on_floor() {
 }
 
 /// Does not mesh planes again: takes their triangles away, so that nobody minds them.
-std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& front) {
-  for (mesh::Piece& piece : front.pieces) {
+std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& cap) {
+  for (mesh::Piece& piece : cap.pieces) {
     if (piece.common_face() != x_face && piece.common_face() != y_face) continue;
     piece.cells.clear(), piece.triangle_face.clear(), piece.triangle_patch.clear();
   }
   // The pieces of the lid come after those of planes here: they move up.
   std::vector<mesh::Piece> kept, planes;
-  for (mesh::Piece& piece : front.pieces) (piece.cells.empty() ? planes : kept).push_back(std::move(piece));
+  for (mesh::Piece& piece : cap.pieces) (piece.cells.empty() ? planes : kept).push_back(std::move(piece));
   for (mesh::Piece& piece : kept) piece.id -= piece.common_face() == lid_face ? 4 : 0;
   for (mesh::Piece& piece : planes) piece.id += 2;
   kept.insert(kept.end(), planes.begin(), planes.end());
-  front.pieces = std::move(kept);
+  cap.pieces = std::move(kept);
   return {};
 }
 
@@ -146,17 +146,17 @@ TEST(EndPlanes, HoldTheEndsOfLayers) {
 PlaneRemesher refuse_moves(const mesh::DistributedMesh& wall,
                            std::function<bool(Vec3 from, Vec3 to)> is_refused) {
   const Communicator& world = wall.communicator;
-  return [&world, &wall, is_refused = std::move(is_refused)](mesh::DistributedMesh& front) {
+  return [&world, &wall, is_refused = std::move(is_refused)](mesh::DistributedMesh& cap) {
     std::vector<mesh::SharedVertexKey> at_fault;
-    for (std::size_t p = 0; p < front.pieces.size(); ++p) {
-      for (std::size_t s = 0; s < front.pieces[p].shared_keys.size(); ++s) {
-        const mesh::LocalIndex v = front.pieces[p].shared_vertices[s];
-        const Vec3 from = wall.pieces[p].point(v), to = front.pieces[p].point(v);
-        if (from.x == 0 && is_refused(from, to)) at_fault.push_back(front.pieces[p].shared_keys[s]);
+    for (std::size_t p = 0; p < cap.pieces.size(); ++p) {
+      for (std::size_t s = 0; s < cap.pieces[p].shared_keys.size(); ++s) {
+        const mesh::LocalIndex v = cap.pieces[p].shared_vertices[s];
+        const Vec3 from = wall.pieces[p].point(v), to = cap.pieces[p].point(v);
+        if (from.x == 0 && is_refused(from, to)) at_fault.push_back(cap.pieces[p].shared_keys[s]);
       }
     }
     at_fault = world.all_gather_items(std::span<const mesh::SharedVertexKey>(at_fault));
-    return at_fault.empty() ? take_planes_away(front) : at_fault;
+    return at_fault.empty() ? take_planes_away(cap) : at_fault;
   };
 }
 
@@ -189,7 +189,7 @@ TEST(EndPlanes, AreNotInTheWayOfColumnsBesideThem) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
       const Vec3 at = mesh.pieces[p].point(v);
       if (at.z != 0 || at.x > 0.25 || at.y > 0.25) continue;
-      EXPECT_GT(layers.columns.pieces[p].growth[v], 1.19) << "hardly squeezed";
+      EXPECT_GT(layers.columns.pieces[p].growth[v], 1.19) << "hardly compressed";
       ++beside;
     }
   }

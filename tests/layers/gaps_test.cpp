@@ -36,7 +36,7 @@ examples::Shapes slit() {
 }
 
 std::vector<double> gaps_in_slit(const mesh::DistributedMesh& mesh) {
-  const WallShare wall(mesh, {});
+  const LocalWall wall(mesh, {});
   std::vector<TouchingBall> balls(wall.points.size());
   for (std::size_t v = 0; v < balls.size(); ++v) {
     const Vec3 p = wall.points[v];

@@ -35,7 +35,7 @@ TEST(HardPlaces, LayersStayBelowAStrutOverTheirWall) {
     std::int64_t below = 0;
     for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
       for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
-        const Vec3 from = mesh.pieces[p].point(v), to = layers.front.pieces[p].point(v);
+        const Vec3 from = mesh.pieces[p].point(v), to = layers.cap.pieces[p].point(v);
         if (from.z != 0 || std::abs(from.x - x) > 0.3 || std::abs(from.y) > 1.4) continue;
         EXPECT_LT(to.z, 0.25) << from.x << " " << from.y;
         EXPECT_GT(layers.columns.pieces[p].counts[v], 5);
@@ -96,8 +96,8 @@ Vec3 blunt_section(int i) {
 }
 
 /// Takes the planes away, which come last, so that nobody minds them.
-std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& front) {
-  for (mesh::Piece& piece : front.pieces) {
+std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& cap) {
+  for (mesh::Piece& piece : cap.pieces) {
     if (piece.common_face() < floor_face) continue;
     piece.cells.clear(), piece.triangle_face.clear(), piece.triangle_patch.clear();
   }

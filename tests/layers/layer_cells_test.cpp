@@ -74,7 +74,7 @@ void expect_cells(const Layered& layered) {
   EXPECT_EQ(counts.cells, layered.tetrahedra + expected.prisms + expected.pyramids + expected.tetrahedra);
 }
 
-TEST(LayerCells, FillWhatIsBetweenWallAndFront) {
+TEST(LayerCells, FillWhatIsBetweenWallAndCap) {
   const auto world = Communicator::world();
   Layered layered(world, ball_in_a_box(), ball_face, mesh::PatchType::farfield);
   layered.grow(0.02, [](Vec3 p) { return on_ball(p, 4); });
@@ -169,7 +169,7 @@ TEST_P(LayerCellsOf, AnyElementsAreTheSameOnAnyNumberOfRanks) {
 
 constexpr std::int32_t floor_face = 4;
 
-/// A cube with layers on its floor, columns up to its four sides, whose triangles the front moves within
+/// A cube with layers on its floor, columns up to its four sides, whose triangles the cap moves within
 /// their planes.
 Layered on_the_floor(const Communicator& ranks, const std::function<std::int32_t(Vec3)>& count,
                      LayerElements elements = LayerElements::prisms) {

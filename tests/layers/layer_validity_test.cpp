@@ -53,17 +53,17 @@ TEST(GoodLayersLocal, CountTheCellsOfClippedColumns) {
   }
 }
 
-TEST(FittingHeightLocal, KeepsTheAngleOfTheFront) {
+TEST(FittingHeightLocal, KeepsTheAngleOfTheCap) {
   TriangleColumns columns = upright(0.1, 30);
   columns[0].count = columns[1].count = 3;
-  // Sides of the front: 1, and the root of 1 + h^2 twice; its least angle falls below 36 degrees at h = 1.28.
+  // Sides of the cap: 1, and the root of 1 + h^2 twice; its least angle falls below 36 degrees at h = 1.28.
   EXPECT_EQ(good_layers(columns), 30);
-  EXPECT_FALSE(has_good_front(columns));
+  EXPECT_FALSE(has_good_cap(columns));
   const double height = fitting_height(columns);
   EXPECT_LT(height, 0.3 + 1.28);
   EXPECT_GT(height, (0.3 + 1.28) * 0.95 - 1e-9);
   columns[2].count = 14;
-  EXPECT_TRUE(has_good_front(columns));
+  EXPECT_TRUE(has_good_cap(columns));
   EXPECT_EQ(fitting_height(columns), std::numeric_limits<double>::infinity());
 }
 
@@ -80,7 +80,7 @@ TEST(FittingHeightLocal, EndsBelowTheFirstBadLayer) {
   }
   EXPECT_GT(columns[0].count, 2);
   EXPECT_EQ(good_layers(columns), columns[0].count);
-  EXPECT_TRUE(has_good_front(columns));
+  EXPECT_TRUE(has_good_cap(columns));
 }
 
 TEST(FittingHeightLocal, IsZeroWhereNoLayerIsGood) {

@@ -1,4 +1,4 @@
-/// Walls with columns as a test wants them, and the volume that is filled behind their front.
+/// Walls with columns as a test wants them, and the volume that is filled beyond their cap.
 #pragma once
 
 #include "improve/improver.hpp"
@@ -67,14 +67,14 @@ struct Layered {
         end.set_point(v, node(piece, of_piece, v, column.count));
       }
     }
-    front = mesh::number_mesh(std::move(moved));
+    cap = mesh::number_mesh(std::move(moved));
   }
 
-  /// Tetrahedra behind the front, improved, and the layers before it.
+  /// Tetrahedra beyond the cap, improved, and the layers before it.
   void fill(const sizing::SizeField& field, std::int64_t most_cells_per_piece,
             volume::VolumeOptions options = {}) {
     volume::VolumeReport report;
-    const sizing::SizedSurface boundary{front, field};
+    const sizing::SizedSurface boundary{cap, field};
     const volume::VolumeInput input{boundary, options, nullptr, true};
     mesh::DistributedMesh volume = volume::fill_zones(input, volume::decompose(input), report);
     improve::ImproveOptions improvement;
@@ -83,7 +83,7 @@ struct Layered {
     tetrahedra = 0;
     for (const mesh::Piece& piece : volume.pieces) tetrahedra += piece.cell_count();
     tetrahedra = communicator.sum(tetrahedra);
-    append_layers(wall, columns, front, {most_cells_per_piece, elements}, volume);
+    append_layers(wall, columns, cap, {most_cells_per_piece, elements}, volume);
     mesh = mesh::number_mesh(std::move(volume));
   }
 
@@ -92,10 +92,10 @@ struct Layered {
   parallel::Communicator communicator;
   mesh::NumberedMesh wall;
   Columns columns;
-  mesh::NumberedMesh front, mesh;
+  mesh::NumberedMesh cap, mesh;
   improve::ImproveReport improved;
   LayerElements elements = LayerElements::prisms;
-  std::int64_t tetrahedra = 0;  ///< behind the front
+  std::int64_t tetrahedra = 0;  ///< beyond the cap
 };
 
 }  // namespace aeroloom::layers

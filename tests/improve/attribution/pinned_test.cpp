@@ -55,7 +55,7 @@ void add_triangle(Piece& piece, std::array<int, 3> corners, int face) {
   piece.triangle_patch.push_back(face);
 }
 
-/// A strip of face 0 between curves 1 and `upper_curve`, in segments of length 1, one piece each: two
+/// A narrow region of face 0 between curves 1 and `upper_curve`, in segments of length 1, one piece each: two
 /// triangles with a tetrahedron on each of them.
 DistributedMesh make_strip(const parallel::Communicator& communicator, double width, int segments,
                            std::int32_t upper_curve) {

@@ -270,7 +270,7 @@ TEST(Cavities, AreAssignedToRanksByTheirTetrahedra) {
   EXPECT_GT(world.sum(tets), 2 * world.maximum(largest));
 }
 
-TEST(Cavities, ThatAreNotRefilledStay) {
+TEST(Cavities, ThatAreNotReplacedStay) {
   const auto world = Communicator::world();
   mesh::DistributedMesh mesh = mesh::examples::cube(world, squares, pieces);
   const std::string before = hash(mesh);

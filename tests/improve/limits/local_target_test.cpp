@@ -61,7 +61,7 @@ CavityReplacement replace_first(const TetMesh& mesh, std::size_t count) {
   return cavity;
 }
 
-TEST(LocalTarget, RefusesWhatLeavesMoreToMend) {
+TEST(LocalTarget, RefusesWhatLeavesMoreToImprove) {
   mesh::Piece piece = make_strip({0.65, 0.5}, mesh::CadDimension::edge);
   const LocalTarget local_target(piece, measure);
   TetMesh mesh(piece, measure, false);
@@ -74,7 +74,8 @@ TEST(LocalTarget, RefusesWhatLeavesMoreToMend) {
   mesh::Piece elsewhere = make_strip({0.65, 0.5}, mesh::CadDimension::face);
   const LocalTarget target(elsewhere, measure);
   TetMesh other(elsewhere, measure, false);
-  EXPECT_TRUE(target.accepts(other, replace_first(other, 5))) << "away from strips the worst alone counts";
+  EXPECT_TRUE(target.accepts(other, replace_first(other, 5)))
+      << "away from narrow regions the worst alone counts";
 }
 
 TEST(LocalTarget, LetsSevereCasesCostOthers) {
@@ -92,7 +93,7 @@ bool may_get_flatter(double from, double to, bool severe, Effort effort) {
   TetMesh mesh(piece, measure, false);
   const CavityReplacement cavity = replace_first(mesh, 1);
   EXPECT_EQ(local_target.is_severe(cavity.before), severe);
-  EXPECT_FALSE(ChangeLimits().allow(mesh, cavity)) << "away from strips";
+  EXPECT_FALSE(ChangeLimits().allow(mesh, cavity)) << "away from narrow regions";
   return ChangeLimits(nullptr, &local_target, effort).allow(mesh, cavity);
 }
 
@@ -100,12 +101,12 @@ TEST(LocalTarget, LetsSevereCasesGetFlatter) {
   EXPECT_TRUE(may_get_flatter(0.9, 0.1, true, Effort::reduced));
 }
 
-TEST(LocalTarget, LetsOthersGetFlatterWhereNothingIsSpared) {
+TEST(LocalTarget, LetsOthersGetFlatterWithFullEffort) {
   EXPECT_FALSE(may_get_flatter(0.45, 0.25, false, Effort::reduced));
   EXPECT_TRUE(may_get_flatter(0.45, 0.25, false, Effort::full));
 }
 
-TEST(LocalTarget, IsTheTargetEverywhereWhereNothingIsSpared) {
+TEST(LocalTarget, IsTheTargetEverywhereWithFullEffort) {
   const LocalTarget local_target(measure);
   EXPECT_EQ(local_target(Corners{0, 1, 2, 3}), measure.target());
   EXPECT_FALSE(local_target.is_limited(Corners{0, 1, 2, 3}));

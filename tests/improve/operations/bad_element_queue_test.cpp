@@ -141,7 +141,7 @@ TEST(BadElementQueue, TriesNoFailureBesideStripsAgain) {
     ASSERT_EQ(at.local_target.is_severe(at.mesh.quality(0)), severe);
     ASSERT_LT(at.mesh.quality(0), at.queue.target_of(0));
     EXPECT_EQ(at.queue.skips_costly(0), !severe);
-    EXPECT_FALSE(at.queue.skips_costly(1)) << "not beside the strip";
+    EXPECT_FALSE(at.queue.skips_costly(1)) << "not in the narrow region";
     const auto comes_again = [&](int failed_at) {
       at.queue.fill();
       pop_all(at.queue, high);

@@ -1,5 +1,5 @@
 #include "improve/operations/operations.hpp"
-#include "improve/sweeps.hpp"
+#include "improve/pieces/sweeps.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/improve/fans.hpp"
 #include "tests/improve/pieces.hpp"
@@ -63,7 +63,7 @@ TEST(OperationList, GivesTheLevelsOfSweeps) {
   EXPECT_EQ(level_of_sweep(4), 4);
   EXPECT_EQ(level_of_sweep(12), 4);
   EXPECT_EQ(last_level(), 4);
-  EXPECT_EQ(last_level_beside_strips(), 3) << "what comes later is costly";
+  EXPECT_EQ(last_level_in_narrow_regions(), 3) << "what comes later is costly";
 }
 
 LocalIndex worst_tet(const TetMesh& mesh) {
@@ -82,7 +82,7 @@ struct Workshop {
         measure(target),
         mesh(piece, measure),
         local_target(measure),
-        queue(mesh, local_target, last_level_beside_strips()),
+        queue(mesh, local_target, last_level_in_narrow_regions()),
         context(mesh, local_target, limits, Effort::reduced, locator, queue) {}
 
   mesh::Piece piece;

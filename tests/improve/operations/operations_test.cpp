@@ -2,7 +2,7 @@
 #include "improve/operations/edge_removal.hpp"
 #include "improve/operations/face_removal.hpp"
 #include "improve/operations/smoothing.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/quality/quality.hpp"
 #include "tests/improve/pieces.hpp"
 
@@ -64,7 +64,7 @@ TEST(TetMesh, KeepsCellsThatNobodyChanges) {
   EXPECT_EQ(piece.coordinates, coordinates);
 }
 
-TEST(TetMesh, RemovesSwallowedVerticesFromAllArrays) {
+TEST(TetMesh, RemovesUnusedVerticesFromAllArrays) {
   // A tetrahedron split at its inner vertex 0.
   mesh::Piece piece = make_piece({{0.2, 0.2, 0.2}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
                                  {0, 2, 3, 4, 1, 0, 3, 4, 1, 2, 0, 4, 1, 2, 3, 0});

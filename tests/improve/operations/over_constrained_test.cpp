@@ -1,5 +1,5 @@
 #include "improve/operations/over_constrained_removal.hpp"
-#include "improve/over_constrained_trials.hpp"
+#include "improve/pieces/over_constrained_trials.hpp"
 #include "tests/improve/pieces.hpp"
 
 #include <algorithm>

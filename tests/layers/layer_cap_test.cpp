@@ -1,4 +1,4 @@
-#include "layers/front.hpp"
+#include "layers/layer_cap.hpp"
 
 #include "layers/good_columns.hpp"
 #include "mesh/checks/intersection.hpp"
@@ -31,35 +31,33 @@ LayerOptions layers_on_plates() {
 struct Unaware {
   Unaware(const mesh::DistributedMesh& mesh)
       : wall(mesh, layers_on_plates()),
-        fans(gather_fans(wall)),
-        directions(find_directions(wall, fans)),
-        limits(wall, layers_on_plates(), fans, directions) {
-    limits.converge(mesh.communicator);
+        stars(gather_stars(wall)),
+        directions(find_directions(wall, stars)),
+        limits(wall, layers_on_plates(), stars, directions) {
+    limits.converge();
     shrink_to_good(wall, directions, limits);
   }
-  mesh::DistributedMesh front() const {
-    return make_front(wall.mesh, make_columns(wall, directions, limits));
-  }
+  mesh::DistributedMesh cap() const { return make_cap(wall.mesh, make_columns(wall, directions, limits)); }
 
-  WallShare wall;
-  Fans fans;
+  LocalWall wall;
+  VertexStars stars;
   Directions directions;
   ColumnLimits limits;
 };
 
 mesh::DistributedMesh clear(Unaware& columns, LayerReport& report) {
   const PlaneRemesher none;
-  return FrontClearing(columns.wall, columns.directions, none).run(columns.limits, report);
+  return CapClearing(columns.wall, columns.directions, none).run(columns.limits, report);
 }
 
-TEST(Front, ShrinksUntilNoTrianglesMeet) {
+TEST(LayerCap, ShrinksUntilNoTrianglesMeet) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = narrow_slit().distribute(world, 5);
   Unaware columns(mesh);
-  EXPECT_FALSE(mesh::find_intersections(columns.front()).empty());
+  EXPECT_FALSE(mesh::find_intersections(columns.cap()).empty());
   LayerReport report;
   clear(columns, report);
-  EXPECT_TRUE(mesh::find_intersections(columns.front()).empty());
+  EXPECT_TRUE(mesh::find_intersections(columns.cap()).empty());
   EXPECT_GE(report.crossing_rounds, 1);
   EXPECT_GT(report.crossings, 0);
   EXPECT_EQ(report.zeroed_by_force, 0);
@@ -72,15 +70,15 @@ TEST(Front, ShrinksUntilNoTrianglesMeet) {
   EXPECT_GT(world.sum(live), 100);
 }
 
-TEST(Front, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
+TEST(LayerCap, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const auto world = Communicator::world(), self = Communicator::self();
   const auto cleared = [](const Communicator& communicator) {
     const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);
     Unaware columns(mesh);
     LayerReport report;
-    const mesh::DistributedMesh front = clear(columns, report);
-    return mesh::hash_mesh(mesh::number_mesh(front));
+    const mesh::DistributedMesh cap = clear(columns, report);
+    return mesh::hash_mesh(mesh::number_mesh(cap));
   };
   EXPECT_EQ(cleared(world), cleared(self));
 }
@@ -93,24 +91,24 @@ examples::Shapes plate_below_ball() {
       .add_sphere({0.6, 0.7, 0.55}, 0.02, 2, examples::Fluid::outside);
 }
 
-TEST(Front, DoesNotCloseAroundAPart) {
+TEST(LayerCap, DoesNotCloseAroundAPart) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = plate_below_ball().distribute(world, 5);
   LayerOptions options;
   options.patches.resize(3);
   options.patches[1].first = 1e-2;
-  WallShare wall(mesh, options);
-  const Fans fans = gather_fans(wall);
-  const Directions directions = find_directions(wall, fans);
-  ColumnLimits limits(wall, options, fans, directions);
-  limits.converge(world);
+  LocalWall wall(mesh, options);
+  const VertexStars stars = gather_stars(wall);
+  const Directions directions = find_directions(wall, stars);
+  ColumnLimits limits(wall, options, stars, directions);
+  limits.converge();
   shrink_to_good(wall, directions, limits);
   LayerReport report;
   const PlaneRemesher none;
-  const mesh::DistributedMesh before = make_front(wall.mesh, make_columns(wall, directions, limits));
+  const mesh::DistributedMesh before = make_cap(wall.mesh, make_columns(wall, directions, limits));
   EXPECT_TRUE(mesh::find_intersections(before).empty());
-  FrontClearing(wall, directions, none).run(limits, report);
-  EXPECT_GT(report.swallowing, 0);
+  CapClearing(wall, directions, none).run(limits, report);
+  EXPECT_GT(report.enclosing, 0);
   double least = 1;
   std::int64_t live = 0;
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
@@ -121,20 +119,20 @@ TEST(Front, DoesNotCloseAroundAPart) {
   EXPECT_GT(world.sum(live), 10);
 }
 
-TEST(Front, LeavesCrossingsOfTheWallItself) {
+TEST(LayerCap, LeavesCrossingsOfTheWallItself) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh =
       examples::Shapes()
           .add_box({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, examples::Fluid::outside)
           .add_box({0.5, 0.3, 0.2}, {1.6, 1.5, 1.4}, {2, 2, 2}, examples::Fluid::outside)
           .distribute(world, 3);
-  WallShare wall(mesh, {});
-  const Fans fans = gather_fans(wall);
-  const Directions directions = find_directions(wall, fans);
-  ColumnLimits limits(wall, {}, fans, directions);
+  LocalWall wall(mesh, {});
+  const VertexStars stars = gather_stars(wall);
+  const Directions directions = find_directions(wall, stars);
+  ColumnLimits limits(wall, {}, stars, directions);
   LayerReport report;
   const PlaneRemesher none;
-  FrontClearing(wall, directions, none).run(limits, report);
+  CapClearing(wall, directions, none).run(limits, report);
   EXPECT_EQ(report.crossing_rounds, 0);
 }
 

@@ -1,4 +1,4 @@
-#include "layers/fans.hpp"
+#include "layers/vertex_stars.hpp"
 
 #include "tests/layers/directed_wall.hpp"
 
@@ -26,17 +26,17 @@ Place place_of(Vec3 p) {
 
 /// What is known around each vertex of this rank, by place.
 struct Known {
-  FanKind kind;
+  StarKind kind;
   std::vector<Place> normals;  ///< sorted: their order is that of pieces
   bool operator==(const Known&) const = default;
 };
 std::map<Place, Known> fans_by_place(const mesh::DistributedMesh& mesh, const LayerOptions& options) {
-  const WallShare wall(mesh, options);
-  const Fans fans = gather_fans(wall);
+  const LocalWall wall(mesh, options);
+  const VertexStars stars = gather_stars(wall);
   std::map<Place, Known> known;
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
-    Known here{fans.kinds[v], {}};
-    for (const Vec3 normal : fans.normals_at(v)) here.normals.push_back(place_of(normal));
+    Known here{stars.kinds[v], {}};
+    for (const Vec3 normal : stars.normals_at(v)) here.normals.push_back(place_of(normal));
     std::sort(here.normals.begin(), here.normals.end());
     const auto [found, is_new] = known.emplace(place_of(wall.points[v]), here);
     EXPECT_TRUE(is_new || found->second == here) << "the same in all pieces";
@@ -54,27 +54,27 @@ Shapes touching_cubes() {
   return shapes;
 }
 
-TEST(Fans, HaveTheTrianglesOfAllPieces) {
+TEST(VertexStars, HaveTheTrianglesOfAllPieces) {
   const auto world = Communicator::world(), self = Communicator::self();
   const mesh::DistributedMesh mesh = cube_in_a_box().distribute(world, 7),
                               whole = cube_in_a_box().distribute(self, 1);
   const auto alone = fans_by_place(whole, layers_on(2));
   for (const auto& [place, known] : fans_by_place(mesh, layers_on(2))) {
-    EXPECT_EQ(known.kind, FanKind::plain);
+    EXPECT_EQ(known.kind, StarKind::plain);
     EXPECT_TRUE(known == alone.at(place));
     EXPECT_GE(known.normals.size(), 3u);
   }
 }
 
-TEST(Fans, AreBrokenWhereTwoOfThemMeet) {
+TEST(VertexStars, AreBrokenWhereTwoFansMeet) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = touching_cubes().distribute(world, 5);
   const Place corner{1, 1, 1};
   for (const auto& [place, known] : fans_by_place(mesh, layers_on(3)))
-    EXPECT_EQ(known.kind, place == corner ? FanKind::broken : FanKind::plain);
+    EXPECT_EQ(known.kind, place == corner ? StarKind::broken : StarKind::plain);
 }
 
-TEST(Fans, EndWhereATriangleBearsNoLayers) {
+TEST(VertexStars, EndWhereATriangleBearsNoLayers) {
   const auto world = Communicator::world();
   // The upper side of the cube is a patch without layers.
   Shapes shapes = cube_in_a_box();
@@ -87,11 +87,11 @@ TEST(Fans, EndWhereATriangleBearsNoLayers) {
   for (const auto& [place, known] : fans_by_place(mesh, options)) {
     const auto inside = [](double x) { return x > 0 && x < 1; };
     const bool is_above = place[2] == 1 && place[0] >= 0 && place[0] <= 1 && place[1] >= 0 && place[1] <= 1;
-    const FanKind expected = !is_above                              ? FanKind::plain
-                             : inside(place[0]) && inside(place[1]) ? FanKind::off_wall
-                                                                    : FanKind::ending;
+    const StarKind expected = !is_above                              ? StarKind::plain
+                              : inside(place[0]) && inside(place[1]) ? StarKind::off_wall
+                                                                     : StarKind::ending;
     EXPECT_EQ(known.kind, expected) << place[0] << ' ' << place[1] << ' ' << place[2];
-    EXPECT_EQ(known.normals.empty(), expected == FanKind::off_wall);
+    EXPECT_EQ(known.normals.empty(), expected == StarKind::off_wall);
   }
 }
 

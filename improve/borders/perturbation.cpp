@@ -1,4 +1,4 @@
-#include "improve/borders/scatter.hpp"
+#include "improve/borders/perturbation.hpp"
 
 #include "geometry/predicates.hpp"
 #include "mesh/data/cell_stars.hpp"
@@ -15,7 +15,7 @@ using geometry::Vec3;
 using mesh::LocalIndex;
 
 /// Evenly within -1 and 1.
-double throw_of(std::uint64_t seed, LocalIndex v, int axis) {
+double offset_of(std::uint64_t seed, LocalIndex v, int axis) {
   const std::uint64_t bits =
       mesh::mix_in(mesh::mix_in(seed, static_cast<std::uint64_t>(v)), static_cast<std::uint64_t>(axis));
   return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
@@ -23,7 +23,7 @@ double throw_of(std::uint64_t seed, LocalIndex v, int axis) {
 
 }  // namespace
 
-void scatter(mesh::Piece& piece, double fraction, std::uint64_t seed) {
+void perturb(mesh::Piece& piece, double fraction, std::uint64_t seed) {
   const mesh::CellStars stars(piece, 4);
   std::vector<char> stays(piece.vertex_count(), 0);
   for (const LocalIndex v : piece.shared_vertices) stays[v] = 1;
@@ -38,7 +38,7 @@ void scatter(mesh::Piece& piece, double fraction, std::uint64_t seed) {
     });
     if (shortest == std::numeric_limits<double>::max()) continue;
     Vec3 to = origin;
-    for (int axis = 0; axis < 3; ++axis) to[axis] += fraction * shortest * throw_of(seed, v, axis);
+    for (int axis = 0; axis < 3; ++axis) to[axis] += fraction * shortest * offset_of(seed, v, axis);
     piece.set_point(v, to);
     bool positive = true;
     stars.for_each(v, [&](LocalIndex t, const mesh::AscendingCell&) {

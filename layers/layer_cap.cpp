@@ -1,7 +1,7 @@
-#include "layers/front.hpp"
+#include "layers/layer_cap.hpp"
 
+#include "layers/enclosed_parts.hpp"
 #include "layers/good_columns.hpp"
-#include "layers/swallowed_parts.hpp"
 #include "mesh/checks/intersection.hpp"
 #include "mesh/exchange/delivery.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -24,7 +24,7 @@ std::int32_t lowered(std::int32_t count, int round) {
 
 }  // namespace
 
-Columns make_columns(const WallShare& wall, const Directions& directions, const ColumnLimits& limits) {
+Columns make_columns(const LocalWall& wall, const Directions& directions, const ColumnLimits& limits) {
   Columns columns;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     PieceColumns& of_piece = columns.pieces.emplace_back();
@@ -40,22 +40,22 @@ Columns make_columns(const WallShare& wall, const Directions& directions, const 
   return columns;
 }
 
-mesh::DistributedMesh make_front(const mesh::DistributedMesh& wall, const Columns& columns) {
-  mesh::DistributedMesh front = wall;
-  for (std::size_t p = 0; p < front.pieces.size(); ++p) {
-    mesh::Piece& piece = front.pieces[p];
+mesh::DistributedMesh make_cap(const mesh::DistributedMesh& wall, const Columns& columns) {
+  mesh::DistributedMesh cap = wall;
+  for (std::size_t p = 0; p < cap.pieces.size(); ++p) {
+    mesh::Piece& piece = cap.pieces[p];
     const PieceColumns& of_piece = columns.pieces[p];
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (of_piece.counts[v] > 0) piece.set_point(v, node(wall.pieces[p], of_piece, v, of_piece.counts[v]));
     }
   }
-  return front;
+  return cap;
 }
 
 /// Counts that columns of this rank fall to, if any.
-class FrontClearing::LoweredCounts {
+class CapClearing::LoweredCounts {
 public:
-  LoweredCounts(const WallShare& wall, const ColumnLimits& limits, int round)
+  LoweredCounts(const LocalWall& wall, const ColumnLimits& limits, int round)
       : _wall(wall), _limits(limits), _round(round), _counts(wall.points.size(), unchanged) {}
 
   void add(std::int32_t v) {
@@ -73,25 +73,23 @@ public:
     if (p == pieces.size() || pieces[p].id != piece) return;
     add_triangle(_wall.first_triangle[p] + cell);
   }
-  std::int64_t lowered_here() const { return _lowered; }
+  /// How many columns of all ranks fall. Collective.
+  std::int64_t total() const { return _wall.mesh.communicator.sum(_lowered); }
   std::vector<std::int32_t> take() { return std::move(_counts); }
 
 private:
   static constexpr std::int32_t unchanged = std::numeric_limits<std::int32_t>::max();
 
-  const WallShare& _wall;
+  const LocalWall& _wall;
   const ColumnLimits& _limits;
   int _round;
   std::vector<std::int32_t> _counts;
   std::int64_t _lowered = 0;
 };
 
-FrontClearing::FrontClearing(const WallShare& wall, const Directions& directions,
-                             const PlaneRemesher& remesh_planes)
-    : _communicator(wall.mesh.communicator),
-      _wall(wall),
-      _directions(directions),
-      _remesh_planes(remesh_planes) {
+CapClearing::CapClearing(const LocalWall& wall, const Directions& directions,
+                         const PlaneRemesher& remesh_planes)
+    : _wall(wall), _directions(directions), _remesh_planes(remesh_planes) {
   std::vector<std::int32_t> on_plane;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const auto roles =
@@ -106,50 +104,50 @@ FrontClearing::FrontClearing(const WallShare& wall, const Directions& directions
   const bool has_planes = _kept.size() < on_plane.size();
   if (has_planes && !remesh_planes)
     throw parallel::CollectiveError(parallel::FailureKind::bug,
-                                    "layers end on planes that nobody meshes again");
+                                    "layers end on planes, but none can be meshed again");
 }
 
-void FrontClearing::lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault,
-                                    LoweredCounts& lower) const {
+void CapClearing::lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault,
+                                  LoweredCounts& lower) const {
   _wall.shared.for_each([&](std::size_t p, mesh::LocalIndex, std::size_t copy) {
     const mesh::SharedVertexKey key = _wall.mesh.pieces[p].shared_keys[copy - _wall.shared.first(p)];
     if (std::binary_search(at_fault.begin(), at_fault.end(), key)) lower.add(_wall.vertex_of_copy[copy]);
   });
-  if (_communicator.sum(lower.lowered_here()) > 0) return;
+  if (lower.total() > 0) return;
   for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
     if (_wall.roles[t] == WallRole::plane) lower.add_triangle(t);
   }
-  if (_communicator.sum(lower.lowered_here()) > 0) return;
+  if (lower.total() > 0) return;
   throw parallel::CollectiveError(
       parallel::FailureKind::bug,
       "layers: planes cannot be meshed again within boundaries that did not move");
 }
 
-void FrontClearing::lower_around_parts(const mesh::DistributedMesh& front, LoweredCounts& lower,
-                                       LayerReport& report) const {
+void CapClearing::lower_around_parts(const mesh::DistributedMesh& cap, LoweredCounts& lower,
+                                     LayerReport& report) const {
   std::vector<geometry::Vec3> ends = _wall.points;
-  std::size_t next = 0;  // pieces that are not of planes come first in the front, in the wall's order
+  std::size_t next = 0;  // pieces that are not of planes come first in the cap, in the wall's order
   for (std::size_t p = 0; p < _wall.mesh.pieces.size(); ++p) {
     if (!std::binary_search(_kept.begin(), _kept.end(), _wall.mesh.pieces[p].id)) continue;
-    const mesh::Piece& piece = front.pieces[next++];
+    const mesh::Piece& piece = cap.pieces[next++];
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
       ends[_wall.first_vertex[p] + v] = piece.point(v);
   }
-  const std::vector<std::int32_t> swallowing = find_swallowing_triangles(_wall, ends);
-  for (const std::int32_t t : swallowing) lower.add_triangle(t);
-  report.swallowing += _communicator.sum(static_cast<std::int64_t>(swallowing.size()));
+  const std::vector<std::int32_t> enclosing = find_enclosing_triangles(_wall, ends);
+  for (const std::int32_t t : enclosing) lower.add_triangle(t);
+  report.enclosing += _wall.mesh.communicator.sum(static_cast<std::int64_t>(enclosing.size()));
 }
 
-bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower, LayerReport& report) const {
+bool CapClearing::is_clear(mesh::DistributedMesh& cap, LoweredCounts& lower, LayerReport& report) const {
   const bool has_planes = static_cast<mesh::PieceId>(_kept.size()) < _wall.mesh.piece_count;
   std::vector<mesh::SharedVertexKey> at_fault;
-  if (has_planes) at_fault = _remesh_planes(front);
+  if (has_planes) at_fault = _remesh_planes(cap);
   if (!at_fault.empty()) {
     std::sort(at_fault.begin(), at_fault.end());
     lower_on_planes(at_fault, lower);
     return false;
   }
-  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(front);
+  const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(cap);
   const auto add = [&](mesh::PieceId piece, mesh::LocalIndex cell) {
     if (static_cast<std::size_t>(piece) < _kept.size()) lower.add(_kept[piece], cell);
   };
@@ -157,21 +155,21 @@ bool FrontClearing::is_clear(mesh::DistributedMesh& front, LoweredCounts& lower,
     add(hit.first_piece, hit.first);
     add(hit.second_piece, hit.second);
   }
-  if (_communicator.sum(lower.lowered_here()) == 0) lower_around_parts(front, lower, report);
-  if (_communicator.sum(lower.lowered_here()) == 0) return true;
+  if (lower.total() == 0) lower_around_parts(cap, lower, report);
+  if (lower.total() == 0) return true;
   report.crossings += static_cast<std::int64_t>(hits.size());
   return false;
 }
 
-mesh::DistributedMesh FrontClearing::run(ColumnLimits& limits, LayerReport& report) const {
+mesh::DistributedMesh CapClearing::run(ColumnLimits& limits, LayerReport& report) const {
   for (int round = 1;; ++round) {
-    mesh::DistributedMesh front = make_front(_wall.mesh, make_columns(_wall, _directions, limits));
+    mesh::DistributedMesh cap = make_cap(_wall.mesh, make_columns(_wall, _directions, limits));
     LoweredCounts lower(_wall, limits, round);
-    if (is_clear(front, lower, report)) return front;
+    if (is_clear(cap, lower, report)) return cap;
     report.crossing_rounds = round;
-    if (round > rounds_of_thirds) report.zeroed_by_force += _communicator.sum(lower.lowered_here());
+    if (round > rounds_of_thirds) report.zeroed_by_force += lower.total();
     limits.limit_counts(lower.take(), LayerLimit::crossing);
-    limits.converge(_communicator);
+    limits.converge();
     report.validity_rounds += shrink_to_good(_wall, _directions, limits);
   }
 }

@@ -1,4 +1,4 @@
-#include "improve/borders/shares.hpp"
+#include "improve/borders/piece_assignment.hpp"
 
 #include "mesh/data/tet_faces.hpp"
 
@@ -18,8 +18,8 @@ const mesh::TetFace* find_face(const std::vector<mesh::TetFace>& faces,
 
 }  // namespace
 
-CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
-                       const CavityContent& content) {
+CavityAssignment assign_to_pieces(const Cavity& cavity, const std::vector<mesh::PieceId>& donor,
+                                  const CavityContent& content) {
   // Boundary faces of the cavity, with the old and the new tetrahedron inside them.
   const std::vector<mesh::TetFace> given = mesh::boundary_faces(cavity.tets);
   std::vector<mesh::TetFace> taken;
@@ -32,15 +32,15 @@ CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& d
       [&](const mesh::TetFace& face) { taken.push_back(face); });
   // Faces that differ are triangles of the surface mesh, on either side.
   std::size_t kept = 0;
-  CavityShares shares;
-  shares.of_tet.assign(content.tets.size(), -1);
+  CavityAssignment assignment;
+  assignment.of_tet.assign(content.tets.size(), -1);
   std::vector<std::int32_t> front;
   for (const mesh::TetFace& face : taken) {
     const mesh::TetFace* old = find_face(given, face.key);
     if (!old) continue;
     ++kept;
-    if (shares.of_tet[face.tet] >= 0) continue;
-    shares.of_tet[face.tet] = donor[old->tet];
+    if (assignment.of_tet[face.tet] >= 0) continue;
+    assignment.of_tet[face.tet] = donor[old->tet];
     front.push_back(face.tet);
   }
   const std::vector<CavityTriangle>& triangles = content.triangles_of(cavity);
@@ -50,25 +50,26 @@ CavityShares share_out(const Cavity& cavity, const std::vector<mesh::PieceId>& d
   };
   if (taken.size() - kept != count_new(triangles, given) ||
       given.size() - kept != count_new(cavity.triangles, taken)) {
-    throw std::logic_error("share_out: the content has another boundary");
+    throw std::logic_error("assign_to_pieces: the content has another boundary");
   }
   if (front.empty()) {  // nothing is left of the boundary of a whole region
-    shares.of_tet[0] = *std::min_element(donor.begin(), donor.end());
+    assignment.of_tet[0] = *std::min_element(donor.begin(), donor.end());
     front.push_back(0);
   }
   for (std::size_t i = 0; i < front.size(); ++i) {
     for (const std::int32_t next : across[front[i]]) {
-      if (next < 0 || shares.of_tet[next] >= 0) continue;
-      shares.of_tet[next] = shares.of_tet[front[i]];
+      if (next < 0 || assignment.of_tet[next] >= 0) continue;
+      assignment.of_tet[next] = assignment.of_tet[front[i]];
       front.push_back(next);
     }
   }
   for (const CavityTriangle& triangle : triangles) {
     const mesh::TetFace* face = find_face(taken, triangle.vertices);
-    if (!face) throw std::logic_error("share_out: a triangle of the surface is not on the cavity's boundary");
-    shares.of_triangle.push_back(shares.of_tet[face->tet]);
+    if (!face)
+      throw std::logic_error("assign_to_pieces: a triangle of the surface is not on the cavity's boundary");
+    assignment.of_triangle.push_back(assignment.of_tet[face->tet]);
   }
-  return shares;
+  return assignment;
 }
 
 }  // namespace aeroloom::cavities

@@ -1,10 +1,11 @@
-#include "improve/attribution/strip_triangles.hpp"
+#include "improve/attribution/narrow_regions.hpp"
 
 #include "geometry/sort_unique.hpp"
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <tuple>
@@ -18,11 +19,14 @@ using mesh::GlobalIndex;
 using mesh::LocalIndex;
 using mesh::Piece;
 
+/// A triangle is narrow when its height over a side on one curve is at most this fraction of that side.
+/// Chosen, not measured.
+constexpr double narrow_fraction = 0.4;
 /// Two curves run along each other where their segments enclose less than 30 degrees, as in
 /// surface/cusps/needles.cpp.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
 
-/// The name of a curve: its number, or below zero what two CAD vertices name that one segment joins.
+/// The name of a curve: its number, or a negative number made from two CAD vertices joined by one segment.
 using CurveName = std::int64_t;
 
 CurveName name_of_segment(std::int32_t a, std::int32_t b) {
@@ -71,9 +75,8 @@ void add_edges(const Piece& piece, const std::vector<GlobalIndex>& names, std::v
   }
 }
 
-/// Curves are known by their edges: those at which triangles of two CAD faces meet.
+/// A mesh edge is on a curve if triangles of two CAD faces meet at it.
 std::vector<CurveAtVertex> curves_at_vertices(const mesh::NumberedMesh& mesh) {
-  const parallel::Communicator& communicator = mesh.communicator;
   const auto sort_out = [](std::vector<EdgeAtVertex>& edges) {
     const auto same = [](const EdgeAtVertex& a, const EdgeAtVertex& b) { return edge_key(a) == edge_key(b); };
     geometry::sort_unique(
@@ -83,7 +86,7 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::NumberedMesh& mesh) {
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
     add_edges(mesh.pieces[i], mesh.numbering.vertices[i], edges);
   sort_out(edges);
-  edges = communicator.all_gather_items<EdgeAtVertex>(edges);
+  edges = mesh.communicator.all_gather_items<EdgeAtVertex>(edges);
   sort_out(edges);
   std::vector<CurveAtVertex> curves;
   for (std::size_t i = 1; i < edges.size(); ++i) {
@@ -99,12 +102,20 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::NumberedMesh& mesh) {
   return curves;
 }
 
-class StripJudge {
-public:
-  StripJudge(const Piece& piece, const std::vector<CurveAtVertex>& curves) : _piece(piece), _curves(curves) {}
+/// A boundary triangle that fills a narrow region of a CAD face from curve to curve.
+struct NarrowTriangle {
+  LocalIndex triangle = 0;            ///< among the boundary triangles of its piece
+  std::array<LocalIndex, 3> corners;  ///< two on one curve of the face, then one on another
+  double width = 0;                   ///< height over the first two
+};
 
-  /// Whether the triangle is one of a strip with its corners so.
-  bool is_strip(LocalIndex a, LocalIndex b, LocalIndex c, std::int32_t face) {
+class NarrowTriangleTest {
+public:
+  NarrowTriangleTest(const Piece& piece, const std::vector<CurveAtVertex>& curves)
+      : _piece(piece), _curves(curves) {}
+
+  /// Whether a and b lie on one curve of the face, and c on another that runs along it.
+  bool joins_two_curves(LocalIndex a, LocalIndex b, LocalIndex c, std::int32_t face) {
     list(a, face, _at_a);
     list(b, face, _at_b);
     list(c, face, _at_c);
@@ -118,7 +129,7 @@ public:
     const auto is_apart = [&](CurveName n) { return !has(_at_a, n) && !has(_at_b, n); };
     if (_piece.vertex_dimension[c] != mesh::CadDimension::vertex)
       return std::any_of(_at_c.begin(), _at_c.end(), is_apart);
-    // A short segment across the end of a curve makes no strip of the curves that it joins.
+    // A short segment across the end of a curve makes no narrow region of the curves that it joins.
     const auto curves = curves_at(_piece.vertex_entity[c], face);
     return std::any_of(curves.begin(), curves.end(), [&](const CurveAtVertex& curve) {
       return is_apart(curve.curve) &&
@@ -151,9 +162,10 @@ private:
   std::vector<CurveName> _at_a, _at_b, _at_c;
 };
 
-std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<CurveAtVertex>& curves) {
-  std::vector<StripTriangle> strips;
-  StripJudge judge(piece, curves);
+/// Triangles with two vertices on one curve and the third on another.
+std::vector<NarrowTriangle> narrow_triangles(const Piece& piece, const std::vector<CurveAtVertex>& curves) {
+  std::vector<NarrowTriangle> found;
+  NarrowTriangleTest test(piece, curves);
   for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const LocalIndex* v = piece.boundary_triangle(t);
     if (std::any_of(v, v + 3, [&](LocalIndex w) { return !is_on_curve(piece.vertex_dimension[w]); }))
@@ -162,22 +174,54 @@ std::vector<StripTriangle> strips_of(const Piece& piece, const std::vector<Curve
       const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];
       const Vec3 side = piece.point(b) - piece.point(a);
       const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
-      if (area2 > strip_fraction * dot(side, side) || !judge.is_strip(a, b, c, piece.triangle_face[t]))
+      if (area2 > narrow_fraction * dot(side, side) ||
+          !test.joins_two_curves(a, b, c, piece.triangle_face[t]))
         continue;
-      strips.push_back({t, {a, b, c}, area2 / norm(side)});
+      found.push_back({t, {a, b, c}, area2 / norm(side)});
       break;
     }
   }
-  return strips;
+  return found;
 }
 
 }  // namespace
 
-std::vector<std::vector<StripTriangle>> find_strip_triangles(const mesh::NumberedMesh& mesh) {
+std::vector<NarrowEdge> find_narrow_edges(const mesh::NumberedMesh& mesh,
+                                          const std::vector<EdgeName>& edges) {
   const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh);
-  std::vector<std::vector<StripTriangle>> strips;
-  for (const Piece& piece : mesh.pieces) strips.push_back(strips_of(piece, curves));
-  return strips;
+  std::vector<NarrowEdge> mine;
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const Piece& piece = mesh.pieces[i];
+    for (const NarrowTriangle& narrow : narrow_triangles(piece, curves)) {
+      const LocalIndex c = narrow.corners[2];
+      for (const LocalIndex a : {narrow.corners[0], narrow.corners[1]}) {
+        const GlobalIndex ga = mesh.numbering.vertices[i][a], gc = mesh.numbering.vertices[i][c];
+        // Only one side of a face has triangles in its pieces; edges count for the regions of both sides.
+        const EdgeName first{std::min(ga, gc), std::max(ga, gc), std::numeric_limits<std::int64_t>::min()};
+        for (auto found = std::lower_bound(edges.begin(), edges.end(), first);
+             found != edges.end() && found->low == first.low && found->high == first.high; ++found) {
+          mine.push_back({found - edges.begin(), piece.triangle_face[narrow.triangle], narrow.width,
+                          0.5 * (piece.point(a) + piece.point(c))});
+        }
+      }
+    }
+  }
+  std::vector<NarrowEdge> narrow = mesh.communicator.all_gather_items<NarrowEdge>(mine);
+  const auto same = [](const NarrowEdge& a, const NarrowEdge& b) { return a.edge == b.edge; };
+  geometry::sort_unique(
+      narrow,
+      [](const NarrowEdge& a, const NarrowEdge& b) {
+        return std::tie(a.edge, a.width, a.face) < std::tie(b.edge, b.width, b.face);
+      },
+      same);
+  return narrow;
+}
+
+const NarrowEdge* find_narrow_edge(const std::vector<NarrowEdge>& narrow, std::int64_t edge) {
+  const auto found =
+      std::lower_bound(narrow.begin(), narrow.end(), edge,
+                       [](const NarrowEdge& each, std::int64_t wanted) { return each.edge < wanted; });
+  return found != narrow.end() && found->edge == edge ? &*found : nullptr;
 }
 
 }  // namespace aeroloom::attribution

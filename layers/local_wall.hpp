@@ -1,4 +1,4 @@
-/// The wall mesh as the pieces of one rank have it, in flat arrays over all of them.
+/// The wall mesh on this rank: all its local pieces in flat arrays.
 #pragma once
 
 #include "layers/columns.hpp"
@@ -12,29 +12,27 @@
 
 namespace aeroloom::layers {
 
-/// What a triangle means to the columns of its corners.
+/// What a triangle means for the columns at its corners.
 enum class WallRole : std::int8_t {
-  layered,  ///< asks for layers
+  layered,  ///< layers are requested
   plane,    ///< of a plane that layers end on
   other     ///< layers may not end here
 };
 
-/// The pieces of this rank, one after another: vertex v of piece p is number first_vertex[p] + v here,
-/// triangles alike. What several pieces know of a vertex has a place for each of them, and equal values in
-/// all.
-struct WallShare {
+/// The local pieces, one after another. Vertex v of piece p has the number first_vertex[p] + v; triangles
+/// alike. A vertex of several pieces has a number in each, with equal values.
+struct LocalWall {
   using Corners = std::array<std::int32_t, 3>;
 
-  /// Refers to the mesh. Throws CollectiveError where options do not fit it. Collective.
-  WallShare(const mesh::DistributedMesh& mesh, const LayerOptions& options);
+  /// Keeps a reference to the mesh. Throws CollectiveError if the options do not fit it. Collective.
+  LocalWall(const mesh::DistributedMesh& mesh, const LayerOptions& options);
 
   std::int32_t vertex_count() const { return static_cast<std::int32_t>(points.size()); }
   std::int32_t triangle_count() const { return static_cast<std::int32_t>(triangles.size()); }
   std::span<const std::int32_t> triangles_around(std::int32_t vertex) const {
     return std::span(around).subspan(first_around[vertex], first_around[vertex + 1] - first_around[vertex]);
   }
-  /// Calls visit(neighbour) for the other corners of the layered triangles around a vertex, most of them
-  /// twice.
+  /// Calls visit(neighbour) for the other corners of the layered triangles around a vertex; most come twice.
   template <class Visit>
   void for_each_neighbour(std::int32_t vertex, const Visit& visit) const {
     for (const std::int32_t t : triangles_around(vertex)) {
@@ -52,7 +50,7 @@ struct WallShare {
     shared.reduce_and_scatter(copies, op);
     for (std::size_t c = 0; c < copies.size(); ++c) values[vertex_of_copy[c]] = copies[c];
   }
-  /// Replaces the values of a vertex in all pieces by that of the lowest of them. Collective.
+  /// Replaces the values of a vertex in all pieces by that of the lowest piece. Collective.
   template <parallel::Flat T>
   void spread(std::vector<T>& values) const {
     std::vector<T> copies = values_of_copies(values);
@@ -61,17 +59,17 @@ struct WallShare {
   }
 
   const mesh::DistributedMesh& mesh;
-  std::vector<std::int32_t> first_vertex{0}, first_triangle{0};  ///< by piece; the ends come last
+  std::vector<std::int32_t> first_vertex{0}, first_triangle{0};  ///< by piece; the totals come last
   std::vector<geometry::Vec3> points;
-  std::vector<Corners> triangles;  ///< counter-clockwise seen from the fluid: not as the mesh has them
+  std::vector<Corners> triangles;            ///< counter-clockwise seen from the fluid, opposite to the mesh
   std::vector<std::int32_t> patches, faces;  ///< by triangle; CAD faces
   std::vector<WallRole> roles;
   std::vector<geometry::Vec3> end_planes;  ///< by CAD face: normals of planes that layers end on, else zero
   std::vector<std::int32_t> first_around,
-      around;  ///< triangles by vertex, ascending; lists end at the next first
+      around;  ///< triangles by vertex, ascending; each list ends where the next begins
   mesh::SharedVertices shared;
   std::vector<std::int32_t> vertex_of_copy;
-  std::vector<std::uint8_t> owned;  ///< 1: the vertex's own piece is the lowest that knows it
+  std::vector<std::uint8_t> owned;  ///< 1: no lower piece has the vertex
 
 private:
   template <class T>

@@ -1,4 +1,4 @@
-#include "improve/sweeps.hpp"
+#include "improve/pieces/sweeps.hpp"
 
 #include "improve/operations/operations.hpp"
 
@@ -17,7 +17,7 @@ constexpr std::int64_t tasks_per_gain = 50;
 Sweeps::Sweeps(TetMesh& mesh, const LocalTarget& local_target, const ChangeLimits& limits, Effort effort,
                cad::PointLocator* locator)
     : _mesh(mesh),
-      _queue(mesh, local_target, last_level_beside_strips()),
+      _queue(mesh, local_target, last_level_in_narrow_regions()),
       _context(mesh, local_target, limits, effort, locator, _queue),
       _operations(operations().size()) {}
 
@@ -36,7 +36,7 @@ void Sweeps::run(int most) {
 
 Sweeps::Gains Sweeps::sweep(int level) {
   Gains done{_queue.fill(), 0};
-  // A change may leave others below the target, without end where every gain is small.
+  // A change may leave other tetrahedra below the target, endlessly if gains are small.
   for (std::int64_t tries = tries_per_task * done.tasks + least_tries; tries > 0; --tries) {
     const std::optional<LocalIndex> t = _queue.pop(level);
     if (!t) break;

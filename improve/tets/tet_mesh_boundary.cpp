@@ -1,5 +1,5 @@
 /// The boundary triangles of a TetMesh, and the tetrahedra around edges.
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
 
 #include <algorithm>
 
@@ -79,21 +79,6 @@ void TetMesh::match_boundary(const CavityReplacement& cavity) {
     _piece.boundary[3 * static_cast<std::size_t>(cavity.old_triangles[used])] = -1;
     _dead_triangles = true;
   }
-}
-
-void TetMesh::remove_dead_triangles() {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < _piece.triangle_face.size(); ++i) {
-    if (_piece.boundary[3 * i] < 0) continue;
-    std::copy_n(_piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(i), 3,
-                _piece.boundary.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
-    _piece.triangle_face[kept] = _piece.triangle_face[i];
-    _piece.triangle_patch[kept] = _piece.triangle_patch[i];
-    ++kept;
-  }
-  _piece.boundary.resize(3 * kept);
-  _piece.triangle_face.resize(kept);
-  _piece.triangle_patch.resize(kept);
 }
 
 bool TetMesh::collect_fan(LocalIndex t, int edge, int most, Fan& fan) const {

@@ -1,4 +1,4 @@
-#include "improve/sweeps.hpp"
+#include "improve/pieces/sweeps.hpp"
 
 #include "improve/operations/over_constrained_count.hpp"
 #include "tests/improve/pieces.hpp"

@@ -1,12 +1,10 @@
-#include "improve/over_constrained_trials.hpp"
+#include "improve/pieces/over_constrained_trials.hpp"
 
 #include "improve/limits/local_target.hpp"
 #include "improve/operations/over_constrained_removal.hpp"
-#include "improve/sweeps.hpp"
-#include "mesh/data/cad_dimension.hpp"
+#include "improve/pieces/sweeps.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace aeroloom::improve {
 namespace {
@@ -78,12 +76,12 @@ std::int64_t OverConstrainedTrials::run(TetMesh& mesh) {
 bool OverConstrainedTrials::remove(TetMesh& mesh, LocalIndex t) {
   collect(mesh, t);
   const State before = examine(mesh, _tets);
-  // Where some miss the target already, sweeps work on those, and long.
+  // If some miss the target already, sweeps would work on those for long.
   if (before.bad > 0) return false;
   const mesh::Piece start = copy(mesh);
-  const LocalTarget strips(start, mesh.measure());
+  const LocalTarget narrow_target(start, mesh.measure());
   const LocalTarget everywhere(mesh.measure());
-  const ChangeLimits limits(_field, &strips, _effort);
+  const ChangeLimits limits(_field, &narrow_target, _effort);
   OverConstrainedRemoval removal(limits, least_fraction);
   mesh::Piece piece = start;
   TetMesh untouched(piece, mesh.measure());
@@ -92,7 +90,7 @@ bool OverConstrainedTrials::remove(TetMesh& mesh, LocalIndex t) {
     piece = start;
     TetMesh copied(piece, mesh.measure());
     const std::vector<LocalIndex>& fresh = removal.apply(copied, found[i]);
-    Sweeps sweeps(copied, _effort == Effort::full ? everywhere : strips, limits, _effort);
+    Sweeps sweeps(copied, _effort == Effort::full ? everywhere : narrow_target, limits, _effort);
     sweeps.follow_removal(fresh);
     sweeps.run(sweeps_after);
     if (!is_better(examine(copied), before, mesh.measure().target())) continue;

@@ -1,4 +1,4 @@
-#include "layers/wall_share.hpp"
+#include "layers/local_wall.hpp"
 
 #include "layers/end_planes.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -18,17 +18,17 @@ void require_fitting(const mesh::DistributedMesh& mesh, const LayerOptions& opti
   };
   if (mesh.kind != mesh::CellKind::triangle)
     throw CollectiveError(FailureKind::bug, "layers: the mesh is no surface");
-  require(options.stairs >= 1, "LayerOptions::stairs is at least 1");
+  require(options.stairs >= 1, "layer counts along an edge have to be allowed to differ by 1");
   require(options.patches.size() <= mesh.patches.size(), "more patches than the mesh has");
   for (std::size_t p = 0; p < options.patches.size(); ++p) {
     const WallLayers& wanted = options.patches[p];
     const std::string of_patch = " of patch '" + mesh.patches[p] + "'";
     require(wanted.first >= 0 && wanted.total >= 0 && wanted.count >= 0,
             "a negative height or count" + of_patch);
-    require(wanted.constant >= 1, "WallLayers::constant" + of_patch + " is at least 1");
-    require(wanted.growth >= 1, "WallLayers::growth" + of_patch + " is at least 1");
+    require(wanted.constant >= 1, "constant" + of_patch + " is at least 1");
+    require(wanted.growth >= 1, "growth" + of_patch + " is at least 1");
     require(wanted.growth > 1 || wanted.first == 0 || wanted.count > 0 || wanted.total > 0,
-            "WallLayers::growth" + of_patch + " is 1, and neither count nor total ends the layers");
+            "growth" + of_patch + " is 1, and neither count nor total ends the layers");
   }
 }
 
@@ -42,7 +42,7 @@ std::vector<WallRole> roles_of_patches(const mesh::DistributedMesh& mesh, const 
 
 }  // namespace
 
-WallShare::WallShare(const mesh::DistributedMesh& surface, const LayerOptions& options)
+LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& options)
     : mesh((require_fitting(surface, options), surface)),
       end_planes(find_end_planes(surface, options)),
       shared(surface) {

@@ -1,5 +1,5 @@
-/// A tetrahedral piece open for local changes: cells with neighbours, qualities, and the one operation every
-/// change goes through, the replacement of a cavity.
+/// A tetrahedral piece that local operations can change. It knows the neighbours and qualities of its cells,
+/// and offers one operation: the replacement of a cavity.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -17,11 +17,11 @@ namespace aeroloom::improve {
 using geometry::Vec3;
 using mesh::LocalIndex;
 
-/// The four vertices of a tetrahedron, positive in VTK's order.
+/// The four vertices of a tetrahedron, with positive volume in VTK's order.
 using Corners = std::array<LocalIndex, 4>;
 
-/// One side of a face: 4 * tetrahedron + local face (opposite the local vertex). Where there is no
-/// tetrahedron: -1, or -2 - i on triangle i of the piece's boundary.
+/// A face seen from one side: 4 * tetrahedron + local face; local face i is opposite local vertex i. Other
+/// values say that there is no tetrahedron: -2 - i is boundary triangle i, and -1 means neither.
 using HalfFace = std::int32_t;
 
 /// The corners of a triangle, ascending.
@@ -32,7 +32,7 @@ inline std::array<LocalIndex, 3> sorted(LocalIndex a, LocalIndex b, LocalIndex c
   return {a, b, c};
 }
 
-/// Whether this side of a face is a triangle of the piece's boundary, and which.
+/// Whether the value of a side means a boundary triangle, and which.
 inline bool is_triangle(HalfFace h) {
   return h <= -2;
 }
@@ -40,25 +40,22 @@ inline LocalIndex triangle_of(HalfFace h) {
   return -2 - h;
 }
 
-/// Tetrahedra around an interior edge: (start, end, ring[i], ring[i+1]) is tets[i], of positive volume; the
-/// ring is closed.
+/// The tetrahedra around an interior edge. tets[i] has the vertices (start, end, ring[i], ring[i+1]) in
+/// positive order; the ring is closed.
 struct EdgeRing {
   LocalIndex start = 0, end = 0;
   std::vector<LocalIndex> tets;
   std::vector<LocalIndex> ring;
 };
 
-/// Tetrahedra around an edge on the boundary, from one of its triangles to the other: (start, end, ring[i],
-/// ring[i+1]) is tets[i], of positive volume.
-struct Fan {
-  LocalIndex start = 0, end = 0;
-  std::vector<LocalIndex> tets;
-  std::vector<LocalIndex> ring;
+/// The tetrahedra around a boundary edge, from one of its boundary triangles to the other. The ring is open.
+struct Fan : EdgeRing {
   std::array<LocalIndex, 2> triangles{};  ///< (start, end, ring.front()) and (start, end, ring.back())
 };
 
-/// A proposed change: the tetrahedra that go, those that come, and the worst quality of both. Triangles of
-/// the boundary may go with them; what is open then becomes the new boundary, of at most as many triangles.
+/// A proposed change: tetrahedra to remove, tetrahedra to insert, and the worst quality of each set. Boundary
+/// triangles may be removed too. Faces that are then open become the new boundary, with at most as many
+/// triangles.
 struct CavityReplacement {
   std::vector<LocalIndex> old_tets;
   std::vector<Corners> new_tets;
@@ -69,22 +66,22 @@ struct CavityReplacement {
   bool improves() const { return after > before; }
 };
 
-/// Holds a piece's cells and boundary triangles while they change; vertices on faces without a neighbour,
-/// shared ones, and those classified below the region are fixed.
+/// The cells and boundary triangles of a piece while they change. A vertex is fixed if it is shared, or
+/// classified on the boundary, or on a face without neighbour.
 class TetMesh {
 public:
-  /// Takes the cells out of the piece; finish() puts them back. Throws std::logic_error when three tetrahedra
-  /// share a face. Where the boundary may not change, its triangles count as faces without a neighbour.
+  /// Takes the cells out of the piece; finish() puts them back. Without `boundary_may_change`, boundary
+  /// triangles count as faces without neighbour. Throws std::logic_error if three tetrahedra share a face.
   TetMesh(mesh::Piece& piece, const mesh::TetQuality& measure, bool boundary_may_change = true);
 
-  /// Slots of tetrahedra, dead ones included.
+  /// Number of slots for tetrahedra, unused ones included.
   LocalIndex slot_count() const { return static_cast<LocalIndex>(_cells.size()); }
   bool is_alive(LocalIndex t) const { return _cells[t][0] >= 0; }
   const Corners& corners(LocalIndex t) const { return _cells[t]; }
   double quality(LocalIndex t) const { return _quality[t]; }
   HalfFace twin(HalfFace h) const { return _twins[h]; }
   bool is_fixed(LocalIndex v) const { return _fixed[v] != 0; }
-  /// False for vertices that a replaced cavity has swallowed.
+  /// False for vertices of replaced cavities that no tetrahedron has any more.
   bool is_used(LocalIndex v) const { return _incident[v] >= 0; }
   LocalIndex vertex_count() const { return _piece.vertex_count(); }
   Vec3 point(LocalIndex v) const { return _piece.point(v); }
@@ -99,51 +96,52 @@ public:
   bool is_positive(const Corners& c) const {
     return geometry::has_positive_volume(point(c[0]), point(c[1]), point(c[2]), point(c[3]));
   }
-  /// The local number of a vertex in a tetrahedron that has it.
+  /// The lowest quality of the given tetrahedra; the largest double if there are none.
+  double worst_of(std::span<const LocalIndex> tets) const;
+  /// The local number of a vertex in one of its tetrahedra.
   int local_vertex(LocalIndex t, LocalIndex v) const;
 
-  /// The tetrahedra around a vertex, in an order that depends on the mesh alone.
+  /// The tetrahedra around a vertex, in an order that depends only on the mesh.
   void collect_star(LocalIndex vertex, std::vector<LocalIndex>& tets);
-  /// The tetrahedra around edge i (mesh::tetrahedron_edges) of a tetrahedron. False when the edge lies on a
-  /// face without neighbour, or has more than `most` tetrahedra.
+  /// The tetrahedra around edge i (mesh::tetrahedron_edges) of a tetrahedron. False if the edge is on a face
+  /// without neighbour or has more than `most` tetrahedra.
   bool collect_edge_ring(LocalIndex t, int edge, int most, EdgeRing& edge_ring) const;
-  /// The tetrahedra around such an edge between two boundary triangles; false where it is none, or has more
-  /// than `most` tetrahedra.
+  /// The same for a boundary edge between two boundary triangles; false for other edges.
   bool collect_fan(LocalIndex t, int edge, int most, Fan& fan) const;
 
-  /// Boundary triangle i: counter-clockwise seen from outside.
+  /// Boundary triangle i, counter-clockwise seen from outside.
   std::array<LocalIndex, 3> triangle(LocalIndex i) const;
-  /// Whether a boundary triangle may change: other pieces do not know it, and it is in use.
+  /// Whether a boundary triangle exists and may change: not all its vertices are shared.
   bool is_free_triangle(LocalIndex i) const;
   /// Whether two boundary triangles lie on the same CAD face and patch.
   bool on_same_face(LocalIndex i, LocalIndex k) const;
   /// The CAD face of a boundary triangle.
   std::int32_t face_of(LocalIndex i) const { return _piece.triangle_face[i]; }
   mesh::CadDimension dimension(LocalIndex v) const { return _piece.vertex_dimension[v]; }
-  /// The CAD entity of that dimension the vertex lies on.
+  /// The CAD entity of that dimension that the vertex lies on.
   std::int32_t entity(LocalIndex v) const { return _piece.vertex_entity[v]; }
   bool is_shared(LocalIndex v) const { return _shared[v] != 0; }
-  /// Boundary triangles that changed or went, those whose vertices slid among them.
+  /// Number of boundary triangles that changed, vanished or had a vertex slide.
   std::int64_t changed_triangles() const { return _changed_triangles; }
   void note_slid_triangles(std::size_t count) { _changed_triangles += static_cast<std::int64_t>(count); }
 
-  /// Puts the new tetrahedra in the place of the old ones; both must fill the same space with positive
-  /// volumes, up to the triangles of the boundary that change. Vertices that only old ones use are swallowed.
-  /// `placed` receives the slots of the new ones.
+  /// Replaces tetrahedra. Old and new ones must fill the same space with positive volumes, but for boundary
+  /// triangles that change. Vertices of old tetrahedra only become unused. `placed` receives the slots of the
+  /// new ones.
   void replace(const CavityReplacement& cavity, std::vector<LocalIndex>& placed);
-  /// Moves a vertex; `star` is all its tetrahedra.
+  /// Moves a vertex; `star` holds all its tetrahedra.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star);
-  /// Moves a vertex where the qualities of the star are known already.
+  /// The same with the new qualities of the star given.
   void move_vertex(LocalIndex v, Vec3 p, std::span<const LocalIndex> star, std::span<const double> qualities);
-  /// A new vertex inside the region that `like` lies in; to be used by the next replaced cavity.
+  /// Adds a vertex inside the region of vertex `like`, for the next replacement.
   LocalIndex add_vertex(Vec3 p, LocalIndex like);
-  /// Takes back the vertex added last.
+  /// Removes the vertex added last.
   void drop_last_vertex();
 
-  /// Puts the cells back: in the old order, new ones where the cavity they came from was; swallowed vertices
-  /// removed.
+  /// Puts the cells back into the piece: in the old order, new ones in the places of their cavities. Removes
+  /// unused vertices.
   void finish();
-  /// After that, what each vertex was numbered before, new ones after the others.
+  /// After finish(): the former number of each vertex; new vertices have higher numbers.
   const std::vector<LocalIndex>& origin() const { return _origin; }
 
 private:
@@ -157,7 +155,6 @@ private:
   void match_triangles();
   void open_boundary(const FaceRecord& record, LocalIndex triangle);
   void match_boundary(const CavityReplacement& cavity);
-  void remove_dead_triangles();
   void fix_vertices();
   void match_cavity_faces();
   void take_slots(const CavityReplacement& cavity, std::vector<LocalIndex>& placed);
@@ -168,19 +165,20 @@ private:
 
   mesh::Piece& _piece;
   mesh::TetQuality _measure;
-  std::vector<Corners> _cells;   ///< first corner -1 in dead slots
+  std::vector<Corners> _cells;   ///< first corner -1 in unused slots
   std::vector<HalfFace> _twins;  ///< 4 per slot
   std::vector<double> _quality;
-  std::vector<LocalIndex> _incident;  ///< a tetrahedron of each vertex
+  std::vector<LocalIndex> _incident;  ///< one tetrahedron of each vertex
   std::vector<std::uint8_t> _fixed, _shared;
   std::vector<LocalIndex> _origin;
-  std::vector<LocalIndex> _place;  ///< of slots beyond the first: the original slot they are ordered after
+  std::vector<LocalIndex>
+      _place;  ///< of slots beyond the original ones: the original slot that they follow in order
   LocalIndex _original_count = 0;
   std::int64_t _changed_triangles = 0;
-  bool _dead_triangles = false;  ///< their first vertex is -1
+  bool _dead_triangles = false;  ///< triangles that vanished have -1 as first vertex
   std::vector<std::uint32_t> _tet_mark;
   std::uint32_t _mark = 0;
-  std::vector<FaceRecord> _faces;  ///< scratch of replace, as is the next
+  std::vector<FaceRecord> _faces;  ///< working memory of replace(), like the next
   std::vector<LocalIndex> _cavity_vertices;
 };
 

@@ -2,9 +2,9 @@
 #include "improve/limits/examination.hpp"
 #include "improve/operations/mean_ratio_smoothing.hpp"
 #include "improve/operations/over_constrained_removal.hpp"
-#include "improve/over_constrained_trials.hpp"
-#include "improve/sweeps.hpp"
-#include "improve/tet_mesh.hpp"
+#include "improve/pieces/over_constrained_trials.hpp"
+#include "improve/pieces/sweeps.hpp"
+#include "improve/tets/tet_mesh.hpp"
 #include "mesh/quality/tet_quality.hpp"
 
 #include <numeric>
@@ -12,8 +12,7 @@
 namespace aeroloom::improve {
 namespace {
 
-/// Sweeps over what misses the target once over-constrained tetrahedra are gone, which gives it other
-/// surroundings.
+/// Sweeps after the removal of over-constrained tetrahedra, which changes the surroundings of bad ones.
 constexpr int sweeps_after_removal = 3;
 
 BadState state_of(const TetMesh& mesh) {
@@ -33,10 +32,10 @@ public:
         _locator(options.boundary_may_change ? source.locator : nullptr),
         _effort(effort),
         _measure(options.target_angle),
-        _strips(piece, _measure),
-        _local_target(effort == Effort::full ? LocalTarget(_measure) : _strips),
+        _narrow_target(piece, _measure),
+        _local_target(effort == Effort::full ? LocalTarget(_measure) : _narrow_target),
         _mesh(piece, _measure, options.boundary_may_change),
-        _limits(_sizes, &_strips, effort) {
+        _limits(_sizes, &_narrow_target, effort) {
     report.note_before(state_of(_mesh));
   }
 
@@ -75,7 +74,7 @@ private:
   cad::PointLocator* _locator;
   Effort _effort;
   mesh::TetQuality _measure;
-  LocalTarget _strips, _local_target;
+  LocalTarget _narrow_target, _local_target;
   TetMesh _mesh;
   ChangeLimits _limits;
 };

@@ -1,15 +1,15 @@
-#include "improve/tet_mesh.hpp"
+#include "improve/tets/tet_mesh.hpp"
+
+#include "mesh/data/piece_faces.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
 namespace aeroloom::improve {
-namespace {
 
 using mesh::tetrahedron_faces;
-
-}  // namespace
 
 TetMesh::TetMesh(mesh::Piece& piece, const mesh::TetQuality& measure, bool boundary_may_change)
     : _piece(piece), _measure(measure) {
@@ -79,6 +79,12 @@ void TetMesh::fix_vertices() {
     if (_twins[h] >= 0) continue;
     for (const LocalIndex v : face_key(static_cast<HalfFace>(h))) _fixed[v] = 1;
   }
+}
+
+double TetMesh::worst_of(std::span<const LocalIndex> tets) const {
+  double worst = std::numeric_limits<double>::max();
+  for (const LocalIndex t : tets) worst = std::min(worst, _quality[t]);
+  return worst;
 }
 
 int TetMesh::local_vertex(LocalIndex t, LocalIndex v) const {
@@ -224,7 +230,8 @@ void TetMesh::drop_last_vertex() {
 
 void TetMesh::finish() {
   order_cells();
-  if (_dead_triangles) remove_dead_triangles();
+  if (_dead_triangles)
+    mesh::keep_boundary_triangles(_piece, [&](LocalIndex i) { return *_piece.boundary_triangle(i) >= 0; });
   remove_unused_vertices();
 }
 
@@ -247,7 +254,7 @@ void TetMesh::order_cells() {
   }
 }
 
-// Vertices that a cavity has swallowed.
+// Vertices that only replaced tetrahedra used.
 void TetMesh::remove_unused_vertices() {
   std::vector<LocalIndex> renumbered(_incident.size(), -1);
   LocalIndex kept = 0;

@@ -10,18 +10,17 @@
 
 namespace aeroloom::improve {
 
-/// Tries the listed operations (operations.hpp) on each tetrahedron in turn, until one succeeds.
+/// Tries the operations in the order of their list (operations.hpp) on each tetrahedron, until one succeeds.
 class Sweeps {
 public:
-  /// All must outlive it. With a locator, vertices of the boundary slide on its model.
+  /// All arguments must outlive the object. With a locator, boundary vertices slide on its CAD model.
   Sweeps(TetMesh& mesh, const LocalTarget& local_target, const ChangeLimits& limits,
          Effort effort = Effort::reduced, cad::PointLocator* locator = nullptr);
 
-  /// For a mesh that was improved already, but for these tetrahedra, which took the place of an
-  /// over-constrained one. Others rest until something around them changes, and no change brings more
-  /// tetrahedra with several faces on the boundary.
+  /// Prepares for a mesh in which only the tetrahedra `fresh` are new: they replaced an over-constrained one.
+  /// Others are skipped until something around them changes. No change may add over-constrained tetrahedra.
   void follow_removal(const std::vector<LocalIndex>& fresh);
-  /// At most `most` sweeps; ends earlier when one gains hardly anything.
+  /// Does at most `most` sweeps; fewer if a sweep gains hardly anything.
   void run(int most);
   const OperationCounts& counts() const { return _context.counts; }
 
@@ -35,7 +34,7 @@ private:
   const TetMesh& _mesh;
   BadElementQueue _queue;
   OperationContext _context;
-  std::vector<std::unique_ptr<LocalOperation>> _operations;  ///< as listed, each made when it is first tried
+  std::vector<std::unique_ptr<LocalOperation>> _operations;  ///< as listed, each made at its first use
 };
 
 }  // namespace aeroloom::improve

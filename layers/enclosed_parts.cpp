@@ -1,4 +1,4 @@
-#include "layers/swallowed_parts.hpp"
+#include "layers/enclosed_parts.hpp"
 
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
@@ -22,7 +22,7 @@ struct FacePoint {
   std::int32_t face;
   mesh::PieceId piece;
   mesh::LocalIndex vertex;
-  std::int32_t unused = 0;  ///< in the place of padding
+  std::int32_t unused = 0;  ///< avoids padding
   Vec3 point;
 
   static constexpr auto fields() {
@@ -40,9 +40,8 @@ void keep_first_of_each_face(std::vector<FacePoint>& points) {
                         [](const FacePoint& a, const FacePoint& b) { return a.face == b.face; });
 }
 
-/// Of every CAD face, its first vertex in its first piece; one row per face and rank travels.
-std::vector<FacePoint> points_of_faces(const WallShare& wall) {
-  const parallel::Communicator& communicator = wall.mesh.communicator;
+/// The first vertex in the first piece of every CAD face. One row per face and rank is sent.
+std::vector<FacePoint> points_of_faces(const LocalWall& wall) {
   std::vector<FacePoint> points;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
@@ -57,7 +56,7 @@ std::vector<FacePoint> points_of_faces(const WallShare& wall) {
     }
   }
   keep_first_of_each_face(points);
-  points = communicator.all_gather_items(std::span<const FacePoint>(points));
+  points = wall.mesh.communicator.all_gather_items(std::span<const FacePoint>(points));
   keep_first_of_each_face(points);
   return points;
 }
@@ -71,8 +70,8 @@ bool holds(const std::array<Vec3, 4>& tetrahedron, Vec3 point) {
          sign * geometry::orient3d(a, b, c, point) >= 0;
 }
 
-/// The space between a triangle and the ends of its columns. Diagonals of its sides go by the order of the
-/// corners' places, which both triangles beside a side see alike: so nothing falls between them.
+/// Whether the layers over a triangle contain a point. The diagonals of lateral faces follow from the order
+/// of corner coordinates, equal for both triangles at an edge. So no point falls between them.
 bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) {
   std::array<int, 3> order{0, 1, 2};
   std::sort(order.begin(), order.end(), [&](int i, int j) {
@@ -86,7 +85,7 @@ bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) 
 
 }  // namespace
 
-std::vector<std::int32_t> find_swallowing_triangles(const WallShare& wall, const std::vector<Vec3>& ends) {
+std::vector<std::int32_t> find_enclosing_triangles(const LocalWall& wall, const std::vector<Vec3>& ends) {
   const std::vector<FacePoint> points = points_of_faces(wall);
   std::vector<Box> boxes;
   boxes.reserve(points.size());
@@ -103,13 +102,13 @@ std::vector<std::int32_t> find_swallowing_triangles(const WallShare& wall, const
       box.add(foot[i]);
       box.add(end[i]);
     }
-    bool swallows = false;
+    bool encloses = false;
     geometry::for_each_overlap(tree, boxes, box, [&](std::int32_t i) {
       const Vec3 point = points[i].point;
-      if (swallows || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
-      swallows = layers_hold(foot, end, point);
+      if (encloses || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
+      encloses = layers_hold(foot, end, point);
     });
-    if (swallows) triangles.push_back(t);
+    if (encloses) triangles.push_back(t);
   }
   return triangles;
 }

@@ -1,0 +1,191 @@
+#include "layers/vertex_stars.hpp"
+
+#include "mesh/checks/intersection.hpp"
+#include "mesh/exchange/rendezvous.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+using mesh::VertexName;
+
+/// A triangle seen from one of its corners: the other two corners in order, and where it comes from.
+struct StarTriangle {
+  Vec3 normal;
+  VertexName next, previous;
+  std::int32_t piece, cell, role, face;
+
+  static constexpr auto fields() {
+    return std::tuple(&StarTriangle::normal, &StarTriangle::next, &StarTriangle::previous,
+                      &StarTriangle::piece, &StarTriangle::cell, &StarTriangle::role, &StarTriangle::face);
+  }
+};
+
+/// A triangle sent to the rank that collects the star of its vertex. `vertex` is its number here.
+struct StarGuest {
+  mesh::SharedVertexKey key;
+  std::int64_t vertex;
+  StarTriangle triangle;
+
+  static constexpr auto fields() {
+    return std::tuple(&StarGuest::key, &StarGuest::vertex, &StarGuest::triangle);
+  }
+};
+
+/// A triangle of the star of a local vertex, sent back.
+struct StarAnswer {
+  std::int64_t vertex;
+  StarTriangle triangle;
+
+  static constexpr auto fields() { return std::tuple(&StarAnswer::vertex, &StarAnswer::triangle); }
+  auto place() const { return std::tie(vertex, triangle.piece, triangle.cell); }
+};
+
+Vec3 normal_of(const LocalWall& wall, std::int32_t t) {
+  const auto& [a, b, c] = wall.triangles[t];
+  return normalized(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
+}
+
+/// The triangles of one piece seen from their corners.
+class PieceStars {
+public:
+  PieceStars(const LocalWall& wall, std::size_t position)
+      : _wall(wall), _position(position), _names(mesh::name_vertices(wall.mesh.pieces[position])) {}
+
+  StarTriangle triangle(std::int32_t t, std::int32_t vertex) const {
+    const LocalWall::Corners& corners = _wall.triangles[t];
+    const int at = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
+    const std::int32_t base = _wall.first_vertex[_position];
+    return {normal_of(_wall, t),
+            _names[corners[(at + 1) % 3] - base],
+            _names[corners[(at + 2) % 3] - base],
+            _wall.mesh.pieces[_position].id,
+            t - _wall.first_triangle[_position],
+            static_cast<std::int32_t>(_wall.roles[t]),
+            _wall.faces[t]};
+  }
+
+private:
+  const LocalWall& _wall;
+  std::size_t _position;
+  std::vector<VertexName> _names;
+};
+
+/// Whether the triangles form one closed fan: each one's last edge is the first of another, and one turn
+/// passes all.
+bool is_closed_star(std::span<const StarTriangle> star) {
+  std::size_t at = 0;
+  for (std::size_t step = 0; step < star.size(); ++step) {
+    std::size_t following = star.size();
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      if (!(star[i].next == star[at].previous)) continue;
+      if (following != star.size()) return false;
+      following = i;
+    }
+    if (following == star.size()) return false;
+    at = following;
+    if (at == 0) return step + 1 == star.size();
+  }
+  return false;
+}
+
+StarKind kind_of(std::span<const StarTriangle> star) {
+  const auto has = [&](WallRole role) {
+    return std::any_of(star.begin(), star.end(),
+                       [&](const StarTriangle& t) { return static_cast<WallRole>(t.role) == role; });
+  };
+  if (!has(WallRole::layered)) return StarKind::off_wall;
+  if (has(WallRole::other)) return StarKind::ending;
+  return is_closed_star(star) ? StarKind::plain : StarKind::broken;
+}
+
+/// Normals of the different planes around a vertex that layers end on.
+std::vector<Vec3> planes_around(const LocalWall& wall, std::span<const StarTriangle> star) {
+  constexpr double same_plane = 1 - 1e-12;  // cosine; as planes are told from other faces
+  std::vector<Vec3> planes;
+  for (const StarTriangle& t : star) {
+    if (static_cast<WallRole>(t.role) != WallRole::plane) continue;
+    const Vec3 normal = wall.end_planes[t.face];
+    const bool known = std::any_of(planes.begin(), planes.end(),
+                                   [&](Vec3 other) { return std::abs(dot(other, normal)) >= same_plane; });
+    if (!known) planes.push_back(normal);
+  }
+  return planes;
+}
+
+/// Appends the normals of layered triangles, and their mirror images at the planes.
+void append_normals(std::span<const StarTriangle> star, std::span<const Vec3> planes,
+                    std::vector<Vec3>& normals) {
+  const std::size_t first = normals.size();
+  for (const StarTriangle& t : star) {
+    if (static_cast<WallRole>(t.role) == WallRole::layered) normals.push_back(t.normal);
+  }
+  for (const Vec3 plane : planes) {
+    for (std::size_t i = first, end = normals.size(); i < end; ++i)
+      normals.push_back(normals[i] - 2 * dot(plane, normals[i]) * plane);
+  }
+}
+
+/// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
+std::vector<StarAnswer> meet_at_shared_vertices(const LocalWall& wall) {
+  std::vector<StarGuest> guests;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    const PieceStars of_piece(wall, p);
+    for (std::size_t c = wall.shared.first(p); c < wall.shared.first(p + 1); ++c) {
+      if (!wall.shared.is_shared(c)) continue;
+      const std::int32_t v = wall.vertex_of_copy[c];
+      const mesh::SharedVertexKey key = wall.mesh.pieces[p].shared_keys[c - wall.shared.first(p)];
+      for (const std::int32_t t : wall.triangles_around(v))
+        guests.push_back({key, v, of_piece.triangle(t, v)});
+    }
+  }
+  const mesh::Rendezvous meeting(wall.mesh.communicator, guests, &StarGuest::key, [](const StarGuest& guest) {
+    return std::pair(guest.triangle.piece, guest.triangle.cell);
+  });
+  std::vector<StarAnswer> answers = meeting.answer<StarAnswer>([](const auto& group, const auto& reply) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (i > 0 && group[i].item.triangle.piece == group[i - 1].item.triangle.piece) continue;
+      for (const auto& other : group) reply(group[i], {group[i].item.vertex, other.item.triangle});
+    }
+  });
+  std::sort(answers.begin(), answers.end(),
+            [](const StarAnswer& a, const StarAnswer& b) { return a.place() < b.place(); });
+  return answers;
+}
+
+}  // namespace
+
+VertexStars gather_stars(const LocalWall& wall) {
+  const std::vector<StarAnswer> met = meet_at_shared_vertices(wall);
+  VertexStars stars;
+  stars.first.reserve(wall.points.size() + 1);
+  stars.first.push_back(0);
+  stars.first_plane.push_back(0);
+  std::vector<StarTriangle> star;
+  std::size_t next = 0;
+  for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
+    const PieceStars of_piece(wall, p);
+    for (std::int32_t v = wall.first_vertex[p]; v < wall.first_vertex[p + 1]; ++v) {
+      star.clear();
+      for (; next < met.size() && met[next].vertex == v; ++next) star.push_back(met[next].triangle);
+      if (star.empty()) {
+        for (const std::int32_t t : wall.triangles_around(v)) star.push_back(of_piece.triangle(t, v));
+      }
+      stars.kinds.push_back(kind_of(star));
+      std::vector<Vec3> planes = planes_around(wall, star);
+      if (stars.kinds.back() != StarKind::plain) planes.clear();
+      if (planes.size() > 2) stars.kinds.back() = StarKind::ending, planes.clear();
+      append_normals(star, planes, stars.normals);
+      stars.plane_normals.insert(stars.plane_normals.end(), planes.begin(), planes.end());
+      stars.first.push_back(static_cast<std::int64_t>(stars.normals.size()));
+      stars.first_plane.push_back(static_cast<std::int64_t>(stars.plane_normals.size()));
+    }
+  }
+  return stars;
+}
+
+}  // namespace aeroloom::layers
