@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace aeroloom::geometry {
 
 /// A point or direction of the plane.
 struct Vec2 {
   double x = 0, y = 0;
-
-  static constexpr auto fields() { return std::tuple(&Vec2::x, &Vec2::y); }
 
   Vec2& operator+=(Vec2 b) {
     x += b.x, y += b.y;
@@ -50,8 +47,6 @@ inline double distance(Vec2 a, Vec2 b) {
 /// A point or direction of space.
 struct Vec3 {
   double x = 0, y = 0, z = 0;
-
-  static constexpr auto fields() { return std::tuple(&Vec3::x, &Vec3::y, &Vec3::z); }
 
   Vec3& operator+=(Vec3 b) {
     x += b.x, y += b.y, z += b.z;
@@ -103,8 +98,6 @@ inline double volume6(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
 struct Box {
   Vec3 low{1e300, 1e300, 1e300};
   Vec3 high{-1e300, -1e300, -1e300};
-
-  static constexpr auto fields() { return std::tuple(&Box::low, &Box::high); }
 
   bool empty() const { return low.x > high.x; }
   void add(Vec3 p) {

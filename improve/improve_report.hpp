@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <tuple>
 
 namespace aeroloom::improve {
 
@@ -22,13 +21,6 @@ struct ImproveReport {
   std::int64_t changed_triangles = 0;                ///< boundary triangles
 
   bool is_lattice = false;  ///< of one piece: it needed no work
-
-  static constexpr auto fields() {
-    return std::tuple(&ImproveReport::bad_before, &ImproveReport::bad_after, &ImproveReport::min_angle_before,
-                      &ImproveReport::min_angle_after, &ImproveReport::smoothed, &ImproveReport::slid,
-                      &ImproveReport::replaced, &ImproveReport::changed_triangles,
-                      &ImproveReport::is_lattice);
-  }
   /// Sets the state before any change. Until note_after() it is also the state after.
   void note_before(const BadState& state) {
     bad_before = state.bad;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -26,11 +25,6 @@ struct Preamble {
   std::uint64_t magic = 0, version = 0;
   std::int64_t header_bytes = 0, file_bytes = 0;
   Digest digest;  ///< of the above and of the header
-
-  static constexpr auto fields() {
-    return std::tuple(&Preamble::magic, &Preamble::version, &Preamble::header_bytes, &Preamble::file_bytes,
-                      &Preamble::digest);
-  }
   Digest right_digest(std::span<const std::byte> header) const {
     Preamble unsigned_one = *this;
     unsigned_one.digest = {};
@@ -42,10 +36,6 @@ struct Preamble {
 struct SavedItem {
   std::int64_t number = 0, bytes = 0;
   Digest digest;
-
-  static constexpr auto fields() {
-    return std::tuple(&SavedItem::number, &SavedItem::bytes, &SavedItem::digest);
-  }
 };
 
 constexpr std::int64_t preamble_bytes = parallel::wire_size<Preamble>;
@@ -53,8 +43,6 @@ constexpr std::int64_t preamble_bytes = parallel::wire_size<Preamble>;
 struct Header {
   CheckpointLabel label;
   std::vector<SavedItem> rows;  ///< of the common bytes, then of the items by number
-
-  static constexpr auto fields() { return std::tuple(&Header::label, &Header::rows); }
   /// Where the bytes of each row begin, and where the last ones end.
   std::vector<std::int64_t> offsets(std::int64_t first) const {
     std::vector<std::int64_t> offsets;

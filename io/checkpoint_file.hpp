@@ -13,7 +13,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -22,8 +21,6 @@ namespace aeroloom::io {
 struct CheckpointLabel {
   parallel::Digest key;            ///< of everything that the content depends on
   std::vector<std::string> about;  ///< the same in words, to explain a different key
-
-  static constexpr auto fields() { return std::tuple(&CheckpointLabel::key, &CheckpointLabel::about); }
 };
 
 /// The content of a checkpoint before it is written.

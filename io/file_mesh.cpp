@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,10 +28,6 @@ Block& block_of(MeshPart& part, int kind) {
 struct CountRow {
   std::int32_t part, kind, id;
   GlobalIndex count;
-
-  static constexpr auto fields() {
-    return std::tuple(&CountRow::part, &CountRow::kind, &CountRow::id, &CountRow::count);
-  }
 };
 
 std::vector<CountRow> count_rows(FileMesh& mesh) {

@@ -17,7 +17,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -37,8 +36,6 @@ struct Run {
   std::int32_t id = 0;                  ///< region or patch
   mesh::LocalIndex begin = 0, end = 0;  ///< among the items of this shape in the part
   mesh::GlobalIndex before = 0;         ///< number of items of this shape and id in the parts before
-
-  static constexpr auto fields() { return std::tuple(&Run::id, &Run::begin, &Run::end, &Run::before); }
 };
 
 /// The cells or faces of one shape in a part.

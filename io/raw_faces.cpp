@@ -33,10 +33,6 @@ struct FaceCandidate {
 
   bool is_cell() const { return region != none; }
   auto place() const { return std::tuple(region, patch, order, corners); }
-  static constexpr auto fields() {
-    return std::tuple(&FaceCandidate::key, &FaceCandidate::corners, &FaceCandidate::order,
-                      &FaceCandidate::region, &FaceCandidate::piece, &FaceCandidate::patch);
-  }
 };
 
 /// The sides of the cells on this rank, for match_faces.
@@ -126,8 +122,6 @@ struct BoundaryFace {
 struct UnmatchedFace {
   FaceKey<GlobalIndex> key{-1, -1, -1, -1};
   std::int64_t cells = 0;
-
-  static constexpr auto fields() { return std::tuple(&UnmatchedFace::key, &UnmatchedFace::cells); }
 };
 
 /// Candidates grouped by face on this rank, and matched.
@@ -261,9 +255,6 @@ struct ModelFace {
   std::int32_t patch;
   mesh::RegionId front, back;
   friend auto operator<=>(const ModelFace&, const ModelFace&) = default;
-  static constexpr auto fields() {
-    return std::tuple(&ModelFace::patch, &ModelFace::front, &ModelFace::back);
-  }
 };
 
 /// The different ones of all ranks, ascending. Collective.

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <functional>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::layers {
@@ -93,14 +92,6 @@ struct PatchLayers {
   std::int64_t triangles = 0, prisms = 0, pyramids = 0,
                tetrahedra = 0;  ///< wall triangles; cells
   std::int64_t most_layers = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area,
-                      &PatchLayers::empty_area, &PatchLayers::isotropic_area, &PatchLayers::compressed_area,
-                      &PatchLayers::limited_area, &PatchLayers::layers_area, &PatchLayers::triangles,
-                      &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra,
-                      &PatchLayers::most_layers);
-  }
 };
 
 /// Statistics of a whole mesh; equal on all ranks and for any number of ranks.

@@ -24,11 +24,6 @@ struct FacePoint {
   mesh::LocalIndex vertex;
   std::int32_t unused = 0;  ///< avoids padding
   Vec3 point;
-
-  static constexpr auto fields() {
-    return std::tuple(&FacePoint::face, &FacePoint::piece, &FacePoint::vertex, &FacePoint::unused,
-                      &FacePoint::point);
-  }
 };
 
 bool is_before(const FacePoint& a, const FacePoint& b) {

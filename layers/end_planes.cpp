@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <tuple>
 
 namespace aeroloom::layers {
 namespace {
@@ -50,10 +49,6 @@ struct LargestTriangle {
   Vec3 area;
   std::int32_t face = 0;
   mesh::PieceId piece = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&LargestTriangle::area, &LargestTriangle::face, &LargestTriangle::piece);
-  }
 };
 
 /// The normal of the largest triangle that the lowest piece of each face has of it.

@@ -35,8 +35,6 @@ struct NearTriangle {
 struct BallBatch {
   Box box;
   std::int64_t rank;
-
-  static constexpr auto fields() { return std::tuple(&BallBatch::box, &BallBatch::rank); }
 };
 
 /// The point of a triangle that is nearest to p: inside, on an edge, or a corner (Ericson, Real-Time

@@ -19,8 +19,6 @@ struct WallEdge {
   std::array<GlobalIndex, 2> ends;
   LateralEdge here;
   std::int32_t bears;  ///< 1: its triangle bears layers
-
-  static constexpr auto fields() { return std::tuple(&WallEdge::ends, &WallEdge::here, &WallEdge::bears); }
   auto place() const { return std::tuple(here.piece, here.half_edge); }
 };
 

@@ -5,7 +5,6 @@
 #include "mesh/data/distributed_mesh.hpp"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::layers {
@@ -15,10 +14,6 @@ struct LateralEdge {
   mesh::PieceId piece;     ///< of the wall
   std::int32_t half_edge;  ///< 3 triangle + the corner that the edge starts from
   std::int32_t face, patch;
-
-  static constexpr auto fields() {
-    return std::tuple(&LateralEdge::piece, &LateralEdge::half_edge, &LateralEdge::face, &LateralEdge::patch);
-  }
 };
 
 /// Finds the edges between a triangle with layers and one of a patch without, if an end has a column. Returns

@@ -169,7 +169,6 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
 void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& volume) {
   struct Place {
     std::int32_t dimension, entity;
-    static constexpr auto fields() { return std::tuple(&Place::dimension, &Place::entity); }
     bool operator<(const Place& other) const {
       return std::tie(dimension, entity) < std::tie(other.dimension, other.entity);
     }

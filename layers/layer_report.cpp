@@ -1,7 +1,6 @@
 #include "layers/layer_report.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 namespace aeroloom::layers {
 namespace {
@@ -11,8 +10,6 @@ struct PieceRow {
   PatchLayers layers;
   std::int32_t patch = 0;
   mesh::PieceId piece = 0;
-
-  static constexpr auto fields() { return std::tuple(&PieceRow::layers, &PieceRow::patch, &PieceRow::piece); }
 };
 
 constexpr double isotropic_enough = 0.35;  // of the mean edge: half of what is aimed at

@@ -18,11 +18,6 @@ struct StarTriangle {
   Vec3 normal;
   VertexName next, previous;
   std::int32_t piece, cell, role, face;
-
-  static constexpr auto fields() {
-    return std::tuple(&StarTriangle::normal, &StarTriangle::next, &StarTriangle::previous,
-                      &StarTriangle::piece, &StarTriangle::cell, &StarTriangle::role, &StarTriangle::face);
-  }
 };
 
 /// A triangle sent to the rank that collects the star of its vertex. `vertex` is its number here.
@@ -30,18 +25,12 @@ struct StarGuest {
   mesh::SharedVertexKey key;
   std::int64_t vertex;
   StarTriangle triangle;
-
-  static constexpr auto fields() {
-    return std::tuple(&StarGuest::key, &StarGuest::vertex, &StarGuest::triangle);
-  }
 };
 
 /// A triangle of the star of a local vertex, sent back.
 struct StarAnswer {
   std::int64_t vertex;
   StarTriangle triangle;
-
-  static constexpr auto fields() { return std::tuple(&StarAnswer::vertex, &StarAnswer::triangle); }
   auto place() const { return std::tie(vertex, triangle.piece, triangle.cell); }
 };
 

@@ -4,7 +4,6 @@
 #include "layers/local_wall.hpp"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::layers {
@@ -14,12 +13,6 @@ struct VertexLayers {
   double first = 0, growth = 0, total = 0;  ///< total: infinite if not limited
   double edge_sum = 0;  ///< edge lengths of triangles with layers; each edge counts from both sides
   std::int64_t edges = 0, count = 0, constant = 0;  ///< count: most_layers if not limited
-
-  static constexpr auto fields() {
-    return std::tuple(&VertexLayers::first, &VertexLayers::growth, &VertexLayers::total,
-                      &VertexLayers::edge_sum, &VertexLayers::edges, &VertexLayers::count,
-                      &VertexLayers::constant);
-  }
   double mean_edge() const { return edges > 0 ? edge_sum / static_cast<double>(edges) : 0; }
 };
 

@@ -7,7 +7,6 @@
 #include "pipeline/report/run_record.hpp"
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::pipeline {
@@ -41,9 +40,6 @@ struct PieceArea {
   std::int64_t triangles = 0;
 
   void add(const mesh::Piece& of_piece, const mesh::LocalIndex* triangle);
-  static constexpr auto fields() {
-    return std::tuple(&PieceArea::piece, &PieceArea::of, &PieceArea::area, &PieceArea::triangles);
-  }
 };
 /// The rows of all ranks, ordered by piece, then face or patch. Sums in this order are independent of ranks.
 /// Collective.

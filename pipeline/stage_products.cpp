@@ -2,7 +2,6 @@
 
 #include "cad/model/topology/joined_faces.hpp"
 
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::pipeline {
@@ -33,10 +32,6 @@ struct SizesRecord {
   sizing::SizingOptions sizes;
   Bytes field;
   domain::SizingFindings findings;
-
-  static constexpr auto fields() {
-    return std::tuple(&SizesRecord::sizes, &SizesRecord::field, &SizesRecord::findings);
-  }
 };
 
 /// The part of a surface, besides its pieces, that is kept for a run that resumes.
@@ -46,11 +41,6 @@ struct SurfaceRecord {
   surface::SurfaceReport report;
   Bytes field;  ///< where it is not that of the sizes
   mesh::MeshFacts mesh;
-
-  static constexpr auto fields() {
-    return std::tuple(&SurfaceRecord::sized, &SurfaceRecord::sizes, &SurfaceRecord::report,
-                      &SurfaceRecord::field, &SurfaceRecord::mesh);
-  }
 };
 
 /// The part of a volume, besides its pieces, that is kept for a run that resumes.
@@ -59,11 +49,6 @@ struct VolumeRecord {
   volume::VolumeReport volume;
   improve::ImproveReport improve;
   mesh::MeshFacts mesh;
-
-  static constexpr auto fields() {
-    return std::tuple(&VolumeRecord::decomposition, &VolumeRecord::volume, &VolumeRecord::improve,
-                      &VolumeRecord::mesh);
-  }
 };
 
 /// The digest of everything that a surface depends on.

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -171,7 +170,6 @@ private:
   void classify_like_others(mesh::PieceId first_new) {
     struct Place {
       std::int32_t dimension, entity;
-      static constexpr auto fields() { return std::tuple(&Place::dimension, &Place::entity); }
     };
     const mesh::SharedVertices shared(_surface);
     std::vector<Place> places(shared.size());

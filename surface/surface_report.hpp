@@ -5,7 +5,6 @@
 #include "geometry/vec.hpp"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -15,8 +14,6 @@ struct CutAngle {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;
   double degrees = 0;
-
-  static constexpr auto fields() { return std::tuple(&CutAngle::face, &CutAngle::point, &CutAngle::degrees); }
 };
 
 /// A corner of a CAD face below 30 degrees. The one triangle that fills it has the same angle.
@@ -24,10 +21,6 @@ struct ListedCorner {
   cad::FaceId face = cad::no_entity;
   geometry::Vec3 point;
   double degrees = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&ListedCorner::face, &ListedCorner::point, &ListedCorner::degrees);
-  }
 };
 
 /// A cusp of a CAD face, between two tangent curves, that was closed (cusps.hpp).
@@ -36,10 +29,6 @@ struct ClosedCusp {
   geometry::Vec3 point;  ///< the CAD vertex it ends in
   double length = 0;     ///< from there to the last vertices that were merged
   double moved = 0;      ///< largest distance by which a vertex on its curves moved
-
-  static constexpr auto fields() {
-    return std::tuple(&ClosedCusp::face, &ClosedCusp::point, &ClosedCusp::length, &ClosedCusp::moved);
-  }
 };
 
 /// A triangle is a needle when its smallest angle is below this; degrees.
@@ -63,11 +52,6 @@ struct NeedleGroup {
   std::int64_t below_half = 0;  ///< of these, below half of needle_degrees
   double degrees = 0;           ///< the smallest angle
   geometry::Vec3 at;            ///< centre of the triangle with that angle
-
-  static constexpr auto fields() {
-    return std::tuple(&NeedleGroup::face, &NeedleGroup::cause, &NeedleGroup::needles,
-                      &NeedleGroup::below_half, &NeedleGroup::degrees, &NeedleGroup::at);
-  }
 };
 
 struct SurfaceReport {
@@ -81,13 +65,6 @@ struct SurfaceReport {
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds of local refinement before the accepted one
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads do not exceed
-
-  static constexpr auto fields() {
-    return std::tuple(&SurfaceReport::curve_vertices, &SurfaceReport::pieces, &SurfaceReport::divided_faces,
-                      &SurfaceReport::cut_angles, &SurfaceReport::sharp_corners, &SurfaceReport::closed_cusps,
-                      &SurfaceReport::needles, &SurfaceReport::triangles, &SurfaceReport::mending_rounds,
-                      &SurfaceReport::load_error_90);
-  }
 };
 
 }  // namespace aeroloom::surface

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -19,13 +18,6 @@ struct DecompositionReport {
   double expected_tetrahedra = 0;    ///< from points and triangles, core included
   std::int32_t zones = 0;
   double imbalance = 1;  ///< load of the heaviest zone over the mean load, halos included
-
-  static constexpr auto fields() {
-    return std::tuple(&DecompositionReport::blocks, &DecompositionReport::lattice_points,
-                      &DecompositionReport::shell_points, &DecompositionReport::core_tetrahedra,
-                      &DecompositionReport::expected_tetrahedra, &DecompositionReport::zones,
-                      &DecompositionReport::imbalance);
-  }
 };
 
 /// A retry of a zone.
@@ -33,8 +25,6 @@ struct Retry {
   std::int32_t zone;
   std::string change;  ///< the remedy
   std::string reason;  ///< why the zone was not filled
-
-  static constexpr auto fields() { return std::tuple(&Retry::zone, &Retry::change, &Retry::reason); }
 };
 
 /// A place where zones made different tetrahedra.
@@ -43,10 +33,6 @@ struct Disagreement {
   std::int32_t zone;   ///< whose tetrahedra are kept
   std::int32_t faces;  ///< number of faces without partner
   std::int32_t round;
-
-  static constexpr auto fields() {
-    return std::tuple(&Disagreement::place, &Disagreement::zone, &Disagreement::faces, &Disagreement::round);
-  }
 };
 
 /// The report of the filling.
@@ -60,12 +46,6 @@ struct VolumeReport {
   std::vector<Disagreement> disagreements;
   int rounds = 1;            ///< of filling; after the first, only zones that failed or disagree
   double load_error_90 = 0;  ///< 90 % of the expected loads have a smaller relative error
-
-  static constexpr auto fields() {
-    return std::tuple(&VolumeReport::tetrahedra, &VolumeReport::core_tetrahedra, &VolumeReport::left_core,
-                      &VolumeReport::overlap, &VolumeReport::steiner_points, &VolumeReport::retries,
-                      &VolumeReport::disagreements, &VolumeReport::rounds, &VolumeReport::load_error_90);
-  }
 };
 
 }  // namespace aeroloom::volume

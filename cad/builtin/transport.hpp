@@ -2,8 +2,6 @@
 /// file.
 #pragma once
 
-#include <tuple>
-
 namespace aeroloom::cad {
 
 /// One half of a lifting surface. Its section is a four-digit NACA aerofoil.
@@ -20,14 +18,6 @@ struct LiftingSurface {
   double x;               ///< m, from the nose to the leading edge of the root
   double z;               ///< m, height of the root above the fuselage axis
   double trailing_edge;   ///< thickness of the blunt trailing edge over chord; 0 makes it sharp
-
-  static constexpr auto fields() {
-    return std::tuple(&LiftingSurface::root_chord, &LiftingSurface::taper, &LiftingSurface::half_span,
-                      &LiftingSurface::sweep, &LiftingSurface::dihedral, &LiftingSurface::thickness,
-                      &LiftingSurface::camber, &LiftingSurface::root_incidence,
-                      &LiftingSurface::tip_incidence, &LiftingSurface::x, &LiftingSurface::z,
-                      &LiftingSurface::trailing_edge);
-  }
 };
 
 /// Dimensions are in metres and degrees. x points aft, y to the right wing, z up; the origin is the nose. The
@@ -41,13 +31,6 @@ struct TransportDimensions {
   LiftingSurface wing{6.6, 0.27, 17.0, 27.0, 5.5, 0.12, 0.018, 2.0, -1.0, 12.2, -1.05, 0.012};
   LiftingSurface horizontal_tail{3.9, 0.36, 6.2, 32.0, 6.0, 0.10, 0.0, 0.0, 0.0, 31.6, 0.75, 0.016};
   LiftingSurface vertical_tail{5.6, 0.36, 6.3, 38.0, 0.0, 0.10, 0.0, 0.0, 0.0, 29.4, 1.0, 0.012};
-
-  static constexpr auto fields() {
-    return std::tuple(&TransportDimensions::fuselage_length, &TransportDimensions::fuselage_diameter,
-                      &TransportDimensions::nose_length, &TransportDimensions::tail_length,
-                      &TransportDimensions::tail_upsweep, &TransportDimensions::wing,
-                      &TransportDimensions::horizontal_tail, &TransportDimensions::vertical_tail);
-  }
 };
 
 }  // namespace aeroloom::cad

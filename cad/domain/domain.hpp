@@ -7,7 +7,6 @@
 
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -41,12 +40,6 @@ struct FarFieldOptions {
   Symmetry symmetry = Symmetry::automatic;
   std::optional<double> symmetry_position =
       {};  ///< coordinate of the plane on its axis; default: where the body ends, or 0
-
-  static constexpr auto fields() {
-    return std::tuple(&FarFieldOptions::shape, &FarFieldOptions::extent, &FarFieldOptions::unit,
-                      &FarFieldOptions::unit_length, &FarFieldOptions::flow, &FarFieldOptions::axis,
-                      &FarFieldOptions::symmetry, &FarFieldOptions::symmetry_position);
-  }
 };
 
 /// What happens to blunt trailing edges, which are strips between two faces that meet at a sharp angle.
@@ -60,11 +53,6 @@ struct TrailingEdgeOptions {
       {};            ///< patterns for names of faces or patches, with * and ?; empty: all faces
   double width = 0;  ///< largest width of strips that are closed; 0: 3 % of their length and 10 % of the
                      ///< neighbours' breadth
-
-  static constexpr auto fields() {
-    return std::tuple(&TrailingEdgeOptions::treatment, &TrailingEdgeOptions::faces,
-                      &TrailingEdgeOptions::width);
-  }
 };
 
 /// A body of flat triangles beside the CAD geometry, such as a store or an ice shape.
@@ -72,10 +60,6 @@ struct FacetedBody {
   std::string name;  ///< name of the part to which its faces belong
   std::string file;  ///< STL, OBJ, OFF, PLY, .poly or .smesh
   double scale = 1;  ///< factor from its coordinates to the unit of the geometry
-
-  static constexpr auto fields() {
-    return std::tuple(&FacetedBody::name, &FacetedBody::file, &FacetedBody::scale);
-  }
 };
 
 struct DomainOptions {
@@ -90,13 +74,6 @@ struct DomainOptions {
   double feature_angle = 40;
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
   std::vector<FacetedBody> parts = {};  ///< united with bodies that they overlap
-
-  static constexpr auto fields() {
-    return std::tuple(&DomainOptions::file, &DomainOptions::transport, &DomainOptions::kind,
-                      &DomainOptions::far_field, &DomainOptions::default_far_field,
-                      &DomainOptions::trailing_edges, &DomainOptions::feature_angle,
-                      &DomainOptions::smallest_size, &DomainOptions::parts);
-  }
 };
 
 /// What was read and what was changed. For log and report.
@@ -105,11 +82,6 @@ struct DomainReport {
   std::string reason;                       ///< reason for the decision, if the program decided
   double reference_length = 0;              ///< of the body, or of the domain without bodies
   Changes changes;                          ///< every repair: what, where, how much
-
-  static constexpr auto fields() {
-    return std::tuple(&DomainReport::kind, &DomainReport::reason, &DomainReport::reference_length,
-                      &DomainReport::changes);
-  }
 };
 
 struct Domain {

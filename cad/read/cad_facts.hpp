@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -16,8 +15,6 @@ namespace aeroloom::cad {
 struct NamedFaces {
   std::string name;
   std::int32_t faces = 0;
-
-  static constexpr auto fields() { return std::tuple(&NamedFaces::name, &NamedFaces::faces); }
 };
 
 /// Names of a face, and its position.
@@ -25,11 +22,6 @@ struct FaceFacts {
   std::string name;  ///< "face_<number>" if the file gives none; rules for patches use this name
   std::string part, layer, colour;
   FacePlace place;
-
-  static constexpr auto fields() {
-    return std::tuple(&FaceFacts::name, &FaceFacts::part, &FaceFacts::layer, &FaceFacts::colour,
-                      &FaceFacts::place);
-  }
 };
 
 /// Counts of a file of triangles. Points with equal coordinates count once.
@@ -40,12 +32,6 @@ struct FacetCounts {
   std::int32_t junction_sides = 0;     ///< sides of three or more triangles
   std::int32_t misoriented_sides = 0;  ///< sides whose two triangles have opposite orientations
   double area = 0, volume = 0;         ///< of the triangles as they are oriented
-
-  static constexpr auto fields() {
-    return std::tuple(&FacetCounts::points, &FacetCounts::triangles, &FacetCounts::components,
-                      &FacetCounts::without_area, &FacetCounts::open_sides, &FacetCounts::junction_sides,
-                      &FacetCounts::misoriented_sides, &FacetCounts::area, &FacetCounts::volume);
-  }
 };
 
 struct CadFacts {
@@ -61,13 +47,6 @@ struct CadFacts {
   /// For files of triangles only. These have no solids, shells, faces and edges; `parts` and `face_names`
   /// then count triangles.
   std::optional<FacetCounts> facets = {};
-
-  static constexpr auto fields() {
-    return std::tuple(&CadFacts::format, &CadFacts::unit_name, &CadFacts::unit_in_metres, &CadFacts::bounds,
-                      &CadFacts::solids, &CadFacts::shells, &CadFacts::faces, &CadFacts::edges,
-                      &CadFacts::parts, &CadFacts::face_names, &CadFacts::layers, &CadFacts::colours,
-                      &CadFacts::face_table, &CadFacts::facets);
-  }
 };
 
 /// Reads the file. Not collective. It runs in this process, so a crash in the CAD library ends the process.

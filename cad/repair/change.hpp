@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -18,10 +17,6 @@ struct Change {
   std::optional<Vec3> where = {};  ///< a place to look at
   double how_much = 0;  ///< largest distance by which anything moved, in the model's unit; 0: nothing moved
   bool is_warning = false;  ///< the user may not want this change
-
-  static constexpr auto fields() {
-    return std::tuple(&Change::what, &Change::where, &Change::how_much, &Change::is_warning);
-  }
 };
 
 using Changes = std::vector<Change>;

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <tuple>
 
 namespace aeroloom::cad {
 
@@ -17,12 +16,6 @@ struct EntityCounts {
   std::int32_t open_edges = 0;    ///< edges of one face only
   std::int32_t short_edges = 0;   ///< shorter than 1e-5 of the diagonal
   std::int32_t sliver_faces = 0;  ///< narrower than 1e-4 of the diagonal and than a hundredth of their length
-
-  static constexpr auto fields() {
-    return std::tuple(&EntityCounts::solids, &EntityCounts::shells, &EntityCounts::faces,
-                      &EntityCounts::edges, &EntityCounts::open_edges, &EntityCounts::short_edges,
-                      &EntityCounts::sliver_faces);
-  }
 };
 
 struct Diagnosis {

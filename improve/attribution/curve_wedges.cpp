@@ -20,10 +20,6 @@ struct PieceEdge {
   std::int64_t edge, piece;
   double angle;                       ///< degrees that its tetrahedra enclose
   std::array<std::int32_t, 2> faces;  ///< CAD faces of its boundary triangles there, -1 for none
-
-  static constexpr auto fields() {
-    return std::tuple(&PieceEdge::edge, &PieceEdge::piece, &PieceEdge::angle, &PieceEdge::faces);
-  }
 };
 
 double dihedral_at(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {

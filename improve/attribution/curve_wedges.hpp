@@ -6,7 +6,6 @@
 #include <array>
 #include <compare>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::attribution {
@@ -15,8 +14,6 @@ namespace aeroloom::attribution {
 struct EdgeName {
   mesh::GlobalIndex low, high;  ///< its vertices
   std::int64_t region;
-
-  static constexpr auto fields() { return std::tuple(&EdgeName::low, &EdgeName::high, &EdgeName::region); }
   auto operator<=>(const EdgeName&) const = default;
 };
 

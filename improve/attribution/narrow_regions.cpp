@@ -39,11 +39,6 @@ struct EdgeAtVertex {
   CurveName curve;    ///< that the other end lies on
   GlobalIndex other;  ///< other end
   Vec3 step;          ///< from the vertex to it
-
-  static constexpr auto fields() {
-    return std::tuple(&EdgeAtVertex::vertex, &EdgeAtVertex::face, &EdgeAtVertex::curve, &EdgeAtVertex::other,
-                      &EdgeAtVertex::step);
-  }
 };
 
 auto edge_key(const EdgeAtVertex& e) {

@@ -5,7 +5,6 @@
 #include "improve/attribution/curve_wedges.hpp"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::attribution {
@@ -16,10 +15,6 @@ struct NarrowEdge {
   std::int32_t face;  ///< CAD face of the region
   double width;       ///< height of the narrowest triangle there that has the edge
   geometry::Vec3 at;  ///< its middle
-
-  static constexpr auto fields() {
-    return std::tuple(&NarrowEdge::edge, &NarrowEdge::face, &NarrowEdge::width, &NarrowEdge::at);
-  }
 };
 
 /// Finds the edges of the list (ascending, the same on every rank) that run across narrow regions. There a

@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::attribution {
@@ -26,12 +25,6 @@ struct PinningEntity {
   double smallest_dihedral = 0;               ///< degrees, of its tetrahedra
   geometry::Vec3 at;                          ///< position of that smallest angle
   std::int64_t tetrahedra = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&PinningEntity::kind, &PinningEntity::faces, &PinningEntity::vertex,
-                      &PinningEntity::angle, &PinningEntity::smallest_dihedral, &PinningEntity::at,
-                      &PinningEntity::tetrahedra);
-  }
 };
 
 /// Walls closer to each other than their elements are long. Either a CAD face is narrow between two of its
@@ -43,12 +36,6 @@ struct UnresolvedFeature {
   double smallest_dihedral = 0;  ///< degrees, of its tetrahedra
   geometry::Vec3 at;             ///< inside, at the smallest width
   std::int64_t tetrahedra = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&UnresolvedFeature::face, &UnresolvedFeature::opposite, &UnresolvedFeature::width,
-                      &UnresolvedFeature::smallest_dihedral, &UnresolvedFeature::at,
-                      &UnresolvedFeature::tetrahedra);
-  }
 };
 
 /// Bad tetrahedra of one class. If there are none, the angles are those of the target.

@@ -20,11 +20,6 @@ struct SharpSegment {
   std::int32_t low, high;  ///< CAD faces, low < high
   double angle;            ///< degrees, enclosed by the boundary
   geometry::Vec3 a, b;     ///< its ends, equal on all ranks
-
-  static constexpr auto fields() {
-    return std::tuple(&SharpSegment::edge, &SharpSegment::region, &SharpSegment::low, &SharpSegment::high,
-                      &SharpSegment::angle, &SharpSegment::a, &SharpSegment::b);
-  }
 };
 
 /// All such segments of a mesh, for nearest-segment queries.

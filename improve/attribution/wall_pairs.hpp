@@ -7,7 +7,6 @@
 #include <compare>
 #include <cstdint>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::attribution {
@@ -29,10 +28,6 @@ private:
   struct Classification {
     std::int32_t dimension;  // a mesh::CadDimension; as wide as the ids to avoid padding
     std::int32_t entity, face;
-
-    static constexpr auto fields() {
-      return std::tuple(&Classification::dimension, &Classification::entity, &Classification::face);
-    }
     auto operator<=>(const Classification&) const = default;
   };
   std::vector<Classification> _rows;  // of CAD vertices and curves, ascending

@@ -36,11 +36,6 @@ struct VertexState {
   double edge_sum = 0;  ///< one edge at the vertex of each tetrahedron, summed
   double worst = std::numeric_limits<double>::max();
   Vec3 gradient;
-
-  static constexpr auto fields() {
-    return std::tuple(&VertexState::first, &VertexState::tets, &VertexState::ratios, &VertexState::sum,
-                      &VertexState::edge_sum, &VertexState::worst, &VertexState::gradient);
-  }
   void add(const VertexState& other) {
     tets += other.tets, ratios += other.ratios, sum += other.sum, edge_sum += other.edge_sum;
     first = std::min(first, other.first);
@@ -52,8 +47,6 @@ struct VertexState {
 /// The sum at another place.
 struct MovedSum {
   double sum = 0;
-
-  static constexpr auto fields() { return std::tuple(&MovedSum::sum); }
   void add(const MovedSum& other) { sum += other.sum; }
 };
 
@@ -75,8 +68,6 @@ struct Trials {
 /// Whether a tetrahedron does not allow the move.
 struct Veto {
   std::uint8_t any = 0;
-
-  static constexpr auto fields() { return std::tuple(&Veto::any); }
   void add(const Veto& other) { any |= other.any; }
 };
 

@@ -4,7 +4,6 @@
 #include "improve/borders/rounds.hpp"
 
 #include <span>
-#include <tuple>
 
 namespace aeroloom::cavities {
 
@@ -14,10 +13,6 @@ struct WireTet {
   mesh::PieceId piece;
   mesh::RegionId region;
   std::array<mesh::SharedVertexKey, 4> vertices;
-
-  static constexpr auto fields() {
-    return std::tuple(&WireTet::cavity, &WireTet::piece, &WireTet::region, &WireTet::vertices);
-  }
 };
 struct WireVertex {
   CavityId cavity;
@@ -27,12 +22,6 @@ struct WireVertex {
   geometry::Vec3 point;
   std::int32_t entity;
   mesh::GlobalIndex surface_number;  ///< as in mesh::Piece; -1: none
-
-  static constexpr auto fields() {
-    return std::tuple(&WireVertex::cavity, &WireVertex::piece, &WireVertex::dimension,
-                      &WireVertex::vertex_key, &WireVertex::point, &WireVertex::entity,
-                      &WireVertex::surface_number);
-  }
 };
 struct WireTriangle {
   CavityId cavity;
@@ -40,11 +29,6 @@ struct WireTriangle {
   std::int32_t face;
   std::array<mesh::SharedVertexKey, 3> vertices;
   std::int32_t patch;
-
-  static constexpr auto fields() {
-    return std::tuple(&WireTriangle::cavity, &WireTriangle::piece, &WireTriangle::face,
-                      &WireTriangle::vertices, &WireTriangle::patch);
-  }
 };
 
 /// Rebuilds a piece without the cells that left, and with new ones. Vertices known to other pieces become

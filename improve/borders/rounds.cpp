@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::cavities {
@@ -25,8 +24,6 @@ struct Outcome {
   CavityId cavity;
   std::int32_t replaced;  ///< 0: it stays as it was
   std::int32_t added;     ///< vertices
-
-  static constexpr auto fields() { return std::tuple(&Outcome::cavity, &Outcome::replaced, &Outcome::added); }
 };
 
 /// The names of a piece's vertices in this round.
@@ -165,8 +162,6 @@ CavityTable list_cavities(const mesh::DistributedMesh& mesh, const std::vector<W
   struct CavitySize {
     CavityId cavity;
     std::int64_t tets;
-
-    static constexpr auto fields() { return std::tuple(&CavitySize::cavity, &CavitySize::tets); }
   };
   std::vector<CavityId> all;
   for (const WireTet& t : tets) all.push_back(t.cavity);

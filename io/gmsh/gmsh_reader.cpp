@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,8 +26,6 @@ struct Group {
   std::int32_t dimension = 3;
   std::int32_t is_entity = 0;  ///< 0: a physical group
   std::int32_t tag = 0;
-
-  static constexpr auto fields() { return std::tuple(&Group::dimension, &Group::is_entity, &Group::tag); }
   auto operator<=>(const Group&) const = default;
 };
 
@@ -124,10 +121,6 @@ struct NamedGroup {
   Group group;
   std::string name;
   mesh::PatchType type = mesh::PatchType::wall;
-
-  static constexpr auto fields() {
-    return std::tuple(&NamedGroup::group, &NamedGroup::name, &NamedGroup::type);
-  }
 };
 
 mesh::PatchType type_of(const std::string& comment, const std::string& name) {

@@ -4,7 +4,6 @@
 #include "io/streams/byte_order.hpp"
 #include "mesh/exchange/rendezvous.hpp"
 
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -108,8 +107,6 @@ std::vector<geometry::Box> boxes_of_entities(const FileMesh& mesh) {
   struct EntityBox {
     std::int64_t entity;
     geometry::Box box;
-
-    static constexpr auto fields() { return std::tuple(&EntityBox::entity, &EntityBox::box); }
   };
   std::vector<EntityBox> found;
   for (std::size_t i = 0; i < boxes.size(); ++i) {

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io::hdf5 {
@@ -17,8 +16,6 @@ enum class ItemKind : std::uint8_t { missing, integer, real, text, other };
 struct ArrayFacts {
   ItemKind kind = ItemKind::missing;  ///< `other`: a group, or items of another type
   std::vector<std::int64_t> dimensions;
-
-  static constexpr auto fields() { return std::tuple(&ArrayFacts::kind, &ArrayFacts::dimensions); }
   bool exists() const { return kind != ItemKind::missing; }
   /// The length of the first dimension.
   std::int64_t rows() const { return dimensions.empty() ? 0 : dimensions[0]; }
@@ -27,8 +24,6 @@ struct ArrayFacts {
 /// An attribute to look up. Its value comes as text; of several integers the first one counts.
 struct AttributeName {
   std::string object, attribute;
-
-  static constexpr auto fields() { return std::tuple(&AttributeName::object, &AttributeName::attribute); }
 };
 
 /// Names to look up in one child process, which opens the file once.
@@ -38,18 +33,11 @@ struct SurveyRequest {
   /// Asks for the first member (by name) of `group` whose attribute mark.attribute has the value mark.object.
   std::string group;
   AttributeName mark;
-
-  static constexpr auto fields() {
-    return std::tuple(&SurveyRequest::arrays, &SurveyRequest::attributes, &SurveyRequest::group,
-                      &SurveyRequest::mark);
-  }
 };
 struct Survey {
   std::vector<ArrayFacts> arrays;       ///< in the order of the request
   std::vector<std::string> attributes;  ///< in the order of the request; empty where missing
   std::string marked;                   ///< name of the member of the group; empty where missing
-
-  static constexpr auto fields() { return std::tuple(&Survey::arrays, &Survey::attributes, &Survey::marked); }
 };
 
 /// An HDF5 file to read. The functions throw std::runtime_error with the file and the object. The constructor

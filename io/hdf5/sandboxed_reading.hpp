@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 
 namespace aeroloom::io::hdf5 {
 
@@ -17,18 +16,12 @@ struct ReadingRequest {
   Operation operation = Operation::survey;
   std::string path;
   parallel::Bytes details;  ///< packed: a SurveyRequest, a RowRange, or the name of an array of texts
-
-  static constexpr auto fields() {
-    return std::tuple(&ReadingRequest::operation, &ReadingRequest::path, &ReadingRequest::details);
-  }
 };
 
 /// Consecutive rows of an array.
 struct RowRange {
   std::string array;
   std::int64_t begin = 0, count = 0;
-
-  static constexpr auto fields() { return std::tuple(&RowRange::array, &RowRange::begin, &RowRange::count); }
 };
 
 /// Turns a packed ReadingRequest into the packed result.

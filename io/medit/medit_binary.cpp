@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -20,8 +19,6 @@ constexpr std::int64_t chunk_bytes = std::int64_t{1} << 20;
 struct Widths {
   std::int32_t version = 3;
   ByteOrder order = ByteOrder::little;
-
-  static constexpr auto fields() { return std::tuple(&Widths::version, &Widths::order); }
   int real() const { return version == 1 ? 4 : 8; }
   int integer() const { return version < 4 ? 4 : 8; }
   int position() const { return version < 3 ? 4 : 8; }
@@ -31,8 +28,6 @@ struct Widths {
 struct Section {
   std::int32_t keyword = 0;
   std::int64_t lines = 0, count = 0;
-
-  static constexpr auto fields() { return std::tuple(&Section::keyword, &Section::lines, &Section::count); }
 };
 
 std::int64_t decode_integer(const RangeReader& file, const std::byte* at, int width) {

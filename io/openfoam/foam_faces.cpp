@@ -100,8 +100,6 @@ void require_closed(const LinkDefects& defects) {
 /// Counts of a part among those of the whole mesh.
 struct PartRow {
   GlobalIndex cells, inner_faces;
-
-  static constexpr auto fields() { return std::tuple(&PartRow::cells, &PartRow::inner_faces); }
 };
 
 /// By part. Collective.

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -49,8 +48,6 @@ FoamCorners corners_of_face(const MeshPart& part, const FoamFace& face);
 struct FoamFaceNote {
   std::int32_t zone = -1;         ///< the interior patch, if the sender has the boundary face
   mesh::GlobalIndex number = -1;  ///< among the inner faces of the sender, if its cell is the owner
-
-  static constexpr auto fields() { return std::tuple(&FoamFaceNote::zone, &FoamFaceNote::number); }
 };
 
 /// Numbers in the undecomposed mesh: cells by part, and faces in OpenFOAM's order.

@@ -10,7 +10,6 @@
 #include <array>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include <fmt/compile.h>
@@ -107,10 +106,6 @@ struct TextBlock {
   std::int32_t section, part;
   std::int64_t bytes;   ///< its length
   std::int64_t offset;  ///< in the file
-
-  static constexpr auto fields() {
-    return std::tuple(&TextBlock::section, &TextBlock::part, &TextBlock::bytes, &TextBlock::offset);
-  }
 };
 
 /// All stretches of this rank's parts with their lengths.

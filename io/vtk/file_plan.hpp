@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -18,10 +17,6 @@ struct PartLocation {
   parallel::Rank rank = 0;
   mesh::GlobalIndex items = 0;  ///< cells (or faces) for the file
   mesh::GlobalIndex work = 0;   ///< work to write them: their number of corners
-
-  static constexpr auto fields() {
-    return std::tuple(&PartLocation::id, &PartLocation::rank, &PartLocation::items, &PartLocation::work);
-  }
 };
 
 /// A file, which holds consecutive parts.

@@ -12,7 +12,6 @@
 #include <map>
 #include <stdexcept>
 #include <system_error>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -85,8 +84,6 @@ struct PartArrays {
     Array<mesh::LocalIndex> connectivity;
     Array<Run> runs;
     Array<mesh::LocalIndex> order;
-
-    static constexpr auto fields() { return std::tuple(&Items::connectivity, &Items::runs, &Items::order); }
   };
   std::int32_t id = 0;
   Array<double> coordinates;
@@ -95,12 +92,6 @@ struct PartArrays {
   std::array<Items, face_shape_count> faces;
   Array<std::int32_t> triangle_face, triangle_patch;
   Array<std::int16_t> layers;
-
-  static constexpr auto fields() {
-    return std::tuple(&PartArrays::id, &PartArrays::coordinates, &PartArrays::numbers, &PartArrays::cells,
-                      &PartArrays::faces, &PartArrays::triangle_face, &PartArrays::triangle_patch,
-                      &PartArrays::layers);
-  }
 };
 
 /// A part of this rank.

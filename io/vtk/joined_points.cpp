@@ -5,7 +5,6 @@
 #include <bit>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,8 +18,6 @@ using mesh::GlobalIndex;
 struct PlacedPoint {
   std::array<std::uint64_t, 3> bits;
   GlobalIndex id;
-
-  static constexpr auto fields() { return std::tuple(&PlacedPoint::bits, &PlacedPoint::id); }
 };
 
 PlacedPoint placed(const RawMesh& raw, std::size_t point) {

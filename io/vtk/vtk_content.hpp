@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io {
@@ -16,8 +15,6 @@ namespace aeroloom::io {
 struct VtkLabel {
   std::int64_t value = 0;  ///< in the array that identifies regions or patches
   mesh::Patch named;       ///< name; `type` for patches only
-
-  static constexpr auto fields() { return std::tuple(&VtkLabel::value, &VtkLabel::named); }
 };
 
 /// n points, and cells and faces with corners in CellShape's order. Corners are ids of points; without ids
@@ -31,12 +28,6 @@ struct VtkContent {
   std::array<std::vector<mesh::GlobalIndex>, face_shape_count> faces;
   std::array<std::vector<std::int32_t>, face_shape_count> face_labels;  ///< indices in `patches`
   std::vector<VtkLabel> regions, patches;
-
-  static constexpr auto fields() {
-    return std::tuple(&VtkContent::coordinates, &VtkContent::ids, &VtkContent::has_ids, &VtkContent::cells,
-                      &VtkContent::cell_labels, &VtkContent::faces, &VtkContent::face_labels,
-                      &VtkContent::regions, &VtkContent::patches);
-  }
   std::size_t point_count() const { return coordinates.size() / 3; }
 };
 

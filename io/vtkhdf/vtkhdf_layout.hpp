@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io::vtkhdf {
@@ -15,10 +14,6 @@ namespace aeroloom::io::vtkhdf {
 /// The counts of a partition of a grid, or the sums over all partitions before it.
 struct GridCounts {
   std::int64_t points = 0, cells = 0, corners = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&GridCounts::points, &GridCounts::cells, &GridCounts::corners);
-  }
 };
 
 /// The offset of the first item of each array, in bytes.

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::io::vtkhdf {
@@ -17,13 +16,6 @@ struct FileFacts {
   bool has_boundary = false;
   std::int64_t boundary_faces = 0, boundary_corners = 0;
   std::vector<std::string> region_names, patch_names, patch_types;  ///< from /Boundary if it exists
-
-  static constexpr auto fields() {
-    return std::tuple(&FileFacts::before, &FileFacts::id_array, &FileFacts::has_regions,
-                      &FileFacts::has_patches, &FileFacts::has_ghosts, &FileFacts::has_boundary,
-                      &FileFacts::boundary_faces, &FileFacts::boundary_corners, &FileFacts::region_names,
-                      &FileFacts::patch_names, &FileFacts::patch_types);
-  }
   const GridCounts& all() const { return before.back(); }
   std::size_t partition_count() const { return before.size() - 1; }
 };

@@ -7,7 +7,6 @@
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 namespace aeroloom::io {
 
@@ -34,8 +33,6 @@ std::vector<GridCounts> gather_counts(const FileMesh& mesh, const std::vector<Gr
   struct PartCounts {
     std::int64_t part;
     GridCounts counts;
-
-    static constexpr auto fields() { return std::tuple(&PartCounts::part, &PartCounts::counts); }
   };
   std::vector<PartCounts> rows;
   for (std::size_t i = 0; i < mine.size(); ++i) rows.push_back({mesh.parts[i].id, mine[i]});

@@ -28,10 +28,6 @@ struct Batch {
   PieceId piece;
   std::int32_t order;
   parallel::Rank rank;
-
-  static constexpr auto fields() {
-    return std::tuple(&Batch::box, &Batch::piece, &Batch::order, &Batch::rank);
-  }
 };
 
 struct BatchTriangle {
@@ -46,8 +42,6 @@ using Triangles = std::vector<BatchTriangle>;
 struct SentTriangle {
   NamedTriangle corners;
   LocalIndex cell;
-
-  static constexpr auto fields() { return std::tuple(&SentTriangle::corners, &SentTriangle::cell); }
 };
 
 /// Two batches, lower first, tested on one rank.

@@ -6,7 +6,6 @@
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
 
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -18,12 +17,6 @@ struct TriangleHit {
   geometry::Vec3 center;              ///< of the first triangle
   double size;                        ///< shortest edge of both
   double first_area, second_area;
-
-  static constexpr auto fields() {
-    return std::tuple(&TriangleHit::first_piece, &TriangleHit::second_piece, &TriangleHit::first,
-                      &TriangleHit::second, &TriangleHit::center, &TriangleHit::size,
-                      &TriangleHit::first_area, &TriangleHit::second_area);
-  }
 };
 
 /// The names of a piece's vertices over all pieces: their keys where they have one.

@@ -30,10 +30,6 @@ struct BitTriangle {
   PieceId piece;
   LocalIndex triangle;
   Side side;
-
-  static constexpr auto fields() {
-    return std::tuple(&BitTriangle::corners, &BitTriangle::piece, &BitTriangle::triangle, &BitTriangle::side);
-  }
 };
 
 BitTriangle make_triangle(const Piece& piece, LocalIndex t, Side side) {

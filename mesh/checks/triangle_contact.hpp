@@ -13,8 +13,6 @@ namespace aeroloom::mesh {
 struct VertexName {
   std::int64_t piece = -1;
   std::uint64_t id = 0;
-
-  static constexpr auto fields() { return std::tuple(&VertexName::piece, &VertexName::id); }
   friend bool operator==(const VertexName&, const VertexName&) = default;
 };
 

@@ -94,8 +94,6 @@ std::vector<Vec3> centers_of_regions(const DistributedMesh& mesh) {
   struct RegionBox {
     RegionId region;
     geometry::Box box;
-
-    static constexpr auto fields() { return std::tuple(&RegionBox::region, &RegionBox::box); }
   };
   std::vector<RegionBox> mine;
   for (const Piece& piece : mesh.pieces) {

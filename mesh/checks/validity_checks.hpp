@@ -5,7 +5,6 @@
 #include "mesh/exchange/findings.hpp"
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -47,10 +46,6 @@ struct RegionTerm {
   RegionId region;
   PieceId piece;
   double value;
-
-  static constexpr auto fields() {
-    return std::tuple(&RegionTerm::region, &RegionTerm::piece, &RegionTerm::value);
-  }
 };
 /// The sums by region, taken in piece order: the same bits whatever the ranks. A piece has one term for a
 /// region at most. Collective.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,8 +16,6 @@ namespace aeroloom::mesh {
 /// beyond, which an inner face alone has.
 struct FaceSides {
   RegionId front = 0, back = no_region;
-
-  static constexpr auto fields() { return std::tuple(&FaceSides::front, &FaceSides::back); }
   bool is_inner() const { return back != no_region; }
 };
 
@@ -32,11 +29,6 @@ struct MeshFacts {
   std::vector<FaceSides> sides;        ///< by face id; empty: all faces bound region 0
   std::vector<std::string> regions;    ///< names by region id; empty: one, unnamed
   std::int32_t cavity_rounds = 0;      ///< that changed the pieces so far (improve/borders/rounds.hpp)
-
-  static constexpr auto fields() {
-    return std::tuple(&MeshFacts::kind, &MeshFacts::piece_count, &MeshFacts::patches, &MeshFacts::patch_types,
-                      &MeshFacts::faces, &MeshFacts::sides, &MeshFacts::regions, &MeshFacts::cavity_rounds);
-  }
 };
 
 /// The pieces of one mesh that live on this rank, and the ranks that have all of them. Data and queries;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 
 namespace aeroloom::mesh {
 
@@ -33,8 +32,6 @@ std::optional<PatchType> patch_type_by_name(std::string_view name);
 struct Patch {
   std::string name;
   PatchType type = PatchType::wall;
-
-  static constexpr auto fields() { return std::tuple(&Patch::name, &Patch::type); }
   friend bool operator==(const Patch&, const Patch&) = default;
 };
 

@@ -29,8 +29,6 @@ enum class CellKind : std::int8_t { triangle = 3, tetrahedron = 4 };
 struct RegionRun {
   RegionId region = 0;
   LocalIndex end = 0;
-
-  static constexpr auto fields() { return std::tuple(&RegionRun::region, &RegionRun::end); }
   friend bool operator==(const RegionRun&, const RegionRun&) = default;
 };
 

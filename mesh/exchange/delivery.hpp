@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -23,7 +22,6 @@ std::vector<Row> gather_by_piece(const DistributedMesh& mesh, const std::vector<
   struct Tagged {
     Row row;
     PieceId piece;
-    static constexpr auto fields() { return std::tuple(&Tagged::row, &Tagged::piece); }
   };
   std::vector<Tagged> mine(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) mine[i] = {rows[i], mesh.pieces[i].id};

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -38,8 +37,6 @@ public:
   struct KeyedValue {
     GlobalIndex key = 0;
     Value value{};
-
-    static constexpr auto fields() { return std::tuple(&KeyedValue::key, &KeyedValue::value); }
   };
 
   /// Takes rows of any rank to those of their keys. A key may come several times; the first in the order of
@@ -72,15 +69,11 @@ private:
   struct Question {
     GlobalIndex key;
     parallel::Rank rank;
-
-    static constexpr auto fields() { return std::tuple(&Question::key, &Question::rank); }
   };
   template <class What>
   struct Answer {
     What what;
     parallel::Rank rank;
-
-    static constexpr auto fields() { return std::tuple(&Answer::what, &Answer::rank); }
   };
 
   std::vector<Question> ask(const std::vector<GlobalIndex>& keys) const;

@@ -70,11 +70,6 @@ struct OffenderPlace {
   Noun noun;
   std::int64_t number;
   geometry::Vec3 point;
-
-  static constexpr auto fields() {
-    return std::tuple(&OffenderPlace::violation, &OffenderPlace::noun, &OffenderPlace::number,
-                      &OffenderPlace::point);
-  }
 };
 
 const char* word_of(OffenderPlace::Noun noun) {

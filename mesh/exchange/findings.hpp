@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -47,10 +46,6 @@ struct Offender {
   PieceId piece = 0;
   Entity entity = Entity::vertex;
   std::int64_t item = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&Offender::key, &Offender::piece, &Offender::entity, &Offender::item);
-  }
 };
 
 /// Counts violations on this rank and keeps the first offender of each.
@@ -69,8 +64,6 @@ private:
   struct Finding {
     std::int64_t count = 0;
     Offender first;
-
-    static constexpr auto fields() { return std::tuple(&Finding::count, &Finding::first); }
   };
   using Table = std::array<Finding, static_cast<std::size_t>(Violation::count)>;
   Table over_all_ranks(const parallel::Communicator& communicator) const;

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,8 +18,6 @@ namespace {
 /// kind and global number, and so its place.
 struct Sum128 {
   std::uint64_t low = 0, high = 0;
-
-  static constexpr auto fields() { return std::tuple(&Sum128::low, &Sum128::high); }
   void add(Sum128 other) {
     low += other.low;
     high += other.high + (low < other.low ? 1 : 0);

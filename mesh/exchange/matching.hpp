@@ -110,10 +110,6 @@ private:
     PieceId piece;
     std::uint32_t tag;
     std::int32_t label;
-
-    static constexpr auto fields() {
-      return std::tuple(&Across::vertices, &Across::piece, &Across::tag, &Across::label);
-    }
   };
 
   static std::uint32_t make_tag(bool odd, int role, std::uint32_t item) {

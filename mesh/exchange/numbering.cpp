@@ -30,7 +30,6 @@ void require_agreement(const DistributedMesh& mesh, const SharedVertices& shared
   const parallel::Communicator& communicator = mesh.communicator;
   struct Clash {
     Knower first, second;
-    static constexpr auto fields() { return std::tuple(&Clash::first, &Clash::second); }
   };
   std::vector<Knower> mine(shared.size());
   shared.for_each([&](std::size_t p, LocalIndex v, std::size_t copy) {

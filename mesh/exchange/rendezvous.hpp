@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -62,8 +61,6 @@ template <class Item>
 struct Guest {
   Item item;
   parallel::Rank from;
-
-  static constexpr auto fields() { return std::tuple(&Guest::item, &Guest::from); }
 };
 
 /// A rendezvous whose guests are told something. Items meet as in meet_by_key; `from` must not be judged by:

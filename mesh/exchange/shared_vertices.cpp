@@ -20,8 +20,6 @@ struct KeyedCopy {
   std::uint64_t key;
   PieceId piece;
   std::uint32_t copy;
-
-  static constexpr auto fields() { return std::tuple(&KeyedCopy::key, &KeyedCopy::piece, &KeyedCopy::copy); }
 };
 
 std::vector<KeyedVertices> keyed_by_vertex_keys(const DistributedMesh& mesh) {
@@ -46,10 +44,6 @@ struct SharedVertices::Link {
   PieceId other_piece;
   parallel::Rank other_rank;
   Role role;
-
-  static constexpr auto fields() {
-    return std::tuple(&Link::copy, &Link::other, &Link::other_piece, &Link::other_rank, &Link::role);
-  }
 };
 
 SharedVertices::SharedVertices(const DistributedMesh& mesh)

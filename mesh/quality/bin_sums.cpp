@@ -3,7 +3,6 @@
 #include "mesh/exchange/delivery.hpp"
 
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::mesh {
@@ -12,8 +11,6 @@ std::vector<std::int64_t> sum_bins(const parallel::Communicator& communicator,
                                    const std::vector<std::int64_t>& bins) {
   struct BinCount {
     std::int64_t bin, count;
-
-    static constexpr auto fields() { return std::tuple(&BinCount::bin, &BinCount::count); }
   };
   const auto per_rank = static_cast<std::int64_t>(bins.size() / communicator.size() + 1);
   std::vector<BinCount> filled;

@@ -16,14 +16,11 @@ struct LoneSide {
   std::int32_t bounded;  ///< 1: there is a boundary face
 
   auto place() const { return std::tuple(cell.piece, cell.cell, cell.side); }
-  static constexpr auto fields() { return std::tuple(&LoneSide::key, &LoneSide::cell, &LoneSide::bounded); }
 };
 
 /// Tells a side its neighbour.
 struct Introduction {
   CellNeighbour cell, neighbour;
-
-  static constexpr auto fields() { return std::tuple(&Introduction::cell, &Introduction::neighbour); }
 };
 
 /// Matches what is inside one piece.

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,10 +18,6 @@ struct CellNeighbour {
   PieceId piece = -1;      ///< -1: none
   LocalIndex cell = -1;    ///< of that piece, all shapes counted
   std::int32_t side = -1;  ///< of that cell
-
-  static constexpr auto fields() {
-    return std::tuple(&CellNeighbour::piece, &CellNeighbour::cell, &CellNeighbour::side);
-  }
   bool exists() const { return piece >= 0; }
   friend auto operator<=>(const CellNeighbour&, const CellNeighbour&) = default;
 };
@@ -54,8 +49,6 @@ template <parallel::Flat T>
 struct Told {
   CellNeighbour cell;
   T what;
-
-  static constexpr auto fields() { return std::tuple(&Told::cell, &Told::what); }
 };
 /// Takes what cells are told to where they live. Returns what those of this rank are told, by cell and side.
 /// Collective.

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::mesh {
@@ -38,10 +37,6 @@ struct AmountOfPiece {
   PieceId piece;
   std::int32_t id;
   double amount;
-
-  static constexpr auto fields() {
-    return std::tuple(&AmountOfPiece::piece, &AmountOfPiece::id, &AmountOfPiece::amount);
-  }
 };
 
 /// What one rank knows of its pieces.

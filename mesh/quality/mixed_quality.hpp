@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -40,11 +39,6 @@ struct WorstCellOfShape {
   GlobalIndex cell = 0;
   CellShape shape = CellShape::tetrahedron;
   geometry::Vec3 center;  ///< mean of the corners
-
-  static constexpr auto fields() {
-    return std::tuple(&WorstCellOfShape::value, &WorstCellOfShape::cell, &WorstCellOfShape::shape,
-                      &WorstCellOfShape::center);
-  }
 };
 
 struct MixedQuality {

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::mesh {
@@ -40,10 +39,6 @@ struct WorstCell {
   double value = 0;
   GlobalIndex cell = 0;
   geometry::Vec3 center;
-
-  static constexpr auto fields() {
-    return std::tuple(&WorstCell::value, &WorstCell::cell, &WorstCell::center);
-  }
 };
 
 /// Distribution of one measure over all cells; all zero where there is no cell.

@@ -19,10 +19,6 @@ struct CellItem {
   GlobalIndex order;
   PieceId piece;
   RegionId group;
-
-  static constexpr auto fields() {
-    return std::tuple(&CellItem::corners, &CellItem::order, &CellItem::piece, &CellItem::group);
-  }
 };
 
 /// A boundary face: its corners by number, where it belongs, its patch and its CAD face.
@@ -32,11 +28,6 @@ struct FaceItem {
   GlobalIndex order;
   PieceId piece;
   std::int32_t group, face;
-
-  static constexpr auto fields() {
-    return std::tuple(&FaceItem::corners, &FaceItem::order, &FaceItem::piece, &FaceItem::group,
-                      &FaceItem::face);
-  }
 };
 
 /// Of all shapes.
@@ -69,8 +60,6 @@ using PointTable = DistributedTable<std::array<double, 3>>;
 struct VertexClass {
   std::int32_t dimension;  ///< a CadDimension; as wide as the entity, so that there is no padding
   std::int32_t entity;
-
-  static constexpr auto fields() { return std::tuple(&VertexClass::dimension, &VertexClass::entity); }
 };
 using VertexClassTable = DistributedTable<VertexClass>;
 struct VertexTables {

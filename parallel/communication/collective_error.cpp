@@ -7,7 +7,6 @@
 #include <ios>
 #include <new>
 #include <optional>
-#include <tuple>
 
 namespace aeroloom::parallel {
 
@@ -16,8 +15,6 @@ namespace {
 struct Failure {
   FailureKind kind = FailureKind::bug;
   std::string message;
-
-  static constexpr auto fields() { return std::tuple(&Failure::kind, &Failure::message); }
 };
 
 /// How many agree() are at work, one within the other.

@@ -5,19 +5,58 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <exception>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace aeroloom::parallel {
 
 /// A struct that lists its members, all of them in the order of their declaration:
 ///   static constexpr auto fields() { return std::tuple(&Sharer::vertex_key, &Sharer::piece); }
-/// Members of a base come first. One that is forgotten does not compile, unless it fits into padding.
+/// Needed only where members cannot be counted: more than `most_members`, arrays of C, base classes,
+/// constructors. Members of a base come first. A forgotten one does not compile, unless it fits into padding.
 template <class T>
-concept HasFields = requires {
+concept ListsFields = requires {
   T::fields();
 };
+
+/// Converts to a value of any type; never called. An optional is made from its item, as its constructor
+/// would, so that there is one way to do it.
+struct AnyValue {
+  template <class U>
+  static constexpr bool is_made_from_item = false;
+  template <class U>
+  requires(!is_made_from_item<U>) operator U() const { std::terminate(); }
+};
+template <class U>
+inline constexpr bool AnyValue::is_made_from_item<std::optional<U>> = std::is_constructible_v<U, AnyValue>;
+
+inline constexpr std::size_t most_members = 14;
+
+/// With how many values the struct can be initialised: its members, where none is an array of C.
+template <class T, class... Values>
+consteval std::size_t count_members() {
+  if constexpr (sizeof...(Values) <= most_members && requires { T{Values{}..., AnyValue{}}; })
+    return count_members<T, Values..., AnyValue>();
+  return sizeof...(Values);
+}
+
+template <class T>
+concept IsTuple = requires {
+  std::tuple_size<T>::value;
+};
+
+/// An aggregate that is no std::array, of 1 to `most_members` members.
+template <class T>
+concept HasCountedFields = std::is_class_v<T> && std::is_aggregate_v<T> && !IsTuple<T> &&
+                           count_members<std::remove_const_t<T>>() - 1 < most_members;
+
+/// A struct whose members can be reached one after another.
+template <class T>
+concept HasFields = ListsFields<T> || HasCountedFields<T>;
 
 template <class T>
 struct FlatTraits;
@@ -49,11 +88,62 @@ struct FlatTraits<T[N]> {
 template <class T, std::size_t N>
 struct FlatTraits<std::array<T, N>> : FlatTraits<T[N]> {};
 
-/// The types of the members that a list names.
-template <class List>
+/// The members of a struct, as references that std::apply takes, in the order of their declaration.
+template <HasFields T>
+constexpr auto fields_of(T& item) {
+  constexpr std::size_t count = count_members<std::remove_const_t<T>>();
+  if constexpr (ListsFields<T>) {
+    return std::apply([&](const auto... members) { return std::tie(item.*members...); }, T::fields());
+  } else if constexpr (count == 1) {
+    auto& [a] = item;
+    return std::tie(a);
+  } else if constexpr (count == 2) {
+    auto& [a, b] = item;
+    return std::tie(a, b);
+  } else if constexpr (count == 3) {
+    auto& [a, b, c] = item;
+    return std::tie(a, b, c);
+  } else if constexpr (count == 4) {
+    auto& [a, b, c, d] = item;
+    return std::tie(a, b, c, d);
+  } else if constexpr (count == 5) {
+    auto& [a, b, c, d, e] = item;
+    return std::tie(a, b, c, d, e);
+  } else if constexpr (count == 6) {
+    auto& [a, b, c, d, e, f] = item;
+    return std::tie(a, b, c, d, e, f);
+  } else if constexpr (count == 7) {
+    auto& [a, b, c, d, e, f, g] = item;
+    return std::tie(a, b, c, d, e, f, g);
+  } else if constexpr (count == 8) {
+    auto& [a, b, c, d, e, f, g, h] = item;
+    return std::tie(a, b, c, d, e, f, g, h);
+  } else if constexpr (count == 9) {
+    auto& [a, b, c, d, e, f, g, h, i] = item;
+    return std::tie(a, b, c, d, e, f, g, h, i);
+  } else if constexpr (count == 10) {
+    auto& [a, b, c, d, e, f, g, h, i, j] = item;
+    return std::tie(a, b, c, d, e, f, g, h, i, j);
+  } else if constexpr (count == 11) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = item;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k);
+  } else if constexpr (count == 12) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = item;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l);
+  } else if constexpr (count == 13) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = item;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m);
+  } else if constexpr (count == 14) {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = item;
+    return std::tie(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+  }
+}
+
+/// The types of members.
+template <class Fields>
 struct Members;
-template <class... M, class... C>
-struct Members<std::tuple<M C::*...>> {
+template <class... M>
+struct Members<std::tuple<M&...>> {
   static constexpr bool are_flat = (FlatTraits<M>::is_flat && ...);
   static constexpr std::size_t bytes = (FlatTraits<M>::bytes + ... + 0);
   /// Of a struct that has these members and no others.
@@ -66,7 +156,11 @@ struct Members<std::tuple<M C::*...>> {
 };
 
 /// Whether no member is listed twice.
-template <HasFields T>
+template <class T>
+constexpr bool fields_are_distinct() {
+  return true;
+}
+template <ListsFields T>
 constexpr bool fields_are_distinct() {
   return std::apply(
       [](const auto... members) {
@@ -82,7 +176,7 @@ constexpr bool fields_are_distinct() {
 
 template <HasFields T>
 struct FlatTraits<T> {
-  using List = Members<decltype(T::fields())>;
+  using List = Members<decltype(fields_of(std::declval<T&>()))>;
   static_assert(fields_are_distinct<T>(), "fields() lists each member once");
   static_assert(List::size_with(alignof(T)) == sizeof(T), "fields() lists all members in their order");
   static constexpr bool is_flat = std::is_trivially_copyable_v<T> && List::are_flat;
@@ -92,7 +186,7 @@ struct FlatTraits<T> {
 /// Calls visit(member) for each field.
 template <HasFields T, class Visit>
 constexpr void for_each_field(T& item, const Visit& visit) {
-  std::apply([&](const auto... members) { (visit(item.*members), ...); }, T::fields());
+  std::apply([&](auto&... fields) { (visit(fields), ...); }, fields_of(item));
 }
 
 /// Writes wire_size<T> bytes at `to` and returns where they end.

@@ -1,5 +1,7 @@
 #include "parallel/communication/message_counting.hpp"
 
+#include "parallel/communication/fields.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -33,23 +35,19 @@ std::uint64_t values_sent_in_reduction(int rank, int ranks) {
   return rank % 2 == 0 ? 1 : steps + 1;
 }
 
-template <class Join>
-void join_each(ExchangeCounts& counts, const ExchangeCounts& others, Join join) {
+/// Calls join(number, other number) for each number of both.
+template <class Counts, class Join>
+void join_each(Counts& counts, const Counts& others, Join join) {
   std::apply(
-      [&](auto... kinds) {
-        (join((counts.*kinds).count, (others.*kinds).count), ...);
-        (join((counts.*kinds).bytes, (others.*kinds).bytes), ...);
+      [&](auto&... mine) {
+        std::apply(
+            [&](const auto&... theirs) {
+              (join(mine.count, theirs.count), ...);
+              (join(mine.bytes, theirs.bytes), ...);
+            },
+            fields_of(others));
       },
-      ExchangeCounts::fields());
-}
-
-template <class Join>
-void join_each(MessageCounts& counts, const MessageCounts& others, Join join) {
-  for (const auto kind :
-       {&MessageCounts::collective, &MessageCounts::neighbour, &MessageCounts::rendezvous}) {
-    join((counts.*kind).count, (others.*kind).count);
-    join((counts.*kind).bytes, (others.*kind).bytes);
-  }
+      fields_of(counts));
 }
 
 }  // namespace

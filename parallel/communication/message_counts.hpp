@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <tuple>
 
 namespace aeroloom::parallel {
 
@@ -10,8 +9,6 @@ namespace aeroloom::parallel {
 /// headers of protocols. A group of one rank sends nothing, and counts nothing.
 struct Messages {
   std::int64_t count = 0, bytes = 0;
-
-  static constexpr auto fields() { return std::tuple(&Messages::count, &Messages::bytes); }
   friend bool operator==(const Messages&, const Messages&) = default;
 };
 
@@ -30,10 +27,6 @@ struct Messages {
 /// open and close files and to make groups.
 struct MessageCounts {
   Messages collective, neighbour, rendezvous;
-
-  static constexpr auto fields() {
-    return std::tuple(&MessageCounts::collective, &MessageCounts::neighbour, &MessageCounts::rendezvous);
-  }
   friend bool operator==(const MessageCounts&, const MessageCounts&) = default;
   MessageCounts& operator+=(const MessageCounts& more);
   MessageCounts& operator-=(const MessageCounts& less);
@@ -52,12 +45,6 @@ struct ExchangeCounts {
   Messages reduction;   ///< scans and barriers too; bytes of one value
   Messages neighbour;   ///< exchanges of this rank, and what it handed over to others
   Messages rendezvous;  ///< bytes this rank handed over, what it has for itself included
-
-  static constexpr auto fields() {
-    return std::tuple(&ExchangeCounts::broadcast, &ExchangeCounts::all_gather, &ExchangeCounts::table,
-                      &ExchangeCounts::gather, &ExchangeCounts::reduction, &ExchangeCounts::neighbour,
-                      &ExchangeCounts::rendezvous);
-  }
   friend bool operator==(const ExchangeCounts&, const ExchangeCounts&) = default;
   ExchangeCounts& operator+=(const ExchangeCounts& more);
   ExchangeCounts& operator-=(const ExchangeCounts& less);

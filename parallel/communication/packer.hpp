@@ -271,9 +271,9 @@ struct Wire<std::pair<First, Second>> {
 
 template <HasFields T>
 requires(!Flat<T>) struct Wire<T> {
-  static constexpr std::size_t least = []<class... M, class... C>(std::type_identity<std::tuple<M C::*...>>) {
+  static constexpr std::size_t least = []<class... M>(std::type_identity<std::tuple<M&...>>) {
     return (least_wire_size<M> + ... + 0);
-  }(std::type_identity<decltype(T::fields())>());
+  }(std::type_identity<decltype(fields_of(std::declval<T&>()))>());
   static void pack(Packer& packer, const T& item) {
     for_each_field(item, [&](const auto& field) { parallel::pack(packer, field); });
   }
@@ -293,7 +293,7 @@ void hand_over(Packer& packer, T& item) {
     pack(packer, item);
   } else if constexpr (HasFields<T>) {
     for_each_field(item, [&](auto& field) { hand_over(packer, field); });
-  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+  } else if constexpr (IsTuple<T>) {
     std::apply([&](auto&... each) { (hand_over(packer, each), ...); }, item);
   } else {
     pack(packer, item);

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::parallel {
@@ -15,15 +14,11 @@ struct Warning {
   std::string message;
   Rank rank = 0;           ///< the first that said it
   std::int64_t times = 1;  ///< said by all ranks together
-
-  static constexpr auto fields() { return std::tuple(&Warning::message, &Warning::rank, &Warning::times); }
 };
 
 struct Warnings {
   std::vector<Warning> kept;  ///< by rank, then in the order in which they were said
   std::int64_t left_out = 0;  ///< times that others were said, for which there was no room
-
-  static constexpr auto fields() { return std::tuple(&Warnings::kept, &Warnings::left_out); }
 };
 
 /// Keeps a warning until they are gathered. Of a rank at most 100 texts of 4000 bytes are kept, in 64 KiB

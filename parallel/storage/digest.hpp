@@ -10,14 +10,11 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <tuple>
 
 namespace aeroloom::parallel {
 
 struct Digest {
   std::uint64_t low = 0, high = 0;
-
-  static constexpr auto fields() { return std::tuple(&Digest::low, &Digest::high); }
   /// 32 hexadecimal digits.
   std::string text() const;
   friend auto operator<=>(const Digest&, const Digest&) = default;

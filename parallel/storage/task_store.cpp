@@ -51,8 +51,6 @@ struct TaskStore::RecordHeader {
 
 struct TaskStore::FileName {
   std::int32_t generation = 0, rank = 0;
-
-  static constexpr auto fields() { return std::tuple(&FileName::generation, &FileName::rank); }
 };
 
 TaskStore::TaskStore(Communicator communicator, std::string folder, std::string name, const Digest& context,

@@ -15,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::parallel {
@@ -50,11 +49,6 @@ private:
     Digest key, content;
     std::int64_t offset = 0, bytes = 0;
     std::int32_t generation = 0, rank = 0;
-
-    static constexpr auto fields() {
-      return std::tuple(&StoredTask::key, &StoredTask::content, &StoredTask::offset, &StoredTask::bytes,
-                        &StoredTask::generation, &StoredTask::rank);
-    }
   };
   struct RecordHeader;
   struct FileName;

@@ -4,7 +4,6 @@
 #include "sizing/field/size_field.hpp"
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -19,11 +18,6 @@ struct NamedBound {
   double fraction;       ///< of the area of these faces
   double degrees;        ///< largest angle between normals across an element; 180 at most
   double body_fraction;  ///< the bounded area over the area of the body
-
-  static constexpr auto fields() {
-    return std::tuple(&NamedBound::face, &NamedBound::fraction, &NamedBound::degrees,
-                      &NamedBound::body_fraction);
-  }
 };
 
 /// The bounded faces of a model, largest fractions first. Collective.

@@ -39,8 +39,6 @@ struct Answer {
   Outcome outcome = Outcome::done;
   std::string error;
   Bytes result;
-
-  static constexpr auto fields() { return std::tuple(&Answer::outcome, &Answer::error, &Answer::result); }
 };
 
 /// All but the domain.

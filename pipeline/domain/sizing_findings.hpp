@@ -10,7 +10,6 @@
 #include "sizing/field/size_field.hpp"
 
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::domain {
@@ -19,8 +18,6 @@ namespace aeroloom::domain {
 struct JoinedFaces {
   std::vector<std::vector<cad::FaceId>> groups;  ///< argument of cad::join_faces()
   cad::Changes changes;                          ///< one for each face that was joined
-
-  static constexpr auto fields() { return std::tuple(&JoinedFaces::groups, &JoinedFaces::changes); }
 };
 
 /// Equal on every rank. Checkpoints have the fields in this order.
@@ -32,11 +29,6 @@ struct SizingFindings {
       {};                         ///< faces where the smallest size prevents the wanted curvature angle
   TrailingEdgeReport edges = {};  ///< blunt trailing edges, if they were examined
   WallFindings walls = {};        ///< walls close to each other
-
-  static constexpr auto fields() {
-    return std::tuple(&SizingFindings::joined, &SizingFindings::counts, &SizingFindings::features,
-                      &SizingFindings::bounded, &SizingFindings::edges, &SizingFindings::walls);
-  }
 };
 
 }  // namespace aeroloom::domain

@@ -9,7 +9,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -41,13 +40,6 @@ struct JudgedEdge {
   double aspect = 1;            ///< length over width of its elements; of a closed edge: in the trial
   EdgeFate fate = EdgeFate::kept;
   std::string what = {};  ///< one sentence for messages
-
-  static constexpr auto fields() {
-    return std::tuple(&JudgedEdge::face, &JudgedEdge::name, &JudgedEdge::place, &JudgedEdge::length,
-                      &JudgedEdge::narrowest, &JudgedEdge::widest, &JudgedEdge::chord,
-                      &JudgedEdge::width_over_chord, &JudgedEdge::aspect, &JudgedEdge::fate,
-                      &JudgedEdge::what);
-  }
 };
 
 using TrailingEdgeReport = std::vector<JudgedEdge>;

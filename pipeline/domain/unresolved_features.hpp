@@ -5,7 +5,6 @@
 #include "sizing/choice/feature_resolution.hpp"
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -20,11 +19,6 @@ struct UnresolvedStrip {
   double width;            ///< smallest, in the model's unit
   geometry::Vec3 place;    ///< of the smallest width
   double surface_degrees;  ///< smallest angle to expect in a triangle across the region
-
-  static constexpr auto fields() {
-    return std::tuple(&UnresolvedStrip::face, &UnresolvedStrip::width, &UnresolvedStrip::place,
-                      &UnresolvedStrip::surface_degrees);
-  }
 };
 
 /// Features finer than the smallest size and their resolution, if sizes were chosen from the model.
@@ -32,10 +26,6 @@ struct FeatureReport {
   sizing::FeatureResolution resolution;
   double tetrahedra = 0;                ///< predicted total
   std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty if all are resolved
-
-  static constexpr auto fields() {
-    return std::tuple(&FeatureReport::resolution, &FeatureReport::tetrahedra, &FeatureReport::strips);
-  }
   /// Approximate prediction with all narrow regions resolved.
   double wanted_tetrahedra() const;
 };

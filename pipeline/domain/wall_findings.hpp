@@ -6,7 +6,6 @@
 #include "sizing/field/size_field.hpp"
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -21,10 +20,6 @@ struct UnseenWalls {
   std::string face;
   geometry::Vec3 place;  ///< centre of the largest region not searched
   double size;           ///< of that region
-
-  static constexpr auto fields() {
-    return std::tuple(&UnseenWalls::face, &UnseenWalls::place, &UnseenWalls::size);
-  }
 };
 
 /// Two faces that lie on one another, closer than elements can separate.
@@ -33,18 +28,11 @@ struct FacesOnOneAnother {
   double area;           ///< approximate common area
   geometry::Vec3 place;  ///< in the common area
   double apart;          ///< largest distance
-
-  static constexpr auto fields() {
-    return std::tuple(&FacesOnOneAnother::first, &FacesOnOneAnother::second, &FacesOnOneAnother::area,
-                      &FacesOnOneAnother::place, &FacesOnOneAnother::apart);
-  }
 };
 
 struct WallFindings {
   std::vector<UnseenWalls> unseen;
   std::vector<FacesOnOneAnother> coincident;  ///< largest areas first
-
-  static constexpr auto fields() { return std::tuple(&WallFindings::unseen, &WallFindings::coincident); }
 };
 
 /// Converts findings to names. Keeps only coincident faces that the field does not separate. `model`: where

@@ -3,7 +3,6 @@
 
 #include "sizing/choice/sampled_model.hpp"
 
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -14,11 +13,6 @@ struct CoincidentFaces {
   double area;           ///< of the overlap, about
   geometry::Vec3 place;  ///< on the first one
   double apart;          ///< their largest distance there
-
-  static constexpr auto fields() {
-    return std::tuple(&CoincidentFaces::first, &CoincidentFaces::second, &CoincidentFaces::area,
-                      &CoincidentFaces::place, &CoincidentFaces::apart);
-  }
 };
 
 /// Finds pairs of faces of the body that are too near each other over more than a twentieth of the smaller

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -75,8 +74,6 @@ void FieldFactory::require_possible(const SizingOptions& options) {
   struct Count {
     double triangles = 0;
     cad::FaceId face = cad::no_entity;
-
-    static constexpr auto fields() { return std::tuple(&Count::triangles, &Count::face); }
   };
   Count mine, most;
   parallel::agree(_sampled.communicator(), [&] {

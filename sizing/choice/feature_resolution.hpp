@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <tuple>
 
 namespace aeroloom::sizing {
 
@@ -30,13 +29,6 @@ struct FeatureResolution {
   double minimum = 0;         ///< of everything else
   double gap_floor = 0;       ///< the smallest size that gaps may ask for; 0: the minimum
   double gap_ratio = 1;       ///< the factor of `ratio` that is due to gaps
-
-  static constexpr auto fields() {
-    return std::tuple(&FeatureResolution::aspect, &FeatureResolution::floor, &FeatureResolution::ratio,
-                      &FeatureResolution::limited, &FeatureResolution::resolved_ratio,
-                      &FeatureResolution::minimum, &FeatureResolution::gap_floor,
-                      &FeatureResolution::gap_ratio);
-  }
   /// The aspect of elements in a narrow region of that width.
   double aspect_at(double width) const;
 };

@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,10 +32,6 @@ struct BoundedFace {
   cad::FaceId face;
   double fraction;  ///< of its area
   double degrees;   ///< the most that an element turns there
-
-  static constexpr auto fields() {
-    return std::tuple(&BoundedFace::face, &BoundedFace::fraction, &BoundedFace::degrees);
-  }
 };
 
 /// How many fields are to be built. Samples of faces are kept only for several.

@@ -5,7 +5,6 @@
 
 #include <limits>
 #include <map>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -15,10 +14,6 @@ struct UnseenGaps {
   cad::FaceId face;
   geometry::Vec3 place;  ///< middle of the largest part that was not searched
   double size;           ///< of that part; much narrower gaps may have been missed
-
-  static constexpr auto fields() {
-    return std::tuple(&UnseenGaps::face, &UnseenGaps::place, &UnseenGaps::size);
-  }
 };
 
 /// The gaps seen from each face. A face is searched by the rank that samples it.

@@ -48,10 +48,6 @@ std::vector<double> elements_along_narrow_regions(const SampledModel& sampled,
     FaceId face;
     std::int32_t aspect;
     double elements;
-
-    static constexpr auto fields() {
-      return std::tuple(&FaceElements::face, &FaceElements::aspect, &FaceElements::elements);
-    }
   };
   SizingOptions rough = options;
   rough.feature_aspect = aspect_of_segments;

@@ -4,7 +4,6 @@
 #include "sizing/choice/sampled_model.hpp"
 
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -14,10 +13,6 @@ struct NarrowRegion {
   cad::FaceId face;
   double width;
   geometry::Vec3 place;
-
-  static constexpr auto fields() {
-    return std::tuple(&NarrowRegion::face, &NarrowRegion::width, &NarrowRegion::place);
-  }
 };
 
 /// The faces with a place narrower than `width`, one narrow region each, the narrowest first. `minimum` tells

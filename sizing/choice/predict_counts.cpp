@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <tuple>
 
 namespace aeroloom::sizing {
 namespace {
@@ -160,8 +159,6 @@ double count_triangles(const SampledModel& sampled, const SizeField& field) {
   struct FaceCount {
     cad::FaceId face;
     double count;
-
-    static constexpr auto fields() { return std::tuple(&FaceCount::face, &FaceCount::count); }
   };
   std::vector<FaceCount> mine;
   {

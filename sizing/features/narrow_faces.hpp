@@ -5,7 +5,6 @@
 #include "parallel/communication/communicator.hpp"
 #include "parallel/observation/timers.hpp"
 
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -17,11 +16,6 @@ struct NarrowFace {
   double degrees = 0;    ///< the largest turn of the surface across the edges that vanish
   double deviation = 0;  ///< width * sin(turn): how far the mesh may leave the surface there
   geometry::Vec3 place;  ///< on an edge that vanishes
-
-  static constexpr auto fields() {
-    return std::tuple(&NarrowFace::face, &NarrowFace::into, &NarrowFace::width, &NarrowFace::degrees,
-                      &NarrowFace::deviation, &NarrowFace::place);
-  }
 };
 
 /// The largest angle in degrees by which the surface turns across an edge between two faces; 180 if it is not

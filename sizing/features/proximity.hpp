@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -60,11 +59,6 @@ struct ModelFacet {
   Triangle corners;
   Parameters parameters;  ///< of its corners
   double deviation;       ///< its distance from the surface
-
-  static constexpr auto fields() {
-    return std::tuple(&ModelFacet::face, &ModelFacet::corners, &ModelFacet::parameters,
-                      &ModelFacet::deviation);
-  }
 };
 
 /// The facets of all faces, in trees.

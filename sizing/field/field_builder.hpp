@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -50,8 +49,6 @@ private:
   struct PointSize {
     std::uint64_t key;
     double size;
-
-    static constexpr auto fields() { return std::tuple(&PointSize::key, &PointSize::size); }
     friend auto operator<=>(const PointSize&, const PointSize&) = default;
   };
   Cell cell_of(const SizeSource& source) const;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -49,8 +48,6 @@ private:
   struct RemoteCell {
     std::uint64_t cell;
     std::int64_t owner;
-
-    static constexpr auto fields() { return std::tuple(&RemoteCell::cell, &RemoteCell::owner); }
   };
   /// Splits cells around `parent`, itself included. Bit i of `wanted` stands for cell i of the 27.
   void split_around(std::uint64_t parent, int level, std::uint32_t wanted);

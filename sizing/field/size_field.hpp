@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -32,14 +31,6 @@ struct SizingOptions {
   double feature_aspect = 1;
   /// Largest distance of triangles from curved faces; sizes for it may lie below `minimum`. 0: any
   double chordal_deviation = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&SizingOptions::minimum, &SizingOptions::maximum, &SizingOptions::curvature_angle,
-                      &SizingOptions::growth, &SizingOptions::surface_maximum, &SizingOptions::proximity,
-                      &SizingOptions::gap_proximity, &SizingOptions::feature_minimum,
-                      &SizingOptions::narrow_minimum, &SizingOptions::gap_minimum,
-                      &SizingOptions::feature_aspect, &SizingOptions::chordal_deviation);
-  }
   friend bool operator==(const SizingOptions&, const SizingOptions&) = default;
 };
 
@@ -77,8 +68,6 @@ inline double smallest_gap_size(const SizingOptions& options) {
 struct SizeSource {
   geometry::Vec3 point;
   double size;
-
-  static constexpr auto fields() { return std::tuple(&SizeSource::point, &SizeSource::size); }
 };
 
 /// The size field: a graded octree with sizes at the corners of its leaves. Inside a leaf the size is
@@ -159,10 +148,6 @@ SizeField build_size_field(const parallel::Communicator& communicator, const cad
 /// models.
 struct PredictedCounts {
   double triangles = 0, tetrahedra = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&PredictedCounts::triangles, &PredictedCounts::tetrahedra);
-  }
 };
 
 /// The sizes of a field that gives about `target_tetrahedra`, with bounds taken from the model.

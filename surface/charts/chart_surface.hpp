@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -26,11 +25,6 @@ struct ChartSurface {
   /// Boundary edges of the future mesh, as directed pairs of points: chords between consecutive mesh vertices
   /// on the boundary. The surface lies on their left. Empty on a closed surface.
   std::vector<std::array<std::int32_t, 2>> loop_edges;
-
-  static constexpr auto fields() {
-    return std::tuple(&ChartSurface::face, &ChartSurface::points, &ChartSurface::triangles,
-                      &ChartSurface::corner_uv, &ChartSurface::mesh_vertex, &ChartSurface::loop_edges);
-  }
 };
 
 /// Mesh vertices of a piece that are known before its interior is meshed. Vertices on its borders come first;
@@ -39,10 +33,6 @@ struct FaceVertices {
   std::vector<geometry::Vec3> points;
   std::vector<geometry::Vec2> uv;                  ///< one valid parameter pair on the face for each
   std::vector<mesh::SharedVertexKey> vertex_keys;  ///< of the vertices on borders, ascending
-
-  static constexpr auto fields() {
-    return std::tuple(&FaceVertices::points, &FaceVertices::uv, &FaceVertices::vertex_keys);
-  }
   std::int32_t border_count() const { return static_cast<std::int32_t>(vertex_keys.size()); }
   /// The border vertex with this key, which must exist.
   std::int32_t find(mesh::SharedVertexKey vertex_key) const {

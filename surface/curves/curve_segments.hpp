@@ -3,7 +3,6 @@
 
 #include "cad/model/model.hpp"
 
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -20,11 +19,6 @@ struct EdgeMeasure {
   double length;         ///< estimated
   double chord;          ///< distance between its ends
   double turning;        ///< estimated integral of the curvature, radians
-
-  static constexpr auto fields() {
-    return std::tuple(&EdgeMeasure::edge, &EdgeMeasure::metric_length, &EdgeMeasure::length,
-                      &EdgeMeasure::chord, &EdgeMeasure::turning);
-  }
 };
 
 /// Segments per CAD edge; 0 where the edge carries no vertices. The number is the metric length, rounded, but

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 
 namespace aeroloom::surface {
 namespace {
@@ -28,11 +27,6 @@ struct PlacedVertex {
   std::int32_t rank_on_edge;
   double parameter;
   Vec3 point;
-
-  static constexpr auto fields() {
-    return std::tuple(&PlacedVertex::edge, &PlacedVertex::rank_on_edge, &PlacedVertex::parameter,
-                      &PlacedVertex::point);
-  }
 };
 
 /// The part of an edge between its legs, where the field alone spreads vertices.

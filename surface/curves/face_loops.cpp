@@ -16,8 +16,6 @@ struct EdgeRow {
   std::array<mesh::SharedVertexKey, 2> keys;  // as the triangle runs
   std::array<geometry::Vec3, 2> points;
   cad::FaceId face;
-
-  static constexpr auto fields() { return std::tuple(&EdgeRow::keys, &EdgeRow::points, &EdgeRow::face); }
   std::array<mesh::SharedVertexKey, 2> sorted() const {
     return {std::min(keys[0], keys[1]), std::max(keys[0], keys[1])};
   }

@@ -7,7 +7,6 @@
 
 #include <array>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::surface {
@@ -24,11 +23,6 @@ struct SharpCorner {
   /// where the corner is closed instead (cusps.hpp).
   double leg = 0;
   bool closes = false;  ///< its two edges are merged near the vertex (cusps.hpp)
-
-  static constexpr auto fields() {
-    return std::tuple(&SharpCorner::face, &SharpCorner::vertex, &SharpCorner::ends, &SharpCorner::degrees,
-                      &SharpCorner::leg, &SharpCorner::closes);
-  }
 };
 
 /// The face on the other side of both edges of a corner; no_entity where these differ.

@@ -9,7 +9,6 @@
 #include <compare>
 #include <iterator>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -54,8 +53,6 @@ namespace {
 struct Closing {
   std::int32_t cusp;
   std::int32_t pairs;
-
-  static constexpr auto fields() { return std::tuple(&Closing::cusp, &Closing::pairs); }
 };
 
 /// How the triangles after a cusp's first `pairs` pairs know its vertices.
@@ -149,8 +146,6 @@ std::vector<Cusp> agree_on_cusps(const CurveMesh& curves, const mesh::Distribute
 struct CurveTriangle {
   std::array<CurveVertex, 3> vertices;
   cad::FaceId face;
-
-  static constexpr auto fields() { return std::tuple(&CurveTriangle::vertices, &CurveTriangle::face); }
   auto operator<=>(const CurveTriangle&) const = default;
 };
 

@@ -4,8 +4,6 @@
 #include "sizing/field/size_field.hpp"
 #include "surface/charts/chart_surface.hpp"
 
-#include <tuple>
-
 namespace aeroloom::surface {
 
 /// All that a rank needs to mesh a piece, besides the model and the size field.
@@ -15,10 +13,6 @@ struct PieceProblem {
   double load = 1;        ///< predicted triangles
 
   double facets() const { return static_cast<double>(surface.triangles.size()); }
-
-  static constexpr auto fields() {
-    return std::tuple(&PieceProblem::surface, &PieceProblem::vertices, &PieceProblem::load);
-  }
 };
 
 /// Predicted number of triangles of a surface under a field, by Euler's formula from the number of vertices.

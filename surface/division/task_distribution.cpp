@@ -4,7 +4,6 @@
 #include "parallel/observation/timers.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::surface {
@@ -30,10 +29,6 @@ struct TaskDistributor::Row {
   double facets;  // of the chart surface
   double cost;    // of making it, in triangles to mesh
   parallel::Rank at;
-
-  static constexpr auto fields() {
-    return std::tuple(&Row::key, &Row::load, &Row::facets, &Row::cost, &Row::at);
-  }
 };
 
 TaskDistributor::TaskDistributor(const parallel::Communicator& communicator, const cad::Model& model,

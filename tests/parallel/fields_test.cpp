@@ -29,14 +29,12 @@ struct Holed {
   Side side = Side::left;
   double length = 0;
   std::int32_t number = 0;
-  static constexpr auto fields() { return std::tuple(&Holed::side, &Holed::length, &Holed::number); }
   friend bool operator==(const Holed&, const Holed&) = default;
 };
 
 struct Nested {
   std::array<Holed, 2> ends;
   std::int16_t kind = 0;
-  static constexpr auto fields() { return std::tuple(&Nested::ends, &Nested::kind); }
   friend bool operator==(const Nested&, const Nested&) = default;
 };
 
@@ -50,14 +48,58 @@ struct Composite {
   std::map<std::int64_t, std::vector<std::int32_t>> map;
   std::array<std::string, 2> both;
   Side side = Side::left;
-  static constexpr auto fields() {
-    return std::tuple(&Composite::name, &Composite::lengths, &Composite::holed, &Composite::names,
-                      &Composite::nested, &Composite::pair, &Composite::map, &Composite::both,
-                      &Composite::side);
-  }
   friend bool operator==(const Composite&, const Composite&) = default;
 };
 
+/// The members of Holed and of Composite, listed.
+struct ListedHoled {
+  Side side = Side::left;
+  double length = 0;
+  std::int32_t number = 0;
+  static constexpr auto fields() {
+    return std::tuple(&ListedHoled::side, &ListedHoled::length, &ListedHoled::number);
+  }
+};
+struct ListedComposite {
+  std::string name;
+  std::vector<double> lengths;
+  std::vector<ListedHoled> holed;
+  std::vector<std::string> names;
+  std::optional<Nested> nested;
+  std::pair<std::int8_t, std::string> pair;
+  std::map<std::int64_t, std::vector<std::int32_t>> map;
+  std::array<std::string, 2> both;
+  Side side = Side::left;
+  static constexpr auto fields() {
+    using Self = ListedComposite;
+    return std::tuple(&Self::name, &Self::lengths, &Self::holed, &Self::names, &Self::nested, &Self::pair,
+                      &Self::map, &Self::both, &Self::side);
+  }
+};
+
+/// What is counted: members of any kind, alone too.
+struct Optionals {
+  std::optional<double> number;
+  std::optional<std::string> text;
+  std::optional<Holed> holed;
+  std::optional<std::optional<Side>> twice;
+  std::optional<std::vector<Nested>> list;
+};
+struct Alone {
+  std::vector<Optionals> all;
+};
+struct Pointing {
+  double value = 0;
+  const double* place = nullptr;
+};
+struct Empty {};
+
+static_assert(count_members<Holed>() == 3 && count_members<Nested>() == 2 && count_members<Composite>() == 9);
+static_assert(count_members<Optionals>() == 5 && count_members<Alone>() == 1 && count_members<Empty>() == 0);
+static_assert(HasFields<Alone> && !HasFields<Empty> && !HasFields<std::array<int, 2>> && !HasFields<int[2]>);
+static_assert(!HasFields<std::pair<int, int>> && !HasFields<std::optional<int>> && !Flat<Pointing>);
+static_assert(Flat<ListedHoled> && !is_exact<ListedHoled> && wire_size<ListedHoled> == wire_size<Holed>);
+static_assert(least_wire_size<Composite> == least_wire_size<ListedComposite>);
 static_assert(Flat<double> && Flat<Side> && Flat<bool> && Flat<std::array<Exact, 3>>);
 static_assert(Flat<Exact> && is_exact<Exact> && wire_size<Exact> == 24);
 static_assert(Flat<Holed> && !is_exact<Holed> && wire_size<Holed> == 13 && sizeof(Holed) == 24);
@@ -116,6 +158,37 @@ TEST(FieldsLocal, CompositesComeBack) {
   EXPECT_EQ(from_wire<Composite>(to_wire(all)), all);
   EXPECT_EQ(from_wire<Composite>(to_wire(Composite())), Composite());
   EXPECT_EQ(from_wire<std::optional<std::string>>(to_wire(std::optional<std::string>())), std::nullopt);
+}
+
+TEST(FieldsLocal, CountedMembersTravelAsListedOnes) {
+  const Composite all = some_composite();
+  const Bytes bytes = to_wire(all);
+  const auto listed = from_wire<ListedComposite>(bytes);
+  EXPECT_EQ(to_wire(listed), bytes);
+  EXPECT_EQ(std::tie(listed.name, listed.lengths, listed.names, listed.nested, listed.pair, listed.map),
+            std::tie(all.name, all.lengths, all.names, all.nested, all.pair, all.map));
+  EXPECT_EQ(std::tie(listed.both, listed.side), std::tie(all.both, all.side));
+  ASSERT_EQ(listed.holed.size(), all.holed.size());
+  for (std::size_t i = 0; i < all.holed.size(); ++i) {
+    EXPECT_EQ(std::tie(listed.holed[i].side, listed.holed[i].length, listed.holed[i].number),
+              std::tie(all.holed[i].side, all.holed[i].length, all.holed[i].number));
+  }
+}
+
+TEST(FieldsLocal, MembersTravelInTheirOrder) {
+  const Holed holed{Side::right, 0.25, 7};
+  Packer packer;
+  packer.value(holed.side);
+  packer.value(holed.length);
+  packer.value(holed.number);
+  EXPECT_EQ(to_wire(holed), packer.take());
+  const Alone alone{{{1.5, "text", holed, std::optional(Side::left), {}}, {}}};
+  Packer one_by_one;
+  one_by_one.count(2);
+  pack(one_by_one, std::tie(alone.all[0].number, alone.all[0].text, alone.all[0].holed));
+  pack(one_by_one, std::tie(alone.all[0].twice, alone.all[0].list));
+  for (int i = 0; i < 5; ++i) one_by_one.value(false);
+  EXPECT_EQ(to_wire(alone), one_by_one.take());
 }
 
 TEST(FieldsLocal, HandingOverEmptiesTheArrays) {

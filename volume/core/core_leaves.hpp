@@ -70,7 +70,6 @@ private:
   struct Present {
     std::uint64_t slots = 0;                  ///< as bits
     mesh::RegionId region = mesh::no_region;  ///< no_region if they lie in several
-    static constexpr auto fields() { return std::tuple(&Present::slots, &Present::region); }
   };
   std::vector<Present> _present;  // by place, in the constructor alone
 };

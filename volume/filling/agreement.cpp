@@ -20,9 +20,6 @@ struct WireFace {
   std::int32_t index;  ///< in its rank's list, times two, plus its orientation
 
   bool odd() const { return index & 1; }
-  static constexpr auto fields() {
-    return std::tuple(&WireFace::vertices, &WireFace::zone, &WireFace::region, &WireFace::index);
-  }
 };
 
 bool are_partners(const WireFace& a, const WireFace& b) {

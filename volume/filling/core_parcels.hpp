@@ -11,7 +11,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,11 +23,6 @@ struct CoreParcel {
   mesh::RegionId region;
   std::uint8_t shared;
   std::array<std::int64_t, 4> points;
-
-  static constexpr auto fields() {
-    return std::tuple(&CoreParcel::target, &CoreParcel::rank, &CoreParcel::region, &CoreParcel::shared,
-                      &CoreParcel::points);
-  }
 };
 
 /// A point of a tetrahedron that is sent to another rank.
@@ -36,10 +30,6 @@ struct SentPoint {
   parallel::Rank rank;
   std::int64_t number;
   geometry::Vec3 point;
-
-  static constexpr auto fields() {
-    return std::tuple(&SentPoint::rank, &SentPoint::number, &SentPoint::point);
-  }
 };
 
 /// Places and keys of lattice points for the pieces of the core.

@@ -11,7 +11,6 @@
 #include <array>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -288,7 +287,6 @@ private:
     struct ZoneRank {
       ZoneIndex zone;
       parallel::Rank rank;
-      static constexpr auto fields() { return std::tuple(&ZoneRank::zone, &ZoneRank::rank); }
     };
     std::vector<ZoneRank> rows;
     for (const auto& [zone, result] : _results) rows.push_back({zone, _communicator.rank()});

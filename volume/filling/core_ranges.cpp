@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <tuple>
 
 namespace aeroloom::volume {
 
@@ -70,7 +69,6 @@ void CoreRanges::find_ranks() {
   struct RangeRank {
     std::int32_t range;
     parallel::Rank rank;
-    static constexpr auto fields() { return std::tuple(&RangeRank::range, &RangeRank::rank); }
   };
   std::vector<RangeRank> rows;
   for (std::size_t i = 0; i < _core.ghosts().own_count(); ++i) {

@@ -8,7 +8,6 @@
 #include "volume/volume_report.hpp"
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -17,8 +16,6 @@ namespace aeroloom::volume {
 struct ZoneFailure {
   ZoneIndex zone;
   std::string reason;
-
-  static constexpr auto fields() { return std::tuple(&ZoneFailure::zone, &ZoneFailure::reason); }
 };
 
 /// Keeps the triangles of this rank's zones that failed.
@@ -47,10 +44,6 @@ private:
     std::string message;
     std::vector<geometry::Vec3> points;
     std::vector<LocalTriangle> triangles;
-
-    static constexpr auto fields() {
-      return std::tuple(&Item::zone, &Item::has_defect, &Item::message, &Item::points, &Item::triangles);
-    }
   };
   /// The item with the lowest zone; each rank gives one or null. Its zone is no_zone if all are null.
   /// Collective.

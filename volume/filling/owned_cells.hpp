@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -36,12 +35,6 @@ struct ZoneProblem {
   /// counter-clockwise if seen from the core. TetGen does not get them: they are looked up in its mesh.
   std::vector<LocalTriangle> borders;
   std::vector<mesh::RegionId> border_regions;
-
-  static constexpr auto fields() {
-    return std::tuple(&ZoneProblem::points, &ZoneProblem::owners, &ZoneProblem::triangles,
-                      &ZoneProblem::inside, &ZoneProblem::outside, &ZoneProblem::regions,
-                      &ZoneProblem::borders, &ZoneProblem::border_regions);
-  }
   std::size_t surface_points() const { return points.size() - regions.size(); }
 };
 
@@ -49,8 +42,6 @@ struct ZoneProblem {
 struct Crossing {
   std::int32_t cell;
   std::int32_t face;  ///< the face opposite to this vertex of the cell
-
-  static constexpr auto fields() { return std::tuple(&Crossing::cell, &Crossing::face); }
 };
 
 /// The tetrahedra that a zone owns: those with a vertex of the zone and no vertex of a lower zone.
@@ -64,12 +55,6 @@ struct OwnedCells {
   std::vector<Crossing> borders;  ///< faces on the core's border
   /// Border triangles that are not in the mesh. If there are any, `cells` is empty.
   std::vector<std::int32_t> missing_borders;
-
-  static constexpr auto fields() {
-    return std::tuple(&OwnedCells::cells, &OwnedCells::regions, &OwnedCells::crossings,
-                      &OwnedCells::triangles, &OwnedCells::touched, &OwnedCells::borders,
-                      &OwnedCells::missing_borders);
-  }
 };
 
 /// Selects the owned cells. A cell with a lattice vertex off the border lies in the region of this vertex.

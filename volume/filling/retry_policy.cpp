@@ -29,10 +29,6 @@ struct RetryPolicy::LeafOfPlace {
   ZoneIndex zone;  ///< that owns the leaf
   LeafNumber leaf;
   GridBox box;
-
-  static constexpr auto fields() {
-    return std::tuple(&LeafOfPlace::place, &LeafOfPlace::zone, &LeafOfPlace::leaf, &LeafOfPlace::box);
-  }
 };
 
 std::vector<double> RetryPolicy::widths() const {

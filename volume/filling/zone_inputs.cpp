@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -23,11 +22,6 @@ struct PointOfZone {
   Vec3 point;
   mesh::RegionId region;
   ZoneIndex owner;
-
-  static constexpr auto fields() {
-    return std::tuple(&PointOfZone::zone, &PointOfZone::rank, &PointOfZone::number, &PointOfZone::point,
-                      &PointOfZone::region, &PointOfZone::owner);
-  }
   static bool by_number(const PointOfZone& a, const PointOfZone& b) { return a.number < b.number; }
 };
 
@@ -37,11 +31,6 @@ struct TriangleOfZone {
   SurfaceTriangle triangle;
   std::array<LeafNumber, 3> leaves;  ///< of its vertices
   std::array<ZoneIndex, 3> owners;
-
-  static constexpr auto fields() {
-    return std::tuple(&TriangleOfZone::zone, &TriangleOfZone::rank, &TriangleOfZone::triangle,
-                      &TriangleOfZone::leaves, &TriangleOfZone::owners);
-  }
 };
 
 struct BorderOfZone {
@@ -50,11 +39,6 @@ struct BorderOfZone {
   std::array<std::int64_t, 3> points;  ///< of the lattice
   LeafNumber leaf;
   mesh::RegionId region;
-
-  static constexpr auto fields() {
-    return std::tuple(&BorderOfZone::zone, &BorderOfZone::rank, &BorderOfZone::points, &BorderOfZone::leaf,
-                      &BorderOfZone::region);
-  }
 };
 
 /// The parts of zone inputs that one rank sends to others.

@@ -169,7 +169,6 @@ mesh::DistributedMesh assemble_mesh(const mesh::DistributedMesh& surface,
   struct PieceRegion {
     std::int32_t place;  ///< a zone, or a range of the core after them
     RegionId region;
-    static constexpr auto fields() { return std::tuple(&PieceRegion::place, &PieceRegion::region); }
     auto operator<=>(const PieceRegion&) const = default;
   };
   std::vector<PieceRegion> rows;

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -20,18 +19,12 @@ struct ZoneFace {
   ZoneIndex zone;
   mesh::RegionId region;
   std::int32_t odd;  ///< 1 if the vertices turn clockwise seen from outside the cell, else 0
-
-  static constexpr auto fields() {
-    return std::tuple(&ZoneFace::vertices, &ZoneFace::leaves, &ZoneFace::zone, &ZoneFace::region,
-                      &ZoneFace::odd);
-  }
 };
 
 /// A core leaf that becomes shell, because a border triangle beside it is missing in the mesh of a zone.
 struct DemotedLeaf {
   LeafNumber leaf;
   ZoneIndex zone;
-  static constexpr auto fields() { return std::tuple(&DemotedLeaf::leaf, &DemotedLeaf::zone); }
 };
 
 /// Where a piece of a zone meets the core.

@@ -26,17 +26,11 @@ struct Contact {
   BlockNumber set;     ///< of the free block, once known
   std::int64_t order;  ///< of the face, the same on any number of ranks
   Vec3 place;          ///< centre of the face, in the grid
-
-  static constexpr auto fields() {
-    return std::tuple(&Contact::free, &Contact::met, &Contact::set, &Contact::order, &Contact::place);
-  }
 };
 
 /// A set of free blocks of this rank, and a block or set of another rank that touches it.
 struct Joint {
   BlockNumber set, with;
-
-  static constexpr auto fields() { return std::tuple(&Joint::set, &Joint::with); }
   auto operator<=>(const Joint&) const = default;
 };
 
@@ -145,11 +139,6 @@ struct Witness {
   std::int64_t places;
   mesh::GlobalIndex triangle;
   Vec3 place;
-
-  static constexpr auto fields() {
-    return std::tuple(&Witness::set, &Witness::region, &Witness::contact, &Witness::places,
-                      &Witness::triangle, &Witness::place);
-  }
   bool is_as(const Witness& other) const { return set == other.set && region == other.region; }
   friend bool operator<(const Witness& a, const Witness& b) {
     return std::tie(a.set, a.region, a.contact) < std::tie(b.set, b.region, b.contact);
@@ -254,9 +243,6 @@ public:
       BlockNumber set;
       parallel::Rank from;
       RegionId region;
-      static constexpr auto fields() {
-        return std::tuple(&SetQuery::set, &SetQuery::from, &SetQuery::region);
-      }
     };
     geometry::sort_unique(sets);
     std::vector<SetQuery> queries;

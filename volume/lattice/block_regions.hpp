@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -18,11 +17,6 @@ struct Contradiction {
   geometry::Vec3 place;
   mesh::GlobalIndex triangle = 0;  ///< of the surface mesh: the nearest one to the place
   mesh::RegionId seen = mesh::no_region, elsewhere = mesh::no_region;  ///< at the place, at most others
-
-  static constexpr auto fields() {
-    return std::tuple(&Contradiction::set, &Contradiction::place, &Contradiction::triangle,
-                      &Contradiction::seen, &Contradiction::elsewhere);
-  }
 };
 
 struct BlockRegions {

@@ -3,7 +3,6 @@
 #include "parallel/communication/host.hpp"
 
 #include <array>
-#include <tuple>
 
 #include <p8est_extended.h>
 #include <p8est_io.h>
@@ -134,7 +133,6 @@ Forest Brick::take() const {
   struct TreeStart {
     std::int64_t count;
     std::uint64_t key;
-    static constexpr auto fields() { return std::tuple(&TreeStart::count, &TreeStart::key); }
   };
   constexpr std::uint64_t end = 1ULL << 3 * finest_level;
   const std::vector<TreeStart> mine{

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,7 +21,6 @@ std::vector<GhostBlock> fetch_blocks(const Lattice& lattice, BlockQueries& queri
   struct Parcel {
     GhostBlock block;
     parallel::Rank to;
-    static constexpr auto fields() { return std::tuple(&Parcel::block, &Parcel::to); }
   };
   std::vector<Parcel> parcels;
   queries.exchange([&](std::span<const BlockQuery> of_rank) {

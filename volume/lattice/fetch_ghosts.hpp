@@ -6,7 +6,6 @@
 #include "volume/lattice/lattice.hpp"
 
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,11 +17,6 @@ struct BlockQuery {
   double least = 0, most = 0;  ///< radii, see BlockSearchRadii
   std::int32_t level = 0;      ///< of the block that the query is for
   parallel::Rank to = 0, from = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&BlockQuery::box, &BlockQuery::least, &BlockQuery::most, &BlockQuery::level,
-                      &BlockQuery::to, &BlockQuery::from);
-  }
 };
 
 /// Collects the queries of a rank, and exchanges them.
@@ -54,8 +48,6 @@ private:
 struct GhostBlock {
   PackedBlock block;
   float longest_edge;  ///< see SurfaceTable
-
-  static constexpr auto fields() { return std::tuple(&GhostBlock::block, &GhostBlock::longest_edge); }
 };
 
 /// All blocks that touch blocks of this rank or contain corners of its triangles. Collective.

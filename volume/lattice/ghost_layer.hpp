@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -36,7 +35,6 @@ public:
     struct Parcel {
       T value;
       Wanted wanted;
-      static constexpr auto fields() { return std::tuple(&Parcel::value, &Parcel::wanted); }
     };
     std::vector<Parcel> parcels;
     parcels.reserve(_wanted.size());
@@ -52,7 +50,6 @@ private:
     BlockNumber block;  ///< its number; at its owner, its place there
     std::int32_t place;
     parallel::Rank rank;
-    static constexpr auto fields() { return std::tuple(&Wanted::block, &Wanted::place, &Wanted::rank); }
   };
 
   parallel::Communicator _communicator;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <numbers>
-#include <tuple>
 
 namespace aeroloom::volume {
 
@@ -25,7 +24,6 @@ struct GridBox {
     const geometry::Vec3 low{double(cell.low.x), double(cell.low.y), double(cell.low.z)};
     return {low, low + geometry::Vec3{edge, edge, edge}};
   }
-  static constexpr auto fields() { return std::tuple(&GridBox::low, &GridBox::high); }
   GridBox dilated(double by) const {
     return {low - geometry::Vec3{by, by, by}, high + geometry::Vec3{by, by, by}};
   }

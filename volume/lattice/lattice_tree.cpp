@@ -77,7 +77,6 @@ std::vector<std::int32_t> weigh(const forest::Forest& forest,
                                 const std::vector<std::uint64_t>& triangle_keys) {
   struct Key {
     std::uint64_t key;
-    static constexpr auto fields() { return std::tuple(&Key::key); }
   };
   std::vector<Key> keys;
   keys.reserve(triangle_keys.size());
@@ -108,7 +107,6 @@ LatticeTree::LatticeTree(const parallel::Communicator& communicator, const Latti
   struct BlockStart {
     BlockNumber count;
     std::uint64_t key;
-    static constexpr auto fields() { return std::tuple(&BlockStart::count, &BlockStart::key); }
   };
   const std::array row{
       BlockStart{static_cast<BlockNumber>(mine.size()), mine.empty() ? end : key_of(mine.front().word)}};

@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <numbers>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,7 +35,6 @@ struct PackedBlock {
   std::uint64_t word;  ///< Morton key, level, and whether it has eight leaves
 
   GridCube cube() const;
-  static constexpr auto fields() { return std::tuple(&PackedBlock::number, &PackedBlock::word); }
 };
 
 /// A balanced octree whose leaves are as fine as the size field requires. A *block* is a cube whose eight

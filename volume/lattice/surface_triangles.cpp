@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 namespace aeroloom::volume {
@@ -62,8 +61,6 @@ SurfaceTriangle describe(const Piece& piece, mesh::LocalIndex t, std::span<const
 struct Parcel {
   SurfaceTriangle triangle;
   parallel::Rank rank;
-
-  static constexpr auto fields() { return std::tuple(&Parcel::triangle, &Parcel::rank); }
 };
 
 /// Sends triangles. Returns those that arrive and those of `here`, by number, each once. Collective.

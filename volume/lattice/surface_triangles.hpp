@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -23,12 +22,6 @@ struct SurfaceTriangle {
   std::int32_t face, patch;
   /// The regions on either side: the normal points from `inside` to `outside`.
   mesh::RegionId inside, outside;
-
-  static constexpr auto fields() {
-    return std::tuple(&SurfaceTriangle::number, &SurfaceTriangle::vertices, &SurfaceTriangle::points,
-                      &SurfaceTriangle::entity, &SurfaceTriangle::dimension, &SurfaceTriangle::face,
-                      &SurfaceTriangle::patch, &SurfaceTriangle::inside, &SurfaceTriangle::outside);
-  }
 };
 
 /// The bounding box of a triangle in the grid, enlarged by more than rounding.

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::volume {
@@ -42,11 +41,6 @@ struct CoarseCell {
   std::int32_t is_block;
   Load load;
   Load edges;  ///< sum of load times block edge, in finest cells
-
-  static constexpr auto fields() {
-    return std::tuple(&CoarseCell::key, &CoarseCell::level, &CoarseCell::is_block, &CoarseCell::load,
-                      &CoarseCell::edges);
-  }
 };
 
 /// The largest cubes with a load of at most `most`, and blocks with more, in Morton order. Cubes without load

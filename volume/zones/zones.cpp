@@ -75,7 +75,6 @@ std::vector<std::int64_t> Zones::sum(std::vector<std::int64_t> mine) const {
   struct ZoneValue {
     ZoneIndex zone;
     std::int64_t value;
-    static constexpr auto fields() { return std::tuple(&ZoneValue::zone, &ZoneValue::value); }
   };
   std::vector<ZoneValue> rows;
   for (std::size_t z = 0; z < mine.size(); ++z) {

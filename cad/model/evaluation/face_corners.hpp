@@ -5,7 +5,6 @@
 
 #include <array>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -21,8 +20,6 @@ struct FaceCorner {
 struct EdgeEnd {
   EdgeId edge = no_entity;
   bool first = true;  ///< at the edge's first parameter
-
-  static constexpr auto fields() { return std::tuple(&EdgeEnd::edge, &EdgeEnd::first); }
 };
 inline EdgeEnd end_at_corner(const Coedge& use, bool leaving) {
   return {use.edge, leaving != use.reversed};

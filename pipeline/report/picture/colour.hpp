@@ -6,15 +6,12 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <tuple>
 
 namespace aeroloom::picture {
 
 /// An sRGB colour.
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
-
-  static constexpr auto fields() { return std::tuple(&Colour::red, &Colour::green, &Colour::blue); }
   friend bool operator==(Colour, Colour) = default;
 };
 

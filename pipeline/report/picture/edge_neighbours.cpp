@@ -24,11 +24,6 @@ struct TriangleSide {
   std::int32_t face, patch;
   std::int32_t place;  // of the piece on its rank
   std::int32_t shown;
-
-  static constexpr auto fields() {
-    return std::tuple(&TriangleSide::ends, &TriangleSide::piece, &TriangleSide::item, &TriangleSide::normal,
-                      &TriangleSide::face, &TriangleSide::patch, &TriangleSide::place, &TriangleSide::shown);
-  }
 };
 
 /// The order of the sides of one edge.
@@ -40,8 +35,6 @@ std::tuple<mesh::PieceId, std::int32_t> place_of(const TriangleSide& side) {
 struct Answer {
   std::int32_t place, item;
   EdgeNeighbour neighbour;
-
-  static constexpr auto fields() { return std::tuple(&Answer::place, &Answer::item, &Answer::neighbour); }
 };
 
 std::vector<TriangleSide> sides_of(const mesh::NumberedMesh& surface, const Shown& shown, std::size_t place) {

@@ -6,7 +6,6 @@
 #include "pipeline/report/picture/scene.hpp"
 
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 namespace aeroloom::picture {
@@ -20,10 +19,6 @@ struct EdgeNeighbour {
   bool shown = false;    ///< whether the scene shows it
 
   bool is_open() const { return face < 0; }
-  static constexpr auto fields() {
-    return std::tuple(&EdgeNeighbour::normal, &EdgeNeighbour::face, &EdgeNeighbour::patch,
-                      &EdgeNeighbour::several, &EdgeNeighbour::shown);
-  }
 };
 
 /// By local piece: three for each triangle, across the edge from corner i to corner i + 1.

@@ -16,11 +16,6 @@ struct LineItem {
   std::array<mesh::GlobalIndex, 3> vertices;  ///< ascending; the last of an edge is repeated
   geometry::Vec3 point, normal, along;        ///< as in Place
   double length = 0, size = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&LineItem::vertices, &LineItem::point, &LineItem::normal, &LineItem::along,
-                      &LineItem::length, &LineItem::size);
-  }
 };
 
 /// Orders by vertices, then by the values that differ between the two items of a sharp edge.

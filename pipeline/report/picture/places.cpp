@@ -179,8 +179,6 @@ std::optional<Place> shared(const Communicator& communicator, const std::optiona
 struct Sharpest {
   double angle = 0;
   LineItem item{};
-
-  static constexpr auto fields() { return std::tuple(&Sharpest::angle, &Sharpest::item); }
 };
 bool is_sharper(const Sharpest& a, const Sharpest& b) {
   return a.angle != b.angle ? a.angle > b.angle : precedes(a.item, b.item);

@@ -5,7 +5,6 @@
 #include "pipeline/report/picture/scene.hpp"
 
 #include <optional>
-#include <tuple>
 
 namespace aeroloom::picture {
 
@@ -16,10 +15,6 @@ struct Place {
   geometry::Vec3 along;   ///< unit, along the line, normal to `normal`
   double size = 0;        ///< mean edge length nearby
   bool upstream = false;  ///< the line faces the flow; else it is the sharpest edge found
-
-  static constexpr auto fields() {
-    return std::tuple(&Place::point, &Place::normal, &Place::along, &Place::size, &Place::upstream);
-  }
 };
 
 /// The middle of the longest leading edge; the flow comes along x. A triangle lies on a leading edge under

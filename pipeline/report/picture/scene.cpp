@@ -36,10 +36,6 @@ struct Farthest {
   double value = 0;
   Vec3 point;
   std::int64_t direction = 0;
-
-  static constexpr auto fields() {
-    return std::tuple(&Farthest::value, &Farthest::point, &Farthest::direction);
-  }
 };
 bool is_farther(const Farthest& a, const Farthest& b) {
   return std::tie(a.value, a.point.x, a.point.y, a.point.z) >
@@ -101,11 +97,6 @@ struct PieceSums {
   double area = 0, volume = 0, whole_volume = 0;
   Vec3 area_vector;
   Box box;
-
-  static constexpr auto fields() {
-    return std::tuple(&PieceSums::patch, &PieceSums::marked, &PieceSums::unmarked, &PieceSums::area,
-                      &PieceSums::volume, &PieceSums::whole_volume, &PieceSums::area_vector, &PieceSums::box);
-  }
 };
 
 /// By piece, of the whole mesh; volumes are those of the cones from `origin`.
