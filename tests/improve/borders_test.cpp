@@ -123,7 +123,9 @@ TEST(PerturbationLocal, MovesVerticesInsideALittleAndInvertsNothing) {
         piece.vertex_dimension[v] == mesh::CadDimension::region && v != piece.vertex_count() - 1;
     inside += free;
     moved += piece.point(v) != before.point(v);
-    if (!free) EXPECT_EQ(piece.point(v), before.point(v));
+    if (!free) {
+      EXPECT_EQ(piece.point(v), before.point(v));
+    }
     EXPECT_LT(distance(piece.point(v), before.point(v)), 0.3 * 0.2 * std::sqrt(3.0) * std::sqrt(3.0));
   }
   EXPECT_GT(moved, inside / 4);

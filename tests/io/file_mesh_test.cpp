@@ -84,14 +84,13 @@ TEST(FileMesh, BrokenMeshesAreRefusedEverywhere) {
 
 TEST(FileMesh, FacesComeByPatchWhateverTheirOrder) {
   const Communicator world = Communicator::world();
-  mesh::DistributedMesh pieces = mesh::examples::mixed_mesh(world, 3, 2);
+  mesh::NumberedMesh pieces = mesh::number_mesh(mesh::examples::mixed_mesh(world, 3, 2));
   for (mesh::Piece& piece : pieces.pieces) {  // the first one goes last
     std::rotate(piece.quads.begin(), piece.quads.begin() + 4, piece.quads.end());
     std::rotate(piece.quad_face.begin(), piece.quad_face.begin() + 1, piece.quad_face.end());
     std::rotate(piece.quad_patch.begin(), piece.quad_patch.begin() + 1, piece.quad_patch.end());
   }
-  const mesh::NumberedMesh numbered = mesh::number_mesh(pieces);
-  const FileMesh mesh = file_mesh_of(numbered);
+  const FileMesh mesh = file_mesh_of(pieces);
   const FileMesh plain = examples::mixed_mesh(world, 3, 2);
   EXPECT_EQ(mesh.patch_faces, plain.patch_faces);
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
