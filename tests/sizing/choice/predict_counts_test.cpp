@@ -1,6 +1,7 @@
+#include "sizing/choice/predict_counts.hpp"
+
 #include "parallel/communication/collective_error.hpp"
 #include "sizing/choice/choose_sizes.hpp"
-#include "sizing/choice/predict_counts.hpp"
 #include "sizing/field/facet_integral.hpp"
 #include "sizing/field/size_field.hpp"
 #include "tests/cad/primitives.hpp"
