@@ -1,5 +1,5 @@
-/// The one tree of boxes: spatially compact leaves, and the boxes that overlap another, are crossed by a ray,
-/// or are near a point.
+/// A tree of bounding boxes: finds boxes that overlap another box, cross a ray, or are near a point. Its
+/// leaves are compact groups of boxes.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -10,29 +10,29 @@
 
 namespace aeroloom::geometry {
 
-/// Split at the median of the boxes' centres along the longest axis of these, down to leaves of `leaf_size`
-/// boxes at most. A function of the boxes and their order alone. Immutable; queries do not allocate.
+/// Nodes are split at the median of the box centres, along the longest axis of the centres, down to at most
+/// `leaf_size` boxes. The tree depends only on the boxes and their order. Immutable; queries do not allocate.
 class BoxTree {
 public:
   struct Node {
     Box box;
-    std::int32_t begin, end;  ///< of order()
-    std::int32_t right = 0;   ///< child; the left one follows its parent; 0 in a leaf
+    std::int32_t begin, end;  ///< places in order()
+    std::int32_t right = 0;   ///< child, 0 in a leaf; the left child follows its parent
     bool is_leaf() const { return right == 0; }
   };
 
   BoxTree() = default;
   BoxTree(std::span<const Box> boxes, int leaf_size);
 
-  /// The root first; empty without boxes. For searches that choose their own way.
+  /// The root first; empty without boxes. For searches other than those below.
   std::span<const Node> nodes() const { return _nodes; }
   /// Indices of the boxes, leaf by leaf, ascending within a leaf.
   std::span<const std::int32_t> order() const { return _order; }
   /// The indices of each leaf's boxes, ascending within a leaf.
   std::vector<std::span<const std::int32_t>> leaves() const;
 
-  /// Calls `visit(place)` for the places in order() of all leaves that are reached through nodes with
-  /// `enters(box)`, ascending.
+  /// Calls `visit(place)` for places in order(), ascending: those of leaves whose box, and the boxes of all
+  /// nodes above, fulfil `enters(box)`.
   template <class Enters, class Visit>
   void search(const Enters& enters, const Visit& visit) const {
     std::int32_t stack[most_levels];
@@ -51,8 +51,8 @@ public:
     }
   }
 
-  /// Calls `visit(place)` for the places of leaves reached through nodes with away(box) below `bound`, which
-  /// visit may lower; the nearer child first.
+  /// Calls `visit(place)` for the places of leaves whose `away(box)` is below `bound`, the nearer child
+  /// first. `visit` may lower `bound`.
   template <class Away, class Visit>
   void search_nearest(const Away& away, const double& bound, const Visit& visit) const {
     struct Waiting {
@@ -88,8 +88,8 @@ private:
   std::vector<Node> _nodes;
 };
 
-/// Calls `visit(index)` for every one of the boxes that overlaps `box`, in the tree's order; the tree is that
-/// of the boxes.
+/// Calls `visit(index)` for every box that overlaps `box`, in the tree's order. `tree` is the tree of
+/// `boxes`.
 template <class Visit>
 void for_each_overlap(const BoxTree& tree, std::span<const Box> boxes, const Box& box, const Visit& visit) {
   tree.search([&](const Box& node) { return node.overlaps(box); },

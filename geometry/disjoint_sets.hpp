@@ -10,7 +10,7 @@
 
 namespace aeroloom::geometry {
 
-/// The lowest number of a set stands for it, so nothing depends on the order of unions.
+/// The lowest number of a set represents it, so results do not depend on the order of unions.
 template <std::signed_integral Index>
 class DisjointSets {
 public:
@@ -20,7 +20,7 @@ public:
   }
 
   std::size_t size() const { return _parent.size(); }
-  /// The lowest number of the set that i is in. Shortens the way for the next time.
+  /// The lowest number of the set of i. Shortens the path for later calls.
   Index root(Index i) {
     while (_parent[i] != i) i = _parent[i] = _parent[_parent[i]];
     return i;

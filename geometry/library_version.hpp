@@ -1,11 +1,11 @@
-/// The library of exact predicates, for those who may not see it.
+/// The version of the library of exact predicates, for the report.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::geometry {
 
-/// Of CGAL, as it was compiled against.
+/// The version of CGAL at compile time.
 std::string cgal_version();
 
 }  // namespace aeroloom::geometry

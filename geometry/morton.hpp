@@ -1,12 +1,12 @@
-/// Morton keys: grid coordinates interleaved so that sorting by key walks a space-filling curve.
+/// Morton keys: interleaved bits of grid coordinates. Sorting by key follows a space-filling curve.
 #pragma once
 
 #include <cstdint>
 
 namespace aeroloom::geometry {
 
-/// The finest level of an octree. A root cube of 1e6 has leaves of edge 1 there, and corners of leaves (2^20
-/// included) still fit a 64-bit key.
+/// The finest level of an octree. A root cube of edge 1e6 has leaves of edge 1 on it. Corners of leaves, up
+/// to 2^20, fit a 64-bit key.
 inline constexpr int finest_level = 20;
 inline constexpr std::uint32_t grid_size = 1U << finest_level;  ///< finest cells per axis
 
@@ -27,7 +27,7 @@ inline std::uint64_t spread_bits(std::uint64_t v) {
   return (v | v << 2) & 0x1249249249249249ULL;
 }
 
-/// Undoes spread_bits.
+/// The inverse of spread_bits().
 inline std::uint32_t gather_bits(std::uint64_t v) {
   v &= 0x1249249249249249ULL;
   v = (v | v >> 2) & 0x10c30c30c30c30c3ULL;

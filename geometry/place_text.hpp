@@ -1,4 +1,4 @@
-/// Points in texts.
+/// Points in messages.
 #pragma once
 
 #include "geometry/vec.hpp"

@@ -1,4 +1,4 @@
-/// Triangles of a plane map, hashed into a uniform grid.
+/// A uniform grid over triangles of the plane, to find the triangle at a point.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -10,8 +10,8 @@
 
 namespace aeroloom::geometry {
 
-/// For each cell of a grid about as fine as the triangles, those that meet it. Triangles that are folded (not
-/// counter-clockwise) are left out.
+/// Lists for each cell the triangles that meet it. Cells are about as large as the triangles. Triangles that
+/// are not counter-clockwise are left out.
 class PlaneGrid {
 public:
   PlaneGrid(const std::vector<Vec2>& points, const std::vector<std::array<std::int32_t, 3>>& triangles);
@@ -19,7 +19,7 @@ public:
   std::int32_t columns() const { return _columns; }
   std::int32_t rows() const { return _rows; }
   double cell_size() const { return _cell; }
-  /// Column and row of the cell that holds the point; the nearest one for points outside the grid.
+  /// Column and row of the cell at the point; the nearest cell for points outside the grid.
   std::array<std::int32_t, 2> cell_of(Vec2 point) const;
   std::span<const std::int32_t> triangles_in(std::int32_t column, std::int32_t row) const;
 

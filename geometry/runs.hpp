@@ -6,8 +6,8 @@
 
 namespace aeroloom::geometry {
 
-/// Calls visit(first, last) for every longest run of items that `same(front of the run, item)` holds for, in
-/// their order; [first, last) are indices.
+/// Calls visit(first, last) for each maximal run of items with `same(first item of the run, item)`, in their
+/// order. [first, last) are indices.
 template <class Item, class Same, class Visit>
 void for_each_run(std::span<const Item> items, const Same& same, const Visit& visit) {
   for (std::size_t first = 0; first < items.size();) {

@@ -1,4 +1,4 @@
-/// Sorting by keys of 64 bits.
+/// Radix sort by 64-bit keys.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace aeroloom::geometry {
 
-/// Sorts by `key`, a number of 64 bits; items with equal keys stay in their order. In linear time.
+/// Sorts by `key(item)`, a 64-bit number, in linear time. Items of equal keys keep their order.
 template <class Item, class Key>
 void sort_by_key(std::vector<Item>& items, const Key& key) {
   constexpr std::size_t few = 512;

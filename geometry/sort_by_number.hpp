@@ -1,4 +1,4 @@
-/// Sorting by small numbers.
+/// Counting sort by small numbers.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace aeroloom::geometry {
 
-/// Sorts by `number`, an index from 0 on, then by `less`: as std::sort by both, in linear time where few
-/// items share a number and numbers are hardly more than items.
+/// Sorts by `number(item)`, an index from 0 on, then by `less`. Takes linear time if few items share a number
+/// and the largest number is not much above the number of items.
 template <class Item, class Number, class Less>
 void sort_by_number(std::vector<Item>& items, const Number& number, const Less& less) {
   constexpr std::size_t most_numbers_per_item = 8;

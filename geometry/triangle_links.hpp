@@ -1,4 +1,4 @@
-/// Triangles with links to their neighbours: the connectivity both the front and the remeshing work on.
+/// Triangles with links to their neighbours, for the advancing front and for remeshing.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ constexpr int previous_corner(int corner) {
   return corner == 0 ? 2 : corner - 1;
 }
 
-/// A triangle, counter-clockwise. What belongs to an edge is found under the corner opposite to it.
+/// A triangle, counter-clockwise. Data of an edge have the index of the opposite corner.
 struct LinkedTriangle {
   std::array<std::int32_t, 3> vertices{};
   std::array<LinkedEdge, 3> links{no_linked_edge, no_linked_edge,
@@ -36,7 +36,7 @@ struct LinkedTriangle {
   std::int32_t mark = 0;    ///< the user's
 };
 
-/// Linked triangles with one triangle known for each vertex.
+/// Linked triangles, and one triangle of each vertex.
 class TriangleLinks {
 public:
   std::vector<LinkedTriangle> triangles;
@@ -74,17 +74,17 @@ public:
   /// The half edge from `a` to `b`, its triangle on the left; no_linked_edge when there is none. Looks around
   /// `a`.
   LinkedEdge find(std::int32_t a, std::int32_t b) const;
-  /// Replaces the edge by the other diagonal of its two triangles, and returns the new diagonal: from the
-  /// apex across the edge to the edge's own apex. Flags of the four outer edges and the users' bits of both
-  /// triangles are kept.
+  /// Replaces the edge by the other diagonal of its two triangles. Returns the new diagonal, from the apex of
+  /// the twin to the apex of the edge. Keeps the flags of the four outer edges and the users' bits of both
+  /// triangles.
   LinkedEdge flip(LinkedEdge edge);
-  /// Puts a new vertex, numbered after the last one, on an edge with two triangles, which become four. The
-  /// new ones are the last two triangles. Returns the vertex.
+  /// Inserts a new vertex, numbered after the last one, on an edge with two triangles, which become four. The
+  /// last two triangles are the new ones. Returns the vertex.
   std::int32_t divide(LinkedEdge edge);
-  /// Contracts an edge with two triangles: its origin, which must have a closed fan, vanishes into its
-  /// target. The two triangles stay in the list with vertices of -1.
+  /// Contracts an edge with two triangles: its target replaces its origin, which must have a closed fan. The
+  /// two triangles stay in the list with vertices of -1.
   void contract(LinkedEdge edge);
-  /// The triangles around a vertex in counter-clockwise order, from border to border where the fan is open.
+  /// The triangles around a vertex in counter-clockwise order, from border to border if the fan is open.
   /// Returns whether it is closed.
   bool gather_fan(std::int32_t vertex, std::vector<std::int32_t>& fan) const;
 

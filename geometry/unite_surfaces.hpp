@@ -1,7 +1,7 @@
 /// The union of closed surfaces of triangles.
 ///
-/// Intersections are found with exact predicates and constructed exactly (CGAL's corefinement); only the last
-/// union is rounded, so that triangles of the result may cross by as little as that.
+/// Intersections are exact (CGAL's corefinement). Only the last union is rounded, so triangles of the result
+/// may cross by rounding errors.
 #pragma once
 
 #include "geometry/half_edges.hpp"
@@ -14,8 +14,8 @@
 
 namespace aeroloom::geometry {
 
-/// Triangles that meet in common points and sides only, two to a side; normals point out of what they
-/// enclose.
+/// Triangles that meet only in common points and sides, two at each side. Normals point out of the enclosed
+/// volume.
 struct ClosedSurface {
   std::vector<Vec3> points;
   std::vector<TriangleCorners> triangles;
@@ -29,24 +29,24 @@ struct TriangleSource {
 
 struct UnitedSurface {
   ClosedSurface surface;                ///< points by coordinates, triangles by source
-  std::vector<TriangleSource> sources;  ///< per triangle, that which it lies in
+  std::vector<TriangleSource> sources;  ///< per triangle, the one that contains it
 };
 
-/// A union that is none. The message says why; no place, no remedy.
+/// Surfaces that cannot be united. The message has the reason, but no place and no remedy.
 class UnionError : public std::runtime_error {
 public:
   UnionError(std::size_t surface, const std::string& why) : std::runtime_error(why), _surface(surface) {}
-  /// That which could not be united with those before it.
+  /// The surface that could not be united with those before it.
   std::size_t surface() const { return _surface; }
 
 private:
   std::size_t _surface;
 };
 
-/// Unites one or more surfaces, one after the other. Of each step the volumes must add up: that of both parts
-/// less what they share is that of the union, to `volume_tolerance` of the parts. Throws UnionError where a
-/// union does not bound a volume, as of surfaces that touch at a point or along a line, or where volumes do
-/// not add up. The result is a function of the surfaces and their order.
+/// Unites one or more surfaces, one after the other. After each step the volume of the union must be that of
+/// both parts minus their intersection, to `volume_tolerance` of the parts. Throws UnionError if volumes do
+/// not add up, or if a union does not bound a volume, as when surfaces touch at a point or along a line. The
+/// result depends only on the surfaces and their order.
 UnitedSurface unite_surfaces(const std::vector<ClosedSurface>& surfaces, double volume_tolerance);
 
 }  // namespace aeroloom::geometry

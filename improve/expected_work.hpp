@@ -9,8 +9,8 @@
 
 namespace aeroloom::improve {
 
-/// Looks for a piece that needs no work: off the boundary, and no tetrahedron worse than in the lattice,
-/// which meets the target. Returns its state, or nothing for other pieces. The scan stops at the first worse
+/// Tests whether a piece needs no work: off the boundary, and no tetrahedron worse than in the lattice, which
+/// meets the target. Returns its state, or nothing for other pieces. The scan stops at the first worse
 /// tetrahedron.
 std::optional<BadState> look_at_lattice(const mesh::Piece& piece, const ImproveOptions& options);
 

@@ -10,7 +10,7 @@ namespace aeroloom::improve {
 /// The record of this rank for one target quality.
 class StageRecord {
 public:
-  /// Starts a round of the stage clock.
+  /// Begins a round of the timing record.
   StageRecord();
 
   /// Records the improvement of a piece of `cells` tetrahedra, which began at `begin` (CPU seconds of this

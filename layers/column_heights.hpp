@@ -54,7 +54,7 @@ Compressed compress(const Heights& heights, std::int32_t count, double limit);
 /// vertex.
 double ample_gap(double total, double mean_edge);
 /// The total height allowed in a gap between two walls: at most 0.4 gap, and at most (gap - mean_edge) / 2,
-/// which leaves room for a tetrahedron. Up to 0.4 gap, all layers at first height (`all_first`) are allowed.
+/// which leaves room for a tetrahedron. Layers that total `all_first` at first height may fill 0.4 gap.
 double room_in_gap(double gap, double mean_edge, double all_first);
 
 }  // namespace aeroloom::layers

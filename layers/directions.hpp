@@ -17,9 +17,9 @@ struct Directions {
   std::vector<double> slants;
 };
 
-/// Computes the most normal directions and smooths them. A smoothed direction sees every triangle nearly as
-/// well. There is no direction if the most normal one makes less than 1.15 degrees with a triangle, or if
-/// layers are not allowed. On planes that layers end on, directions lie in the plane. Collective.
+/// Computes the most normal directions and smooths them. Smoothing keeps at least 0.9 of the visibility.
+/// There is no direction if the most normal one makes less than 1.15 degrees with a triangle, or if layers
+/// are not allowed. On planes that layers end on, directions lie in the plane. Collective.
 Directions find_directions(const LocalWall& wall, const VertexStars& stars);
 
 }  // namespace aeroloom::layers

@@ -52,16 +52,16 @@ std::vector<LateralEdge> find_lateral_edges(const mesh::NumberedMesh& wall, cons
   const mesh::Rendezvous meeting(wall.communicator, edges_of_faces(wall, columns), &WallEdge::ends,
                                  &WallEdge::place);
   std::vector<LateralEdge> found =
-      meeting.answer<LateralEdge>([](std::span<const mesh::Guest<WallEdge>> group, const auto& reply) {
-        const auto other =
-            std::find_if(group.begin(), group.end(), [](const auto& guest) { return guest.item.bears == 0; });
+      meeting.answer<LateralEdge>([](std::span<const mesh::Received<WallEdge>> group, const auto& reply) {
+        const auto other = std::find_if(group.begin(), group.end(),
+                                        [](const auto& received) { return received.item.bears == 0; });
         if (other == group.end()) return;
-        for (const mesh::Guest<WallEdge>& guest : group) {
-          if (guest.item.bears == 0) continue;
-          LateralEdge edge = guest.item.here;
+        for (const mesh::Received<WallEdge>& received : group) {
+          if (received.item.bears == 0) continue;
+          LateralEdge edge = received.item.here;
           edge.face = other->item.here.face;
           edge.patch = other->item.here.patch;
-          reply(guest, edge);
+          reply(received, edge);
         }
       });
   std::sort(found.begin(), found.end(), [](const LateralEdge& a, const LateralEdge& b) {

@@ -22,8 +22,8 @@ public:
 
   /// Repeats until no triangles of the cap intersect, no part is enclosed, and all planes can be meshed
   /// again. In each round the counts of the columns concerned fall by a third. After ten rounds they fall to
-  /// zero. Then neighbours are lowered and bad cells removed. Intersections of the wall itself remain. Adds
-  /// rounds and counts to the report, and returns the cap. Collective.
+  /// zero. Each round also lowers neighbours and removes bad cells. Intersections of the wall itself remain.
+  /// Adds numbers of rounds and intersections to the report, and returns the cap. Collective.
   mesh::DistributedMesh run(ColumnLimits& limits, LayerReport& report) const;
 
 private:

@@ -22,8 +22,8 @@ using TriangleColumns = std::array<CornerColumn, 3>;
 /// of a prism must be at least half of its value at vanishing height.
 std::int32_t good_layers(const TriangleColumns& columns);
 /// Whether the cap triangle and the uppermost prism are good. The smallest angle of the cap triangle must be
-/// at least 0.6 of the wall triangle's; the prism must have its scaled Jacobian. This cheap test finds most
-/// failures.
+/// at least 0.6 of the wall triangle's; the prism must meet the scaled Jacobian bound of good_layers(). This
+/// cheap test finds most failures.
 bool has_good_cap(const TriangleColumns& columns);
 
 /// A bound on the column heights over the triangle that brings cap and cells closer to being good. It is

@@ -21,7 +21,7 @@ struct StarTriangle {
 };
 
 /// A triangle sent to the rank that collects the star of its vertex. `vertex` is its number here.
-struct StarGuest {
+struct SentTriangle {
   mesh::SharedVertexKey key;
   std::int64_t vertex;
   StarTriangle triangle;
@@ -121,20 +121,19 @@ void append_normals(std::span<const StarTriangle> star, std::span<const Vec3> pl
 
 /// The triangles around shared vertices, by vertex of this rank, then piece and triangle.
 std::vector<StarAnswer> meet_at_shared_vertices(const LocalWall& wall) {
-  std::vector<StarGuest> guests;
+  std::vector<SentTriangle> sent;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const PieceStars of_piece(wall, p);
     for (std::size_t c = wall.shared.first(p); c < wall.shared.first(p + 1); ++c) {
       if (!wall.shared.is_shared(c)) continue;
       const std::int32_t v = wall.vertex_of_copy[c];
       const mesh::SharedVertexKey key = wall.mesh.pieces[p].shared_keys[c - wall.shared.first(p)];
-      for (const std::int32_t t : wall.triangles_around(v))
-        guests.push_back({key, v, of_piece.triangle(t, v)});
+      for (const std::int32_t t : wall.triangles_around(v)) sent.push_back({key, v, of_piece.triangle(t, v)});
     }
   }
-  const mesh::Rendezvous meeting(wall.mesh.communicator, guests, &StarGuest::key, [](const StarGuest& guest) {
-    return std::pair(guest.triangle.piece, guest.triangle.cell);
-  });
+  const mesh::Rendezvous meeting(
+      wall.mesh.communicator, sent, &SentTriangle::key,
+      [](const SentTriangle& each) { return std::pair(each.triangle.piece, each.triangle.cell); });
   std::vector<StarAnswer> answers = meeting.answer<StarAnswer>([](const auto& group, const auto& reply) {
     for (std::size_t i = 0; i < group.size(); ++i) {
       if (i > 0 && group[i].item.triangle.piece == group[i - 1].item.triangle.piece) continue;

@@ -37,7 +37,7 @@ struct VertexStars {
   }
 };
 
-/// Collects the stars, once over all pieces. Collective.
+/// Collects the stars, with triangles of other pieces. Collective.
 VertexStars gather_stars(const LocalWall& wall);
 
 }  // namespace aeroloom::layers

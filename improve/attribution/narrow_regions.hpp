@@ -18,9 +18,10 @@ struct NarrowEdge {
 };
 
 /// Finds the edges of the list (ascending, the same on every rank) that run across narrow regions. There a
-/// triangle has two vertices on one curve and the third on another that runs along it. Its height is at most
-/// 0.4 of the side on the curve. The mesh tells which curves meet at a CAD vertex: a curve is where triangles
-/// of two CAD faces meet. Each edge comes once, by number. Collective; the same on every rank.
+/// triangle has two vertices on one curve and the third on another, which at a CAD vertex must run along it.
+/// Its height is at most 0.4 of the side on the curve. The mesh tells which curves meet at a CAD vertex: a
+/// curve is where triangles of two CAD faces meet. Each edge comes once, by number. Collective; the same on
+/// every rank.
 std::vector<NarrowEdge> find_narrow_edges(const mesh::NumberedMesh& mesh, const std::vector<EdgeName>& edges);
 
 /// The entry of an edge in such a list; null where there is none.

@@ -34,11 +34,11 @@ struct UnresolvedFeature {
   std::int32_t opposite = -1;    ///< higher face of a gap; -1 for a narrow region
   double width = 0;              ///< smallest width at its tetrahedra
   double smallest_dihedral = 0;  ///< degrees, of its tetrahedra
-  geometry::Vec3 at;             ///< inside, at the smallest width
+  geometry::Vec3 at;             ///< middle of the narrowest edge or tetrahedron
   std::int64_t tetrahedra = 0;
 };
 
-/// Bad tetrahedra of one class. If there are none, the angles are those of the target.
+/// Bad tetrahedra of one class. Without any: the target angle and the largest angle that goes with it.
 struct MissedTarget {
   std::int64_t tetrahedra = 0;
   double smallest_angle = 0, largest_angle = 180;  ///< degrees
@@ -52,7 +52,7 @@ struct PinnedReport {
   MissedTarget held;  ///< neither, with three or more corners on a fixed surface or on layers
   MissedTarget rest;
   std::int64_t tetrahedra = 0;  ///< pinned ones
-  std::int64_t others = 0;      ///< all others
+  std::int64_t others = 0;      ///< bad ones that are not pinned
   /// Smallest and largest angle of the others, degrees.
   double smallest_angle = 0, largest_angle = 180;
 };
@@ -61,13 +61,13 @@ struct PinnedReport {
 mesh::DihedralRange suspect_angles(double target_angle);
 
 /// Classifies the tetrahedra that miss the target angle (degrees, as in ImproveOptions). A tetrahedron is
-/// pinned at a mesh edge on a CAD curve if the boundary encloses less than the target there. It is pinned in
-/// later rows of the same wedge if its width and flatness match the wedge at that distance within a factor of
-/// two. It is pinned on a boundary triangle that fills a corner of less than the target between two curves.
-/// Of the others, those with an edge across a narrow region or reaching across a narrow gap are at that
-/// feature. If the surface must stay, others with three or four corners on it are held. `suspects` are the
-/// tetrahedra outside suspect_angles(), as mesh::summarise_quality finds them. Collective; equal on all ranks
-/// and for any number of ranks.
+/// pinned at a mesh edge on a CAD curve if the boundary encloses less than the target there (a wedge).
+/// Farther from the curve, it is pinned if the gap it spans and its smallest angle are at least half the
+/// wedge's there. It is pinned on a boundary triangle that fills a corner of less than the target between two
+/// curves. Of the others, those with an edge across a narrow region or reaching across a narrow gap are at
+/// that feature. If the surface must stay, others with three or four corners on it are held. `suspects` are
+/// the tetrahedra outside suspect_angles(), as mesh::summarise_quality finds them. Collective; equal on all
+/// ranks and for any number of ranks.
 PinnedReport find_pinned(const mesh::NumberedMesh& mesh, double target_angle,
                          const mesh::CellsOutside& suspects, bool surface_may_change);
 

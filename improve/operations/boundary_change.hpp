@@ -20,9 +20,9 @@ inline TrianglePoints points_of(const TetMesh& mesh, const TriangleCorners& corn
 /// Largest ratio of a new boundary edge to the longest old one. Chosen, not measured.
 inline constexpr double most_growth = 1.5;
 
-/// Whether new boundary triangles may replace old ones. No normal turns by more than 20 degrees, and no edge
-/// is longer than 1.5 times the longest old one. The worst mean ratio is at least the old one or 0.5. All
-/// corners stay on the CAD face, so edge lengths bound the chordal error.
+/// Whether new boundary triangles may replace old ones. Each new normal is within 20 degrees of all old ones,
+/// and no edge is longer than 1.5 times the longest old one. The worst mean ratio is at least the old one or
+/// 0.5. All corners stay on the CAD face, so edge lengths bound the chordal error.
 bool is_gentle_change(std::span<const TrianglePoints> before, std::span<const TrianglePoints> after);
 
 /// Finds edges of the boundary, its fixed parts included.

@@ -9,9 +9,9 @@
 
 namespace aeroloom::improve {
 
-/// Grows a cavity across its worst face as long as the cones from the point improve, and optimises the point
-/// (a greedy form of the vertex insertion of Klingner and Shewchuk, 16th International Meshing Roundtable,
-/// 2007, doi:10.1007/978-3-540-75103-8_1).
+/// Grows a cavity across its worst face, keeps the best state on the way, and optimises the point (a greedy
+/// form of the vertex insertion of Klingner and Shewchuk, 16th International Meshing Roundtable, 2007,
+/// doi:10.1007/978-3-540-75103-8_1).
 class CavityInsertion {
 public:
   static constexpr int most_tets = 80;  ///< largest cavity; docs/bounds.md
@@ -19,8 +19,8 @@ public:
   /// Proposes a cavity grown from the star of a free vertex, which moves. The mesh does not change yet.
   bool propose_around_vertex(TetMesh& mesh, LocalIndex vertex, CavityReplacement& cavity);
   /// Proposes a cavity grown from tetrahedron t around a new vertex with the number mesh.vertex_count().
-  /// `start` chooses where growth begins: at t's centre or near a corner, edge or face. Different starts give
-  /// different cavities.
+  /// `start` chooses the first position of the vertex: t's centre or near a corner, edge or face. Different
+  /// starts give different cavities.
   bool propose_new_vertex(TetMesh& mesh, LocalIndex t, int start, CavityReplacement& cavity);
   static constexpr int starts = 15;  // the centre, 4 corners, 6 edges, 4 faces
   /// The position of the free point in the last proposal.

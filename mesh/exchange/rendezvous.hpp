@@ -1,4 +1,4 @@
-/// Rendezvous by key: what several ranks know of one thing comes together on one of them.
+/// Rendezvous by key: items with equal keys, from any rank, are sent to one rank, which can answer them.
 #pragma once
 
 #include "geometry/runs.hpp"
@@ -19,8 +19,8 @@
 
 namespace aeroloom::mesh {
 
-/// A key is a whole number, or an array of keys: numbers of vertices, shared-vertex keys, bits of
-/// coordinates.
+/// Mixes a key into a hash. A key is an integer or an array of keys, such as vertex numbers, shared-vertex
+/// keys or bits of coordinates.
 template <std::integral Word>
 constexpr std::uint64_t mix_key(std::uint64_t state, Word key) {
   return mix_in(state, static_cast<std::uint64_t>(key));
@@ -31,23 +31,23 @@ constexpr std::uint64_t mix_key(std::uint64_t state, const std::array<Key, N>& k
   return state;
 }
 
-/// Brings items with equal keys together on the rank that the mixed key points to. `key_of(item)` is a key as
-/// above, `place_of(item)` tells items of one key apart: anything that can be compared and does not depend on
-/// ranks. Both may be pointers to members. Returns what meets here, ascending by key, then place. Collective.
+/// Sends items to the rank that the hash of their key names, so that items with equal keys meet.
+/// `key_of(item)` is a key as above. `place_of(item)` orders items of one key; it must not depend on ranks.
+/// Both may be pointers to members. Returns the items received, ascending by key, then place. Collective.
 template <class Item, class KeyOf, class PlaceOf>
 std::vector<Item> meet_by_key(const parallel::Communicator& communicator, std::vector<Item> items,
                               const KeyOf& key_of, const PlaceOf& place_of) {
-  std::vector<Item> met = deliver(communicator, std::move(items), [&](const Item& item) {
+  std::vector<Item> received = deliver(communicator, std::move(items), [&](const Item& item) {
     return meeting_rank(mix_key(0, std::invoke(key_of, item)), communicator.size());
   });
-  std::sort(met.begin(), met.end(), [&](const Item& a, const Item& b) {
+  std::sort(received.begin(), received.end(), [&](const Item& a, const Item& b) {
     const auto order = std::invoke(key_of, a) <=> std::invoke(key_of, b);
     return order != 0 ? order < 0 : std::invoke(place_of, a) < std::invoke(place_of, b);
   });
-  return met;
+  return received;
 }
 
-/// Calls visit(group) for the items of each key in turn: a span of a list sorted by key.
+/// Calls visit(group) for each key; `group` is the span of its items. `items` are sorted by key.
 template <class Item, class KeyOf, class Visit>
 void for_each_key(const std::vector<Item>& items, const KeyOf& key_of, const Visit& visit) {
   const std::span<const Item> all(items);
@@ -56,15 +56,15 @@ void for_each_key(const std::vector<Item>& items, const KeyOf& key_of, const Vis
       [&](std::size_t first, std::size_t last) { visit(all.subspan(first, last - first)); });
 }
 
-/// An item at a rendezvous, and the rank it came from.
+/// An item received at a rendezvous, and the rank that sent it.
 template <class Item>
-struct Guest {
+struct Received {
   Item item;
   parallel::Rank from;
 };
 
-/// A rendezvous whose guests are told something. Items meet as in meet_by_key; `from` must not be judged by:
-/// it depends on ranks.
+/// A rendezvous that answers the senders. Items meet as in meet_by_key(). Answers must not depend on `from`,
+/// since it depends on the number of ranks.
 template <class Item, class KeyOf, class PlaceOf>
 class Rendezvous {
 public:
@@ -72,48 +72,50 @@ public:
   Rendezvous(const parallel::Communicator& communicator, const std::vector<Item>& items, KeyOf key_of,
              const PlaceOf& place_of)
       : _communicator(communicator), _key_of(std::move(key_of)) {
-    std::vector<Guest<Item>> guests;
-    guests.reserve(items.size());
-    for (const Item& item : items) guests.push_back({item, communicator.rank()});
-    _met = meet_by_key(communicator, std::move(guests), key_of_guest(),
-                       [&](const Guest<Item>& guest) { return std::invoke(place_of, guest.item); });
+    std::vector<Received<Item>> sent;
+    sent.reserve(items.size());
+    for (const Item& item : items) sent.push_back({item, communicator.rank()});
+    _received =
+        meet_by_key(communicator, std::move(sent), key_of_received(),
+                    [&](const Received<Item>& received) { return std::invoke(place_of, received.item); });
   }
 
-  /// What meets here, by key and place.
-  const std::vector<Guest<Item>>& met() const { return _met; }
+  /// The items received, by key and place.
+  const std::vector<Received<Item>>& received() const { return _received; }
 
-  /// Calls visit(group) for each key: a span of guests.
+  /// Calls visit(group) for each key; `group` is the span of its received items.
   template <class Visit>
   void for_each_group(const Visit& visit) const {
-    for_each_key(_met, key_of_guest(), visit);
+    for_each_key(_received, key_of_received(), visit);
   }
 
-  /// Calls judge(group, reply) for each key; reply(guest, answer) sends an Answer to where the guest came
-  /// from, as often as it is called. Returns the answers that arrive here, in no order that matters.
-  /// Collective.
-  template <class Answer, class Judge>
-  std::vector<Answer> answer(const Judge& judge) const {
-    std::vector<Guest<Answer>> replies;
-    const auto reply = [&](const Guest<Item>& guest, const Answer& what) {
-      replies.push_back({what, guest.from});
+  /// Calls visit(group, reply) for each key. Each call of reply(received, answer) sends an Answer to the
+  /// sender of the item. Returns the answers to this rank, in an order that depends on ranks. Collective.
+  template <class Answer, class Visit>
+  std::vector<Answer> answer(const Visit& visit) const {
+    std::vector<Received<Answer>> replies;
+    const auto reply = [&](const Received<Item>& received, const Answer& what) {
+      replies.push_back({what, received.from});
     };
-    for_each_group([&](std::span<const Guest<Item>> group) { judge(group, reply); });
-    replies =
-        deliver(_communicator, std::move(replies), [](const Guest<Answer>& guest) { return guest.from; });
+    for_each_group([&](std::span<const Received<Item>> group) { visit(group, reply); });
+    replies = deliver(_communicator, std::move(replies),
+                      [](const Received<Answer>& received) { return received.from; });
     std::vector<Answer> answers;
     answers.reserve(replies.size());
-    for (const Guest<Answer>& guest : replies) answers.push_back(guest.item);
+    for (const Received<Answer>& received : replies) answers.push_back(received.item);
     return answers;
   }
 
 private:
-  auto key_of_guest() const {
-    return [this](const Guest<Item>& guest) -> decltype(auto) { return std::invoke(_key_of, guest.item); };
+  auto key_of_received() const {
+    return [this](const Received<Item>& received) -> decltype(auto) {
+      return std::invoke(_key_of, received.item);
+    };
   }
 
   const parallel::Communicator& _communicator;
   KeyOf _key_of;
-  std::vector<Guest<Item>> _met;
+  std::vector<Received<Item>> _received;
 };
 
 }  // namespace aeroloom::mesh

@@ -1,4 +1,4 @@
-/// Errors that all ranks learn of together.
+/// Errors that every rank throws together, so that no rank waits for one that has failed.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -9,12 +9,12 @@
 
 namespace aeroloom::parallel {
 
-/// The cause that an exception tells of: bad_alloc is `resources`, logic_error is `bug`, a failure of
-/// reading or writing files (std::ios_base::failure, filesystem_error) is `files`, anything else `input`.
+/// The cause of a failure, by the type of the exception: bad_alloc is `resources`, logic_error is `bug`.
+/// std::ios_base::failure and filesystem_error are `files`. Any other exception is `input`.
 enum class FailureKind { input, files, resources, bug };
 
-/// Thrown on every rank with the same text and kind: those of the lowest rank that failed, with a count of
-/// the other failing ranks appended where there are any.
+/// Thrown on every rank with the same text and kind. They are those of the lowest rank that failed; the text
+/// ends with the number of other failed ranks.
 class CollectiveError : public std::runtime_error {
 public:
   CollectiveError(FailureKind kind, const std::string& message) : std::runtime_error(message), _kind(kind) {}
@@ -24,13 +24,14 @@ private:
   FailureKind _kind;
 };
 
-/// Runs `work` on every rank, then agrees: if it threw anywhere, every rank throws the same CollectiveError.
-/// Collective. `work` must not itself call collectives that a failing rank would not reach; a CollectiveError
-/// thrown inside (by a nested collective) passes through unchanged, because all ranks have it already.
+/// Runs `work` on every rank. Then the ranks agree (as MPIX_Comm_agree does) whether it failed anywhere; if
+/// so, every rank throws the same CollectiveError. Collective. `work` must not call collectives that a
+/// failing rank would not reach. A CollectiveError thrown inside it passes unchanged: all ranks have it
+/// already.
 void agree(const Communicator& communicator, const std::function<void()>& work);
-/// As agree(), of work that rank 0 alone does.
+/// As agree(), but only rank 0 does the work.
 void on_root(const Communicator& communicator, const std::function<void()>& work);
-/// Whether this rank is at the work of an agree(): what it throws now, all will learn of.
+/// Whether this rank is inside agree(): an exception thrown now reaches all ranks.
 bool is_agreeing();
 
 }  // namespace aeroloom::parallel

@@ -1,5 +1,5 @@
-/// The communicator: ranks, typed collectives and sparse exchange. No other header names the message
-/// passing library, and counts and displacements stay inside.
+/// The communicator: ranks, typed collectives and sparse exchange. Hides the message passing library (MPI),
+/// with its counts and displacements.
 #pragma once
 
 #include "parallel/communication/packer.hpp"
@@ -17,7 +17,7 @@ namespace aeroloom::parallel {
 
 using Rank = int;
 
-/// A parcel of a sparse exchange: the bytes for (or from) one rank.
+/// The bytes that a sparse exchange sends to, or receives from, one rank.
 struct Parcel {
   Rank rank;
   Bytes content;
@@ -26,8 +26,8 @@ struct Parcel {
 struct CommunicatorHandle;
 
 /// A group of ranks. Cheap to copy; copies refer to the same group. Every member function except rank(),
-/// size() and is_root() is collective over the group. Messages above 2^31 bytes are handled. Failures of the
-/// library throw std::runtime_error.
+/// size() and is_root() is collective over the group. Messages may be longer than 2^31 bytes. A failure of
+/// MPI throws std::runtime_error.
 class Communicator {
 public:
   /// No group: every member function throws std::logic_error.
@@ -50,10 +50,10 @@ public:
   std::vector<Bytes> all_gather(const Bytes& mine) const;
   /// One entry per rank, in rank order, on `root`; empty elsewhere.
   std::vector<Bytes> gather(const Bytes& mine, Rank root = 0) const;
-  /// Sends each parcel to its rank, returns what others sent here, in ascending rank of the sender.
-  /// Only ranks that have something for each other exchange messages. At most one parcel per destination;
-  /// a second one, or a rank that does not exist, throws std::logic_error. Who sends to whom is found by the
+  /// Sends each parcel to its rank. Returns the parcels sent to this rank, in ascending rank of the sender.
+  /// Only ranks with parcels for each other exchange messages; the receivers learn of them by the
   /// non-blocking consensus of Hoefler, Siebert, Lumsdaine (PPoPP 2010, doi:10.1145/1693453.1693476).
+  /// Throws std::logic_error for a second parcel to the same rank, or for a rank that does not exist.
   std::vector<Parcel> exchange(std::vector<Parcel> outgoing) const;
 
   std::int64_t sum(std::int64_t value) const;
@@ -63,8 +63,8 @@ public:
   std::int64_t exclusive_scan(std::int64_t value) const;
   double minimum(double value) const;
   double maximum(double value) const;
-  /// Each of the values becomes the sum, or the smallest, of those at its place on all ranks, which give as
-  /// many.
+  /// Replaces each value by the sum, or the smallest, of the values at this place on all ranks. All ranks
+  /// pass equally many.
   void sum_each(std::span<std::int64_t> values) const;
   void minimum_each(std::span<double> values) const;
   /// Sum in rank order, the same bits on every rank for the same number of ranks. The bits depend on how
@@ -74,14 +74,14 @@ public:
   /// Concatenation of every rank's items in rank order, on every rank.
   template <Flat T>
   std::vector<T> all_gather_items(std::span<const T> mine) const;
-  /// As all_gather_items, in ascending order of key(item), a member or a function: the same order on any
-  /// number of ranks where keys differ.
+  /// As all_gather_items, then sorted by key(item), where `key` is a member or a function. If all keys
+  /// differ, the order does not depend on the number of ranks.
   template <Flat T, class Key = std::identity>
   std::vector<T> gather_sorted(const std::vector<T>& mine, const Key& key = {}) const;
   template <Flat T>
   void broadcast_items(std::vector<T>& items, Rank root = 0) const;
 
-  /// As broadcast, gather and all_gather, of anything that can be packed.
+  /// As broadcast, gather and all_gather, for any type that can be packed (packer.hpp).
   template <class T>
   void broadcast_value(T& value, Rank root = 0) const;
   template <class T>
@@ -95,9 +95,9 @@ private:
   const CommunicatorHandle& handle() const;
   /// While MPI runs.
   const CommunicatorHandle& usable_handle() const;
-  /// The number of bytes of every rank.
+  /// The number of bytes on each rank.
   std::vector<std::uint64_t> all_sizes(std::uint64_t mine) const;
-  /// The bytes of all ranks one after another at `to`, which has room for these sizes.
+  /// Writes the bytes of all ranks to `to`, in rank order; `sizes` are their numbers.
   void all_gather_into(std::span<const std::byte> mine, const std::vector<std::uint64_t>& sizes,
                        std::byte* to) const;
   std::shared_ptr<CommunicatorHandle> _handle;

@@ -1,4 +1,4 @@
-/// Delivery of flat items to ranks.
+/// Delivery of flat items to the ranks that need them.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -12,10 +12,10 @@
 
 namespace aeroloom::parallel {
 
-/// Sends each item to the rank `destination(item)` and returns what arrives here, in ascending rank of the
-/// sender and in the sender's order. Whoever uses the result sorts it by content: the order depends on ranks.
-/// What stays on its rank is not packed, and what was sent is freed before the result is put together: move
-/// the items in where they are not needed any more. Collective.
+/// Sends each item to the rank `destination(item)`. Returns the items received, in ascending rank of the
+/// sender and in the sender's order. This order depends on the number of ranks, so callers sort the result by
+/// content. Items that stay on their rank are not packed. Sent items are freed before the result is made:
+/// callers move the items in to save memory. Collective.
 template <Flat T, class Destination>
 std::vector<T> deliver(const Communicator& communicator, std::vector<T> items,
                        const Destination& destination) {

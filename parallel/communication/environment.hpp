@@ -7,14 +7,13 @@ namespace aeroloom::parallel {
 
 class SandboxServer;
 
-/// Starts, in this order: the worker server of sandboxed runs (a small process forked before the message
-/// passing library registers any memory, see sandbox.hpp), then the message passing library. Ends both.
-/// Construct exactly one, first thing in main, after every sandboxed task is registered. Works under mpirun
-/// and without. Large arrays that are freed go back to the system at once. Where the host program runs MPI
-/// already that is used and left running, the allocator left alone, and sandboxed runs take place in the rank
-/// itself unless the host has started the server before (sandbox.hpp). From then on an uncaught exception
-/// is printed and ends all ranks with exit code 70, and so does an exception that leaves the scope of the
-/// environment.
+/// Starts the worker server of sandboxed runs (sandbox.hpp), then MPI, and ends both. The server is forked
+/// first, before MPI registers any memory. Construct exactly one, first thing in main, after every sandboxed
+/// task is registered. Works with and without mpirun. Freed large arrays go back to the system at once.
+/// If the host program runs MPI already, that one is used and left running, and the allocator is not changed.
+/// Sandboxed tasks then run in the rank itself, unless the host has started the server before.
+/// An uncaught exception, or one that leaves the scope of the environment, is printed and ends all ranks with
+/// exit code 70.
 class Environment {
 public:
   Environment(int& argc, char**& argv);
@@ -27,7 +26,7 @@ private:
   std::unique_ptr<SandboxServer> _server;
 };
 
-/// Ends all ranks at once. For what cannot be agreed on collectively; the caller has printed why.
+/// Ends all ranks at once, for failures that the ranks cannot agree on. The caller prints the reason first.
 [[noreturn]] void abort_all_ranks(int exit_code);
 
 }  // namespace aeroloom::parallel

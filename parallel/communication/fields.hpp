@@ -1,5 +1,5 @@
-/// Structs that travel between ranks and into files: a struct lists its fields once, for both directions, and
-/// padding stays behind.
+/// The members of structs, for structs that travel between ranks and into files. Members travel in the order
+/// of their declaration, without the padding between them.
 #pragma once
 
 #include <array>
@@ -14,17 +14,18 @@
 
 namespace aeroloom::parallel {
 
-/// A struct that lists its members, all of them in the order of their declaration:
+/// A struct that lists all its members in the order of their declaration:
 ///   static constexpr auto fields() { return std::tuple(&Sharer::vertex_key, &Sharer::piece); }
-/// Needed only where members cannot be counted: more than `most_members`, arrays of C, base classes,
-/// constructors. Members of a base come first. A forgotten one does not compile, unless it fits into padding.
+/// Only structs whose members cannot be counted need it: those with more than `most_members` members, C
+/// arrays, base classes (whose members come first) or constructors. A list without one of the members does
+/// not compile, unless that member fits into padding.
 template <class T>
 concept ListsFields = requires {
   T::fields();
 };
 
-/// Converts to a value of any type; never called. An optional is made from its item, as its constructor
-/// would, so that there is one way to do it.
+/// Converts to any type; never called. It does not convert to an optional whose constructor takes it as the
+/// item: two ways would be ambiguous.
 struct AnyValue {
   template <class U>
   static constexpr bool is_made_from_item = false;
@@ -36,7 +37,7 @@ inline constexpr bool AnyValue::is_made_from_item<std::optional<U>> = std::is_co
 
 inline constexpr std::size_t most_members = 14;
 
-/// With how many values the struct can be initialised: its members, where none is an array of C.
+/// The number of values that can initialise the struct: of its members, unless one is a C array.
 template <class T, class... Values>
 consteval std::size_t count_members() {
   if constexpr (sizeof...(Values) <= most_members && requires { T{Values{}..., AnyValue{}}; })
@@ -49,7 +50,7 @@ concept IsTuple = requires {
   std::tuple_size<T>::value;
 };
 
-/// An aggregate that is no std::array, of 1 to `most_members` members.
+/// An aggregate of 1 to `most_members` members, other than std::array.
 template <class T>
 concept HasCountedFields = std::is_class_v<T> && std::is_aggregate_v<T> && !IsTuple<T> &&
                            count_members<std::remove_const_t<T>>() - 1 < most_members;
@@ -61,16 +62,16 @@ concept HasFields = ListsFields<T> || HasCountedFields<T>;
 template <class T>
 struct FlatTraits;
 
-/// Types that take the same number of bytes whatever their value: numbers, enumerations, arrays of flat
-/// items, and trivially copyable structs that list flat fields.
+/// Types whose values all take the same number of bytes: numbers, enumerations, arrays of flat items, and
+/// trivially copyable structs of flat members.
 template <class T>
 concept Flat = FlatTraits<T>::is_flat;
 
-/// The bytes that travel of one item.
+/// The bytes of one item in a message.
 template <Flat T>
 inline constexpr std::size_t wire_size = FlatTraits<T>::bytes;
 
-/// Whether no byte of it is padding: such items travel as the bytes they are in memory.
+/// Whether T has no padding. Such items travel as they lie in memory.
 template <Flat T>
 inline constexpr bool is_exact = wire_size<T> == sizeof(T);
 

@@ -1,5 +1,5 @@
-/// For programs that run MPI themselves and use the stages as a library. Includes mpi.h; no other public
-/// header does.
+/// Communicators of host programs, which run MPI themselves and use the stages as a library. The only public
+/// header that includes mpi.h.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -8,14 +8,13 @@
 
 namespace aeroloom::parallel {
 
-/// The ranks of a communicator of the host program, which has started MPI. It is duplicated, so messages of
-/// the two never mix; the duplicate is freed with the last copy of the result, which all ranks let go at the
-/// same point, or by the end of MPI. Collective over `host`. Throws std::logic_error where MPI is not running
-/// or `host` is no communicator.
+/// Duplicates a communicator of the host program, so that messages of the two never mix. The duplicate is
+/// freed with the last copy of the result, or when MPI ends; all ranks must free it at the same point.
+/// Collective over `host`. Throws std::logic_error if MPI is not running or `host` is no communicator.
 Communicator communicator_of(MPI_Comm host);
 
-/// The other way round, for libraries that take a communicator. It stays ours and lives as long as
-/// `communicator` does; messages on it must not be under way when the library returns. Not collective.
+/// The MPI handle, for libraries that take one. It is valid as long as `communicator` lives. The library must
+/// complete all messages on it before it returns. Not collective.
 MPI_Comm host_communicator(const Communicator& communicator);
 
 }  // namespace aeroloom::parallel

@@ -1,4 +1,4 @@
-/// Exchange between ranks that know each other: who sends how much to whom is found out once.
+/// Repeated exchange between the same ranks: partners and numbers of items are fixed once.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -15,23 +15,22 @@ struct PartnerItems {
   std::size_t items = 0;
 };
 
-/// Items for several ranks, one partner's after the other's in the order of `sends`, and likewise received.
-/// No rank looks for messages it does not know of, and only partners communicate: one message each way, in
-/// parts where it is longer than 2^26 bytes.
+/// Sends items to several ranks and receives items from them, in the order of the partner lists. Only
+/// partners communicate: one message each way, in parts of at most 2^26 bytes.
 class NeighbourExchange {
 public:
-  /// Sender and receiver know of each other: where this rank sends n > 0 items to another one, that one
-  /// receives n from this one. No rank twice in a list, and not this one. Throws std::logic_error, on all
-  /// ranks, when the sums do not fit; on one when a partner is no other rank. Collective.
+  /// Precondition: if this rank sends n > 0 items to another rank, that rank lists n items from this one. A
+  /// list has each rank at most once, and not this rank. Throws std::logic_error on all ranks if the sums
+  /// differ, and on one rank if a partner is not another rank. Collective.
   NeighbourExchange(const Communicator& communicator, std::vector<PartnerItems> sends,
                     std::vector<PartnerItems> receives);
-  /// One in which nobody has anything for anyone.
+  /// An exchange of no items.
   static NeighbourExchange among_none(const Communicator& communicator) {
     return NeighbourExchange(communicator);
   }
 
-  /// Sends `out` and fills `in`. Items are of one size, the same on all ranks: `out` and `in` hold whole
-  /// ones, as many as this rank sends and receives, else std::logic_error is thrown. Collective.
+  /// Sends `out` and fills `in`. Items have the same size on all ranks. Throws std::logic_error unless `out`
+  /// and `in` hold exactly the items that this rank sends and receives. Collective.
   void exchange(std::span<const std::byte> out, std::span<std::byte> in) const;
   template <Flat T>
   void exchange(std::span<const T> out, std::span<T> in) const {
@@ -44,7 +43,7 @@ public:
     }
   }
 
-  /// The exchange the other way round: what was sent is received.
+  /// The exchange in the opposite direction.
   NeighbourExchange reversed() const;
 
 private:

@@ -1,4 +1,4 @@
-/// Arrays that are the same on every rank, held once per node.
+/// Constant arrays that are the same on every rank and held once per node, in shared memory.
 #pragma once
 
 #include "parallel/communication/collective_error.hpp"
@@ -13,24 +13,24 @@
 
 namespace aeroloom::parallel {
 
-/// Memory that the ranks of a node read together. Internal to this header.
+/// Memory shared by the ranks of a node. Internal to this header.
 class NodeMemory {
 public:
-  /// The bytes, which are the same on every rank, in memory of the node; nothing where each rank has to keep
-  /// its own, because it is alone on its node or the system refuses. Kept until the last copy of the result
-  /// is gone on the last rank, which may let it go whenever it likes. Collective.
+  /// Copies the bytes, which are the same on every rank, into memory of the node. Returns nothing if the
+  /// rank is alone on its node or the system refuses; then each rank keeps its own. The memory lives until
+  /// the last copy of the result on the last rank is destroyed, at any time. Collective.
   static std::shared_ptr<const std::byte> share(const Communicator& communicator,
                                                 std::span<const std::byte> bytes);
-  /// The bytes of all ranks one after another, which come to each node once; nothing where the memory cannot
-  /// be had on some node. Collective.
+  /// Gathers the bytes of all ranks, in rank order, once per node. Returns nothing if a node cannot provide
+  /// the memory. Collective.
   static std::shared_ptr<const std::byte> gather(const Communicator& communicator,
                                                  std::span<const std::byte> mine);
 
-  /// The bytes of all ranks one after another, those of ranks of other nodes still to be written.
+  /// Room for the bytes of all ranks. Those of ranks on other nodes are still to be written.
   struct Composition {
-    std::shared_ptr<std::byte> memory;  ///< of the node where that can be had, else of this rank alone
+    std::shared_ptr<std::byte> memory;  ///< of the node if possible, else of this rank alone
     bool is_of_node = false;
-    std::vector<std::uint64_t> offsets;  ///< per rank where its bytes begin, and the end
+    std::vector<std::uint64_t> offsets;  ///< where the bytes of each rank begin, and the end
     std::vector<Rank> unwritten;         ///< ranks whose bytes this rank has to write
 
     std::span<std::byte> part(Rank rank) const {
@@ -38,13 +38,13 @@ public:
       return {memory.get() + offsets[r], offsets[r + 1] - offsets[r]};
     }
   };
-  /// Ranks of a node share what is unwritten among them. Collective.
+  /// Assigns the unwritten parts to the ranks of the node. Collective.
   static Composition compose(const Communicator& communicator, std::span<const std::byte> mine);
-  /// The memory, to be read only. After all ranks have written their parts.
+  /// The memory, read-only. To be called when all ranks have written their parts.
   static std::shared_ptr<const std::byte> finish(Composition composition);
 };
 
-/// An array that does not change. Cheap to copy: copies refer to the same memory.
+/// A constant array. Cheap to copy: copies refer to the same memory.
 template <Flat T>
 class NodeArray {
 public:
@@ -55,12 +55,11 @@ public:
     _items = *own;
     _owner = std::move(own);
   }
-  /// Memory of the node where that can be had. Every rank gives the same items. Collective.
+  /// In memory of the node if possible. Every rank passes the same items. Collective.
   NodeArray(const Communicator& communicator, std::vector<T> items) {
     *this = NodeArray(std::move(items)).shared(communicator);
   }
-  /// The items in memory of the node, where that can be had. They are the same on every rank.
-  /// Collective.
+  /// A copy in memory of the node if possible. The items are the same on every rank. Collective.
   NodeArray shared(const Communicator& communicator) const {
     NodeArray result;
     result._owner = NodeMemory::share(communicator, std::as_bytes(_items));
@@ -69,8 +68,7 @@ public:
     return result;
   }
 
-  /// Concatenation of every rank's items in rank order, in memory of the node where that can be had.
-  /// Collective.
+  /// The items of all ranks in rank order, in memory of the node if possible. Collective.
   static NodeArray gathered(const Communicator& communicator, std::vector<T> mine) {
     static_assert(is_exact<T>, "items lie in memory as they travel");
     const std::int64_t count = communicator.sum(static_cast<std::int64_t>(mine.size()));
@@ -82,10 +80,10 @@ public:
     return result;
   }
 
-  /// As gathered(), of items that follow from what every node knows already: parts of other nodes do not
-  /// travel, but are written here. `write(rank, first, items)` writes the part of a rank, whose first item is
-  /// number `first` of all; which ranks it is called for depends on the nodes. What it throws all ranks
-  /// throw, as a CollectiveError. Collective.
+  /// As gathered(), for items that each node can compute: parts of other nodes are computed here instead of
+  /// sent. `write(rank, first, items)` computes the part of a rank; `first` is the index of its first item in
+  /// the whole array. For which ranks it is called depends on the nodes. If it throws, all ranks throw
+  /// CollectiveError. Collective.
   template <class Write>
   static NodeArray composed(const Communicator& communicator, std::vector<T> mine, const Write& write) {
     static_assert(is_exact<T>, "items lie in memory as they travel");
@@ -116,7 +114,7 @@ private:
   std::span<const T> _items;
 };
 
-/// Read into memory of this rank alone.
+/// Travels as a vector. Received arrays lie in memory of this rank alone.
 template <class T>
 struct Wire<NodeArray<T>> {
   static constexpr std::size_t least = least_wire_size<std::vector<T>>;

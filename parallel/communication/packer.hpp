@@ -1,4 +1,4 @@
-/// Values of any shape as bytes and back: to_wire() and from_wire(), pack() and unpack().
+/// Converts values to bytes for messages and files, and back: to_wire() and from_wire().
 #pragma once
 
 #include "parallel/communication/fields.hpp"
@@ -19,7 +19,7 @@ namespace aeroloom::parallel {
 
 using Bytes = std::vector<std::byte>;
 
-/// Items as bytes and back; sizes that do not divide throw std::logic_error.
+/// Items as bytes and back. Throws std::logic_error if the bytes are not a whole number of items.
 template <Flat T>
 Bytes to_bytes(std::span<const T> items) {
   if constexpr (is_exact<T>) {
@@ -42,7 +42,7 @@ std::vector<T> from_bytes(std::span<const std::byte> bytes) {
   return items;
 }
 
-/// Writes one after another into a byte buffer; Unpacker reads it back in order.
+/// Appends values to a byte buffer. Unpacker reads them in the same order.
 class Packer {
 public:
   template <Flat T>
@@ -64,7 +64,7 @@ private:
   Bytes _bytes;
 };
 
-/// Reads what Packer wrote. Reading past the end throws std::logic_error, before memory is taken for it.
+/// Reads what Packer wrote. Reading past the end throws std::logic_error, before memory is allocated.
 class Unpacker {
 public:
   explicit Unpacker(std::span<const std::byte> bytes) : _bytes(bytes) {}
@@ -73,7 +73,7 @@ public:
   template <Flat T>
   std::vector<T> array();
   std::string text();
-  /// Of things that take at least `bytes` each.
+  /// A number of items that take at least `bytes` each. Throws if so many bytes do not follow.
   std::size_t count(std::size_t bytes);
   bool at_end() const { return _position == _bytes.size(); }
 
@@ -83,13 +83,13 @@ private:
   std::size_t _position = 0;
 };
 
-/// Flat items, texts, and of what can be packed: vectors (packed also from spans), arrays, optionals, pairs,
-/// tuples (packed also from references), maps, and structs that list their fields.
+/// Can be packed: flat items and texts; vectors, arrays, optionals, pairs, tuples and maps of such; structs
+/// whose members can be reached (fields.hpp). Spans are packed as vectors, references as their values.
 template <class T>
 void pack(Packer& packer, const T& item);
 template <class T>
 void unpack_into(Unpacker& unpacker, T& item);
-/// As pack(), and empties the arrays.
+/// As pack(), and frees the arrays.
 template <class T>
 void hand_over(Packer& packer, T& item);
 template <class T>
@@ -105,14 +105,14 @@ Bytes to_wire(const T& item) {
   pack(packer, item);
   return packer.take();
 }
-/// As to_wire(), for what is large: each array goes once it is packed, so the whole is never there twice.
+/// As to_wire(), for large values: frees each array once it is packed, which saves half the memory.
 template <class T>
 Bytes hand_over_to_wire(T item) {
   Packer packer;
   hand_over(packer, item);
   return packer.take();
 }
-/// Throws std::logic_error where there are not just the bytes of one T.
+/// Throws std::logic_error unless the bytes are those of exactly one T.
 template <class T>
 void from_wire_into(std::span<const std::byte> bytes, T& item) {
   Unpacker unpacker(bytes);
@@ -157,7 +157,7 @@ std::vector<T> Unpacker::array() {
   return items;
 }
 
-/// How a type that is not flat travels: `least` bytes at the fewest.
+/// How a type travels. `least`: the smallest number of bytes that a value takes.
 template <class T>
 struct Wire;
 

@@ -1,4 +1,4 @@
-/// The end of all ranks when the system, a queue or the user asks the program to end.
+/// Ends all ranks when the system, a batch queue or the user sends a signal to end.
 #pragma once
 
 #include <functional>
@@ -6,16 +6,15 @@
 
 namespace aeroloom::parallel {
 
-/// Keeps SIGTERM, SIGINT, SIGHUP and SIGUSR1 (by which queues tell that time is nearly over) from ending this
-/// process without a word, until a TerminationWatch takes them. To be called before there are other threads:
-/// they inherit it.
+/// Blocks SIGTERM, SIGINT, SIGHUP and SIGUSR1 in this process, until a TerminationWatch takes them. (Batch
+/// queues send SIGUSR1 shortly before the time limit.) Call it before other threads start: they inherit it.
 void hold_termination_signals();
-/// Lets them through again, in a process that was forked meanwhile.
+/// Unblocks the signals, in a process that was forked meanwhile.
 void release_termination_signals();
 
-/// Waits for these signals on a thread of its own while it lives, between start and end of the message
-/// passing library; one at a time. Where one comes, rank 0 says so, calls the LastWords there are, and all
-/// ranks end with 128 and the signal's number, as shells do.
+/// Waits for these signals on its own thread while it lives, between start and end of MPI. At most one exists
+/// at a time. On a signal, rank 0 prints a message and calls LastWords, if there are any. Then all ranks end
+/// with exit code 128 plus the signal's number, as in shells.
 class TerminationWatch {
 public:
   TerminationWatch();
@@ -28,8 +27,8 @@ private:
   std::unique_ptr<State> _state;
 };
 
-/// The last act of rank 0 when it is asked to end while this lives; one at a time. Called at most once, on
-/// the thread of the watch while the others go on: it must touch nothing of theirs.
+/// A function that rank 0 calls when a signal ends the program while this object lives. At most one exists at
+/// a time. It is called at most once, on the thread of the watch, and must not touch data of other threads.
 class LastWords {
 public:
   explicit LastWords(std::function<void(int signal)> say);

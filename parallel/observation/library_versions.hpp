@@ -1,13 +1,13 @@
-/// The libraries behind messages and the log, for those who may not see them.
+/// Versions of the libraries that parallel/ uses, for the report.
 #pragma once
 
 #include <string>
 
 namespace aeroloom::parallel {
 
-/// The message passing library that is loaded, as it names itself: "Open MPI v4.1.4".
+/// The loaded MPI library in its own words: "Open MPI v4.1.4".
 std::string mpi_version();
-/// Of spdlog, as it was compiled against.
+/// The version of spdlog at compile time.
 std::string spdlog_version();
 
 }  // namespace aeroloom::parallel

@@ -24,10 +24,10 @@ bool wants_plain_lines() {
 /// Facts go to standard output, warnings and errors to standard error.
 class Log {
 public:
-  void configure(const Communicator& communicator, LogLevel level) {
+  void configure(Rank rank, int ranks, LogLevel level) {
     _configured = true;
-    _rank = communicator.rank();
-    _ranks = communicator.size();
+    _rank = rank;
+    _ranks = ranks;
     _level = level;
     // Under a launcher standard output may look like a terminal when the launcher's own is a file.
     _rewrites = isatty(STDOUT_FILENO) && isatty(STDERR_FILENO) && !wants_plain_lines();
@@ -96,7 +96,7 @@ std::string printable(std::string_view text) {
 }
 
 void configure_log(const Communicator& communicator, LogLevel level) {
-  log().configure(communicator, level);
+  log().configure(communicator.rank(), communicator.size(), level);
 }
 
 void log_info(const std::string& message) {

@@ -1,5 +1,5 @@
-/// How far a run is, told by rank 0 of its own work while a stage takes its time. Nothing here is collective,
-/// but for watch_node_memory(), and nothing changes a result.
+/// Progress of a stage: rank 0 prints how much of its own work is done. Only watch_node_memory() is
+/// collective. Nothing here changes a result.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -10,12 +10,12 @@
 namespace aeroloom::parallel {
 
 /// Progress of a loop within a stage: percentage, elements so far, memory, time since the stage began. On a
-/// terminal one line rewritten in place and erased at the end and before anything else is printed; elsewhere,
-/// and where NO_COLOR is set or TERM is dumb, a plain line every few seconds, and one at the end of what was
-/// long enough to have had one. Silent at LogLevel::quiet.
+/// terminal it is one line, rewritten in place and erased at the end or before other output. Elsewhere, or if
+/// NO_COLOR is set or TERM is dumb, it is a plain line every few seconds, and one at the end if there was one
+/// before. Silent at LogLevel::quiet.
 class Progress {
 public:
-  /// `total`: of what advance() counts, in any unit of work. `elements`: what is made, in the plural.
+  /// `total`: of the work, in any unit. `elements`: the name of what is made, in the plural.
   Progress(std::string stage, std::int64_t total, std::string elements = "");
   ~Progress();
   Progress(const Progress&) = delete;
@@ -37,18 +37,18 @@ private:
   Progress* _outer;
 };
 
-/// How often a line comes where lines stay; every five seconds unless a test has less patience.
+/// The time between plain lines; five seconds unless a test sets another.
 void set_seconds_between_lines(double seconds);
 
-/// A stage begins: the time that is told counts from here. StageClock calls it.
+/// Begins a stage: printed times count from here. StageClock calls it.
 void stage_begins(const std::string& name);
 void stage_ends();
-/// Tells that the stage at hand goes on, if it is time to. Cheap: what runs for long calls it now and then;
-/// StageClock's scopes and waiting for sandboxed runs do.
+/// Prints progress of the present stage if it is time to. Cheap: long loops call it now and then. ScopedCpu
+/// and the wait for sandboxed runs call it too.
 void beat();
 
-/// Lets progress tell the memory of all ranks of rank 0's node, children included, not only its own.
-/// Collective, once.
+/// From now on progress shows the memory of all ranks on the node of rank 0, children included. Collective;
+/// to be called once.
 void watch_node_memory(const Communicator& communicator);
 
 }  // namespace aeroloom::parallel

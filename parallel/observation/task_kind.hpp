@@ -8,7 +8,7 @@
 
 namespace aeroloom::parallel {
 
-/// What a task makes. In the order in which kinds follow one another within a round.
+/// What a task makes. Within a round, kinds follow each other in this order.
 enum class TaskKind : std::uint8_t {
   sampled_face,
   curve,
@@ -24,24 +24,24 @@ enum class TaskKind : std::uint8_t {
   file,
 };
 
-/// How the tasks of one kind get their ranks (parallel/communication/schedule.hpp).
+/// How tasks of a kind are assigned to ranks (parallel/communication/schedule.hpp).
 enum class TaskAssignment : std::uint8_t {
-  largest_first,  ///< to whoever has least
-  on_burdens,     ///< to whoever has least, what was done earlier in the round included
-  along_curve,    ///< a rank has a stretch of the curve
-  rebalanced,     ///< where the piece was made, unless that is uneven
+  largest_first,  ///< to the rank with the smallest load
+  on_burdens,     ///< the same, with loads of earlier tasks of the round
+  along_curve,    ///< each rank gets a run along the space-filling curve
+  rebalanced,     ///< to the rank that made the piece, unless that is uneven
 };
 
 struct TaskKindRow {
   TaskKind kind;
   std::string_view name;  ///< in tasks.csv
   TaskAssignment assignment = TaskAssignment::largest_first;
-  /// Tasks that a rank gets at a time, largest first; all ranks wait for each other between them. 0: all.
+  /// Tasks per rank in a batch, largest first; all ranks wait for each other between batches. 0: all tasks.
   int at_a_time = 0;
 };
 
-/// By kind. A zone waits in memory, with all it is made of, until its turn: four at a time are chosen, not
-/// measured.
+/// The rows, in the order of TaskKind. The input of a zone stays in memory until the zone is filled, so zones
+/// come in batches of four (chosen, not measured).
 inline constexpr std::array<TaskKindRow, 12> task_kinds = {{
     {TaskKind::sampled_face, "sampled face"},
     {TaskKind::curve, "curve"},
@@ -63,7 +63,7 @@ constexpr const TaskKindRow& row_of(TaskKind kind) {
 constexpr std::string_view name_of(TaskKind kind) {
   return row_of(kind).name;
 }
-/// Empty where no kind is called so.
+/// The kind of this name; none if there is none.
 constexpr std::optional<TaskKind> task_kind_called(std::string_view name) {
   for (const TaskKindRow& row : task_kinds)
     if (row.name == name) return row.kind;

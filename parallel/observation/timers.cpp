@@ -73,22 +73,6 @@ void require_same_stages(const Communicator& communicator, const std::vector<Sta
   }
 }
 
-void add_messages(StageSummary& summary, const Communicator& communicator, const MessageCounts& mine) {
-  const auto of_ranks =
-      communicator.all_gather_items<MessageCounts>(std::span<const MessageCounts>(&mine, 1));
-  for (const MessageCounts& of_a_rank : of_ranks) {
-    summary.collective.add(of_a_rank.collective);
-    summary.neighbour.add(of_a_rank.neighbour);
-    summary.rendezvous.add(of_a_rank.rendezvous);
-  }
-}
-
-void add_exchanges(StageSummary& summary, const Communicator& communicator, const ExchangeCounts& mine) {
-  for (const ExchangeCounts& of_a_rank :
-       communicator.all_gather_items<ExchangeCounts>(std::span<const ExchangeCounts>(&mine, 1)))
-    summary.exchanges.join(of_a_rank);
-}
-
 }  // namespace
 
 double cpu_seconds() {
@@ -236,15 +220,19 @@ std::vector<StageSummary> StageClock::summarise(const Communicator& communicator
     summary.other_seconds = communicator.maximum(cost.other_cpu_seconds);
     summary.waiting_seconds_mean = communicator.sum(cost.waiting_seconds) / ranks;
     summary.waiting_seconds_max = communicator.maximum(cost.waiting_seconds);
-    summary.cpu_seconds_of_ranks =
-        communicator.all_gather_items<double>(std::span<const double>(&cost.task_cpu_seconds, 1));
+    summary.cpu_seconds_of_ranks = communicator.all_gather_items(std::span(&cost.task_cpu_seconds, 1));
     summary.pieces = communicator.sum(cost.pieces);
     summary.peak_resident_bytes_max = communicator.maximum(cost.peak_resident_bytes);
     summary.peak_resident_bytes_sum = communicator.sum(cost.peak_resident_bytes);
     summary.peak_own_bytes_max = communicator.maximum(cost.peak_own_bytes);
     summary.peak_own_bytes_sum = communicator.sum(cost.peak_own_bytes);
-    add_messages(summary, communicator, cost.messages);
-    add_exchanges(summary, communicator, cost.exchanges);
+    for (const MessageCounts& of_a_rank : communicator.all_gather_items(std::span(&cost.messages, 1))) {
+      summary.collective.add(of_a_rank.collective);
+      summary.neighbour.add(of_a_rank.neighbour);
+      summary.rendezvous.add(of_a_rank.rendezvous);
+    }
+    for (const ExchangeCounts& of_a_rank : communicator.all_gather_items(std::span(&cost.exchanges, 1)))
+      summary.exchanges.join(of_a_rank);
     summaries.push_back(summary);
   }
   return summaries;

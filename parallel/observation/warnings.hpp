@@ -1,4 +1,4 @@
-/// The warnings of a run, for its report.
+/// Collects the warnings of a run for its report.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -9,24 +9,24 @@
 
 namespace aeroloom::parallel {
 
-/// Warnings that log_warning() has printed, once for each text.
+/// A warning of log_warning(), once for each text.
 struct Warning {
   std::string message;
-  Rank rank = 0;           ///< the first that said it
-  std::int64_t times = 1;  ///< said by all ranks together
+  Rank rank = 0;           ///< the lowest that printed it
+  std::int64_t times = 1;  ///< printed, on all ranks together
 };
 
 struct Warnings {
-  std::vector<Warning> kept;  ///< by rank, then in the order in which they were said
-  std::int64_t left_out = 0;  ///< times that others were said, for which there was no room
+  std::vector<Warning> kept;  ///< by rank, then in the order of printing
+  std::int64_t left_out = 0;  ///< number of warnings for which there was no room
 };
 
-/// Keeps a warning until they are gathered. Of a rank at most 100 texts of 4000 bytes are kept, in 64 KiB
-/// together; the rest is counted.
+/// Keeps a warning until take_warnings(). A rank keeps at most 100 texts of 4000 bytes, 64 KiB in all, and
+/// counts the others.
 void keep_warning(const std::string& message);
 
-/// Takes what all ranks have kept. Rank 0 gets it, the others nothing. Of other ranks than 0 all together
-/// send 4 MiB at most, or a kilobyte each. Collective.
+/// Takes the kept warnings of all ranks. Rank 0 gets them, the others get none. The other ranks send at most
+/// 4 MiB together, or a kilobyte each if that is more. Collective.
 Warnings take_warnings(const Communicator& communicator);
 
 }  // namespace aeroloom::parallel

@@ -1,21 +1,20 @@
-/// The message where the program itself crashes. Sandboxed runs (sandbox.hpp) keep that from happening;
-/// where there are none the CAD library and the mesher run in the rank.
+/// The message that a crash of the program itself prints. Such crashes come from the CAD library or the
+/// mesher where they run in the rank, without a sandbox (sandbox.hpp).
 #pragma once
 
 #include <string_view>
 
 namespace aeroloom::parallel {
 
-/// From now on a signal that ends this process for a fault of its own (SIGSEGV, SIGABRT, SIGBUS, SIGFPE,
-/// SIGILL) is told on standard error, with the rank and the CrashNote there is, before it does. Rank: for the
-/// text.
+/// From now on SIGSEGV, SIGABRT, SIGBUS, SIGFPE and SIGILL print a message to standard error before they end
+/// this process. It has the rank and the text of the CrashNote, if there is one.
 void tell_crashes(int rank);
 
-/// Puts another text into the note, such as a step of what is under way.
+/// Replaces the text of the note, for example by a step of the present work.
 void set_crash_note(std::string_view what);
 
-/// Names the work under way while this lives, such as "stage volume, zone 17"; one at a time, cut after 300
-/// bytes.
+/// Names the present work while it lives, for example "stage volume, zone 17". At most one exists at a time;
+/// texts are cut after 300 bytes.
 class CrashNote {
 public:
   explicit CrashNote(std::string_view what);

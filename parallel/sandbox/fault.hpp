@@ -1,4 +1,4 @@
-/// Faults injected on purpose, for tests of sandboxed tasks. No option of the program injects one.
+/// Injected faults, for tests of sandboxed tasks. Only an environment variable asks for them.
 #pragma once
 
 #include <cstdint>
@@ -6,22 +6,22 @@
 
 namespace aeroloom::parallel {
 
-/// A fault that a sandboxed task has before its work, so that tests see what comes of it.
+/// How a sandboxed task fails before its work begins.
 enum class Fault : std::uint8_t { none, throws, aborts, hangs, exhausts_memory };
 
-/// Acts as the fault says; returns for `none` only. Throws std::runtime_error for `throws`, std::bad_alloc
-/// where memory is limited.
+/// Performs the fault; returns only for `none`. Throws std::runtime_error for `throws`, and std::bad_alloc
+/// for `exhausts_memory` if memory is limited.
 void inject_fault(Fault fault);
 
-/// A fault wanted of one kind of task, and of which of them: -1: of all.
+/// The fault of one kind of task. `number`: the task that fails; -1 for all.
 struct FaultRequest {
   Fault fault = Fault::none;
   std::int64_t number = -1;
 };
 
 /// The fault that the environment variable AEROLOOM_FAULT asks for: `TASK=FAULT` or `TASK=FAULT@NUMBER`.
-/// Tasks: "domain", the preparation of the CAD; "zone", with the number of the zone. Throws
-/// std::invalid_argument for what is neither.
+/// Tasks are "domain", the preparation of the CAD, and "zone", with the number of the zone. Throws
+/// std::invalid_argument for any other value.
 FaultRequest requested_fault(std::string_view task);
 
 }  // namespace aeroloom::parallel

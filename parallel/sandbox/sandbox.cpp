@@ -143,7 +143,7 @@ SandboxResult run_unsandboxed(const RegisteredTask& task, std::span<const std::b
                                 ? "no server of sandboxed runs was started before MPI"
                                 : "this machine allows no child processes (" + server().refusal + ")";
     log_warning(why + ": what crashes in '" + task.name +
-                "' ends the program, and limits of time and memory do not hold (parallel::ContainedServer)");
+                "' ends the program, and limits of time and memory do not hold (parallel::SandboxServer)");
   }
   warned = true;
   SandboxResult result;

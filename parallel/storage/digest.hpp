@@ -1,5 +1,5 @@
-/// 128 bits of bytes, to tell whether two things are the same: xxHash's XXH3. It protects against accidents,
-/// not against malice.
+/// Hashes of 128 bits (XXH3 of xxHash), to compare data and to find damage. They do not protect against
+/// deliberate changes.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -20,7 +20,7 @@ struct Digest {
   friend auto operator<=>(const Digest&, const Digest&) = default;
 };
 
-/// Takes in bytes piece by piece; the result does not depend on how they were divided.
+/// Hashes bytes given in parts. The result does not depend on where they are divided.
 class Digester {
 public:
   Digester();
@@ -29,9 +29,9 @@ public:
   Digester& operator=(const Digester&) = delete;
 
   Digester& bytes(std::span<const std::byte> bytes);
-  /// The text and its length.
+  /// Hashes the text and its length.
   Digester& text(std::string_view text);
-  /// Their number counts too.
+  /// Hashes the number of items and the items.
   template <Flat T>
   Digester& items(std::span<const T> items) {
     value(static_cast<std::uint64_t>(items.size()));

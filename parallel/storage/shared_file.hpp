@@ -1,4 +1,4 @@
-/// One file that all ranks write, each at offsets of its own.
+/// One file that all ranks write, each at its own offsets.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -12,12 +12,12 @@
 
 namespace aeroloom::parallel {
 
-/// A file that write_shared_file has opened.
+/// A file opened by write_shared_file().
 class SharedFile {
 public:
   struct Handle;
   explicit SharedFile(Handle& handle) : _handle(handle) {}
-  /// Writes at `offset` bytes from the beginning; above 2^31 bytes too. Not collective. Throws
+  /// Writes the bytes, any number of them, at `offset` from the beginning. Not collective. Throws
   /// std::filesystem::filesystem_error with the reason.
   void write(std::int64_t offset, std::span<const std::byte> bytes);
   template <Flat T>
@@ -30,15 +30,15 @@ private:
   Handle& _handle;
 };
 
-/// When a file has its name: once its bytes are on the disk (MPI_File_sync), so that a full one or a lost
-/// server is an error, not a file that looks finished; or once the system has them, for files whose readers
-/// can tell whether they are whole.
+/// When a file gets its name. `when_on_disk`: after MPI_File_sync, so that a full disk or a lost server is an
+/// error, not a file that looks complete. `when_written`: once the system has the bytes, for files whose
+/// readers check that they are complete.
 enum class Named : bool { when_on_disk, when_written };
 
-/// Creates PATH.unfinished, and its folder where there is none, has every rank write what it has by `work`,
-/// and gives the file its name when all have succeeded. `work` calls no collectives.
-/// Until then what stood at PATH stays; a link at PATH.unfinished is not followed. Collective; throws
-/// CollectiveError (files) on all ranks and removes the unfinished file where anything fails.
+/// Creates PATH.unfinished, and its folder if missing, and calls `work` on every rank to write it. Renames it
+/// to PATH when all ranks have succeeded; until then an older file at PATH stays. `work` calls no
+/// collectives. A link at PATH.unfinished is not followed. On any failure the unfinished file is removed and
+/// all ranks throw CollectiveError (files). Collective.
 void write_shared_file(const Communicator& communicator, const std::string& path,
                        const std::function<void(SharedFile&)>& work, Named named = Named::when_on_disk);
 

@@ -1,9 +1,9 @@
-/// Results of tasks on disk, for a run that goes on where this one was cut off: whatever was finished need
-/// not be done again, on any number of ranks.
+/// Keeps results of tasks on disk, so that a later run need not repeat the tasks of a run that was cut off.
+/// The numbers of ranks may differ.
 ///
-/// A task is named by the digest of all that its result depends on, so a stage asks for each of its tasks
-/// whether somebody did it before, and otherwise runs as ever. Each rank appends to a file of its own; a
-/// record that a killed run left unfinished, or that has changed since, is not found.
+/// The key of a task is the digest of all data that its result depends on. A stage looks up each of its tasks
+/// and runs those that are not found. Each rank appends to its own file. Incomplete or damaged records are
+/// not found.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -24,24 +24,24 @@ class FileDescriptor;
 class TaskStore {
 public:
   enum class Earlier : bool { forget, find };
-  /// Files FOLDER/NAME.GENERATION.RANK.tasks; the folder is made. What earlier runs left under that name is
-  /// found, or removed. `context` stands for what all tasks depend on and their keys do not hold: version,
-  /// options. Collective; throws CollectiveError.
+  /// Files are FOLDER/NAME.GENERATION.RANK.tasks; the folder is created. Results of earlier runs under this
+  /// name are found, or removed. `context` is the digest of what all tasks depend on besides their keys, such
+  /// as version and options. Collective; throws CollectiveError.
   TaskStore(Communicator communicator, std::string folder, std::string name, const Digest& context,
             Earlier earlier);
   ~TaskStore();
   TaskStore(const TaskStore&) = delete;
   TaskStore& operator=(const TaskStore&) = delete;
 
-  /// The bytes that any rank of an earlier run has kept under the key; none where they are not there or not
-  /// what they were. Not collective.
+  /// The result that a rank of an earlier run has kept under the key; none if it is missing or damaged. Not
+  /// collective.
   std::optional<Bytes> find(const Digest& key);
-  /// Keeps a result. Where that fails, on a full disk, warns once, and keeps nothing from then on. Not
+  /// Keeps a result. On a failure, such as a full disk, warns once and keeps nothing from then on. Not
   /// collective.
   void keep(const Digest& key, std::span<const std::byte> result);
-  /// How often this rank has found what it asked for.
+  /// How many results this rank has found.
   std::int64_t found() const { return _found; }
-  /// Removes all files of this name. Collective; the store is not to be used afterwards.
+  /// Removes all files of this name. The store must not be used afterwards. Collective.
   void remove();
 
 private:

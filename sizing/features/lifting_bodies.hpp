@@ -40,7 +40,7 @@ struct LiftingElement {
 struct LiftingBodies {
   std::vector<LiftingElement> elements;  ///< blunt trailing edges by face, then sharp ones
   double reference_chord = 0;  ///< mean aerodynamic chord of the largest body, integral of c^2 over that of c
-  double semispan = 0;  ///< half the extent of the body along the span; the whole extent of half models
+  double semispan = 0;         ///< half the extent of the model along the span; all of it for one side alone
 };
 
 }  // namespace aeroloom::sizing

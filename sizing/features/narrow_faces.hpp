@@ -30,7 +30,7 @@ double turn_across(const cad::Model& model, cad::FaceId a, cad::FaceId b, cad::E
 std::vector<NarrowFace> find_narrow_faces(const parallel::Communicator& communicator, const cad::Model& model,
                                           double width, double tolerance);
 
-/// Groups of faces for cad::join_faces, of all faces found that can vanish together.
+/// Groups of faces to join. Drops from `narrow` those that would erase a crease or join nothing new.
 std::vector<std::vector<cad::FaceId>> group_narrow_faces(const cad::Model& model,
                                                          std::vector<NarrowFace>& narrow, double tolerance);
 

@@ -65,7 +65,7 @@ public:
   LeafTable() = default;
   /// From all leaves of the root.
   explicit LeafTable(CellSpans leaves);
-  /// Each rank gives the leaves in its own subtrees, and all leaves. Held once on each node. Collective.
+  /// Each rank gives the leaves in its own subtrees, and all leaves. Held once per compute node. Collective.
   LeafTable(const Subtrees& subtrees, CellSpans own, CellSpans all);
 
   /// The index of the leaf that holds the finest cell with this key.

@@ -21,13 +21,12 @@ struct Nose {
 };
 
 /// The nose of the part of a section that is connected to the facets at the origin. Parts count as connected
-/// up to a distance of `gap`, or a two-hundredth of the whole section. Returns nothing if the plane meets no
-/// facet.
+/// up to the larger of `gap` and 0.005 of the section's extent. Returns nothing if the plane meets no facet.
 std::optional<Nose> find_nose(const cad::Model& model, const std::vector<ModelFacet>& skin,
                               const CuttingPlane& plane, double gap);
 
-/// The point of the section that is farthest ahead within `reach` of a guess. Returns nothing if no facet is
-/// so near.
+/// The point of the section within `reach` of a guess that is farthest from the plane's origin. Returns
+/// nothing if no facet is so near.
 std::optional<geometry::Vec3> find_nose_near(const cad::Model& model, const std::vector<ModelFacet>& skin,
                                              const CuttingPlane& plane, geometry::Vec3 guess, double reach);
 

@@ -12,8 +12,8 @@ inline double unwrap(double parameter, double reference, double period) {
   return period > 0 ? parameter - period * std::round((parameter - reference) / period) : parameter;
 }
 
-/// The parameters of the same point nearest to `reference`. If the point lies on another sheet of a joined
-/// face, `reference` itself.
+/// The parameters of the same point nearest to `reference`. If the point lies in the parameter plane of
+/// another part of a joined face (another sheet), `reference` itself.
 inline geometry::Vec2 unwrap(const cad::Model& model, cad::FaceId face, geometry::Vec2 uv,
                              geometry::Vec2 reference) {
   if (model.sheet(face, uv) != model.sheet(face, reference)) return reference;

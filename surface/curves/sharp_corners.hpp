@@ -11,8 +11,8 @@
 
 namespace aeroloom::surface {
 
-/// A corner where two edges of a face meet below 30 degrees, measured at the distance of the local size. In
-/// an apex of two faces below 100 degrees, as the sides of a cone of 50 degrees about its axis.
+/// A corner where two edges of a face meet below 30 degrees, measured at the distance of the local size.
+/// Where two faces end in one apex (a halved cone) the limit is 100 degrees.
 struct SharpCorner {
   cad::FaceId face = cad::no_entity;
   cad::VertexId vertex = cad::no_entity;

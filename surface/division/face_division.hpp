@@ -39,12 +39,12 @@ struct DividedProblem {
 /// Whether a problem with this load is divided.
 bool is_heavy(double load, const SurfaceOptions& options);
 
-/// Divides a heavy problem, or any problem where a divider is given. Cuts lie on the CAD surface, are
-/// straightened, and are discretised once under the field. `group` distinguishes the vertex keys of several
-/// divisions of one face. Group 0 divides a face, possibly into large parts; other groups divide such a part
-/// into pieces. Where no background mesh can be made the problem stays whole. The result depends on the
-/// arguments alone. Not collective. Throws SurfaceError, cad::CadError, or std::runtime_error where METIS
-/// fails or there are too many cuts for their keys.
+/// Divides a problem, by options.divider if there is one. Cuts lie on the CAD surface, are straightened, and
+/// are discretised once under the field. `group` distinguishes the vertex keys of several divisions of one
+/// face. Group 0 divides a face, possibly into large parts; other groups divide such a part into pieces.
+/// Where no background mesh can be made the problem stays whole. The result depends on the arguments alone.
+/// Not collective. Throws SurfaceError, cad::CadError, or std::runtime_error where METIS fails or there are
+/// too many cuts for their keys.
 DividedProblem divide_problem(const cad::Model& model, PieceProblem problem, std::int32_t group,
                               CoarseSizes& sizes, const CutOptions& options);
 

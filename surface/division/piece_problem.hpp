@@ -20,8 +20,8 @@ struct PieceProblem {
 /// to the loops.
 double predict_triangles(const ChartSurface& surface, const sizing::SizeField& field);
 
-/// Number of triangles for bounds on work: the integral alone, over parts of facets of a few sizes. So small
-/// regions with small sizes count in full.
+/// Number of triangles for bounds on work: the integral alone; long facets are first cut to a few local
+/// sizes. So small regions with small sizes count in full.
 double integrate_triangles(const ChartSurface& surface, const sizing::SizeField& field);
 
 }  // namespace aeroloom::surface

@@ -42,7 +42,7 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
     const mesh::Rendezvous meeting(communicator, sent, &WireFace::vertices, &WireFace::zone);
     const auto unmatched = meeting.answer<std::int32_t>([](const auto& group, const auto& reply) {
       if (group.size() == 2 && are_partners(group[0].item, group[1].item)) return;
-      for (const auto& guest : group) reply(guest, guest.item.index / 2);
+      for (const auto& received : group) reply(received, received.item.index / 2);
     });
     for (const std::int32_t face : unmatched) mine.push_back(faces[face]);
   }

@@ -1,4 +1,4 @@
-/// Checks that the tetrahedra of zones fit together. For remedies where they do not see retry_policy.hpp.
+/// Checks that the tetrahedra of zones fit together. Remedies: retry_policy.hpp.
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
@@ -16,7 +16,7 @@ std::vector<ZoneFace> find_unmatched(const parallel::Communicator& communicator,
 
 /// A place where zones disagree: faces without partner, connected over vertices.
 struct DisputedPlace {
-  std::vector<LeafNumber> leaves;  ///< of the vertices, ascending; empty if TetGen added all of them
+  std::vector<LeafNumber> leaves;  ///< octree leaves of its vertices, ascending; TetGen's own have none
   std::vector<ZoneIndex> zones;    ///< with faces there, ascending
   std::int32_t faces = 0;
 };

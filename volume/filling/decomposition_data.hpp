@@ -13,7 +13,7 @@ namespace aeroloom::volume {
 struct Decomposition::Data {
   std::unique_ptr<const Lattice> lattice;
   Shell shell;    ///< refers to the lattice
-  ZonePlan plan;  ///< of the first filling, for all zones
+  ZonePlan plan;  ///< before any retry, for all zones
   DecompositionReport report;
 };
 

@@ -31,8 +31,8 @@ struct ZoneProblem {
   std::vector<LocalTriangle> triangles;         ///< at least all with a vertex that is `mine`
   std::vector<mesh::RegionId> inside, outside;  ///< per triangle: its normal points from inside to outside
   std::vector<mesh::RegionId> regions;          ///< of the lattice points
-  /// Border triangles between core and shell at points that are `mine`, and near them. They are
-  /// counter-clockwise if seen from the core. TetGen does not get them: they are looked up in its mesh.
+  /// Border triangles between the core, filled by template, and the shell, filled by TetGen: at points that
+  /// are `mine`, and near them. Counter-clockwise seen from the core. They are looked up in TetGen's mesh.
   std::vector<LocalTriangle> borders;
   std::vector<mesh::RegionId> border_regions;
   std::size_t surface_points() const { return points.size() - regions.size(); }
@@ -57,7 +57,7 @@ struct OwnedCells {
   std::vector<std::int32_t> missing_borders;
 };
 
-/// Selects the owned cells. A cell with a lattice vertex off the border lies in the region of this vertex.
+/// Selects the owned cells. A cell with a lattice vertex that is `mine`, off the border, lies in its region.
 /// For others, the star of a vertex of the zone is searched without crossing surface or border. The search
 /// ends at such a lattice vertex or at a triangle. It stays in the star, because the zone may lack triangles
 /// farther away. A point that TetGen added belongs to the lowest zone in its star; `points` has such points

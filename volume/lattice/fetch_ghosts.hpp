@@ -52,8 +52,8 @@ struct GhostBlock {
 
 /// All blocks that touch blocks of this rank or contain corners of its triangles. Collective.
 std::vector<GhostBlock> fetch_ghosts(const Lattice& lattice);
-/// For each block of this rank, one far finer block on the surface, if there is any (see
-/// finer_search_radii). Collective.
+/// From each rank within finer_search_radii() of an own block: a surface block four or more levels finer, if
+/// any. Collective.
 std::vector<GhostBlock> fetch_finer_ghosts(const Lattice& lattice);
 
 }  // namespace aeroloom::volume

@@ -29,7 +29,7 @@ GridBox grid_box(const LatticeFrame& frame, const std::array<geometry::Vec3, 3>&
 
 /// The triangles that meet each block. The first array is by block index, the others by own block.
 struct SurfaceTable {
-  std::vector<float> longest_edge;      ///< of the triangles that meet the block; 0: none, or placeholder
+  std::vector<float> longest_edge;  ///< of the triangles that meet the block; 0: none, or not a local block
   std::vector<std::int32_t> triangles;  ///< number of triangles with their centre in the block
   std::vector<float> nearest;  ///< distance from the block's centre to the nearest triangle, rounded up
 

@@ -58,8 +58,8 @@ std::vector<TriangleSide> sides_of(const mesh::NumberedMesh& surface, const Show
 const TriangleSide& side_of(const TriangleSide& side) {
   return side;
 }
-const TriangleSide& side_of(const mesh::Guest<TriangleSide>& guest) {
-  return guest.item;
+const TriangleSide& side_of(const mesh::Received<TriangleSide>& received) {
+  return received.item;
 }
 
 /// Calls visit(member, fold) for each side of an edge that others have too.
@@ -109,9 +109,10 @@ EdgeNeighbours find_edge_neighbours(const mesh::NumberedMesh& surface, const Sho
   });
   const mesh::Rendezvous meeting(communicator, travelling, &TriangleSide::ends, place_of);
   const auto answers = meeting.answer<Answer>([](const auto& run, const auto& reply) {
-    for_each_neighbour(run, [&](const mesh::Guest<TriangleSide>& guest, const EdgeNeighbour& neighbour) {
-      reply(guest, {guest.item.place, guest.item.item, neighbour});
-    });
+    for_each_neighbour(run,
+                       [&](const mesh::Received<TriangleSide>& received, const EdgeNeighbour& neighbour) {
+                         reply(received, {received.item.place, received.item.item, neighbour});
+                       });
   });
   for (const Answer& answer : answers) neighbours[answer.place][answer.item] = answer.neighbour;
   return neighbours;

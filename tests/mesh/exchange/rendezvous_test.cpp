@@ -93,7 +93,7 @@ TEST(Rendezvous, AnswersThoseWhoCame) {
 TEST(Rendezvous, MayBeOfNobody) {
   const Communicator world = Communicator::world();
   const Rendezvous meeting(world, std::vector<Side>{}, &Side::corners, place_of);
-  EXPECT_TRUE(meeting.met().empty());
+  EXPECT_TRUE(meeting.received().empty());
   const auto answers = meeting.answer<int>([](const auto&, const auto&) { FAIL() << "nobody came"; });
   EXPECT_TRUE(answers.empty());
 }
