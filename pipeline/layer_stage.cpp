@@ -33,38 +33,37 @@ std::vector<double> mean_edges(const mesh::Piece& piece) {
   return sum;
 }
 
-/// The places of the front where layers end: a function of the wall and its columns, for planes that were
-/// meshed again are other pieces in the front.
-struct FrontEnd {
+/// The places of the cap where layers end: a function of the wall and its columns, for planes that were
+/// meshed again are other pieces in the cap.
+struct ColumnEnd {
   Vec3 at;
-  double edge;  ///< mean length at the vertex of the front
+  double edge;  ///< mean length at the vertex of the cap
 };
 
-std::vector<FrontEnd> ends_of_columns(const mesh::Piece& wall, const layers::PieceColumns& columns) {
+std::vector<ColumnEnd> ends_of_columns(const mesh::Piece& wall, const layers::PieceColumns& columns) {
   mesh::Piece moved = wall;
   for (LocalIndex v = 0; v < moved.vertex_count(); ++v)
     moved.set_point(v, layers::node(wall, columns, v, columns.counts[v]));
   const std::vector<double> edges = mean_edges(moved);
-  std::vector<FrontEnd> ends;
+  std::vector<ColumnEnd> ends;
   for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
     if (columns.counts[v] > 0) ends.push_back({moved.point(v), edges[v]});
   }
   return ends;
 }
 
-/// What the front of this rank's pieces asks of the sizes: its own edges, where the field is well above them.
+/// What the cap of this rank's pieces asks of the sizes: its own edges, where the field is well above them.
 /// Sources are thinned as if they asked for twice their size, each piece by itself, for pieces do not depend
 /// on ranks: in between the field grows by less than what counts as well above.
-std::vector<sizing::SizeSource> sizes_of_front(const mesh::DistributedMesh& wall,
-                                               const layers::Columns& columns,
-                                               const sizing::SizeField& field) {
+std::vector<sizing::SizeSource> sizes_of_cap(const mesh::DistributedMesh& wall,
+                                             const layers::Columns& columns, const sizing::SizeField& field) {
   constexpr double well_above = 1.3, thinning = 2;
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
   const sizing::RootCube root(field.domain());
   std::vector<sizing::SizeSource> all;
   for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
     std::vector<sizing::SizeSource> sources;
-    for (const FrontEnd& end : ends_of_columns(wall.pieces[p], columns.pieces[p])) {
+    for (const ColumnEnd& end : ends_of_columns(wall.pieces[p], columns.pieces[p])) {
       if (field(end.at) > well_above * end.edge) sources.push_back({end.at, thinning * end.edge});
     }
     for (const sizing::SizeSource& source : sizing::thin_sources(root, sources))
@@ -86,7 +85,7 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 
 }  // namespace
 
-LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) {
+LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   surface.patch_types = surface.types;
   const layers::LayerOptions options =
       cases::layer_options(input.layers, input.sizing, surface.patches, surface.types);
@@ -94,13 +93,13 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) 
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
       mesh::split_pieces(surface, layers::wall_piece_triangles, planes.faces);
-  const auto remesh = [&](mesh::DistributedMesh& front) {
-    surface::PlaneConflicts conflicts = surface::remesh_planes(surface.model, surface.field, planes, front);
+  const auto remesh = [&](mesh::DistributedMesh& cap) {
+    surface::PlaneConflicts conflicts = surface::remesh_planes(surface.model, surface.field, planes, cap);
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
   log_layers(made.report);
-  const std::vector<sizing::SizeSource> sizes = sizes_of_front(surface, made.columns, surface.field);
+  const std::vector<sizing::SizeSource> sizes = sizes_of_cap(surface, made.columns, surface.field);
   sizing::SizeField field = surface.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)
                                 : surface.field;
@@ -109,11 +108,11 @@ LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface) 
           {options, std::move(made.report)}};
 }
 
-void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayersAndCap& layered,
                    mesh::DistributedMesh& volume) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-  layers::append_layers(surface, layered.columns, layered.front,
+  layers::append_layers(surface, layered.columns, layered.cap,
                         {input.volume.piece_tets.value_or(most_cells), input.layers.elements}, volume);
 }
 

@@ -9,18 +9,18 @@
 namespace aeroloom::pipeline {
 
 /// The layers on a surface, and the layer cap with its sizes, from which the volume starts.
-struct LayeredSurface {
+struct LayersAndCap {
   layers::Columns columns;
-  sizing::SizedSurface front;
+  sizing::SizedSurface cap;
   report::LayerRecord record;
 };
 
 /// Builds layers on the walls of the surface. Planes where layers end are meshed again. Collective. Throws
 /// std::invalid_argument for layers on a patch that does not exist.
-LayeredSurface build_layers(const cases::Case& input, FinishedSurface& surface);
+LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface);
 
 /// Adds the cells of the layers to the volume. Collective.
-void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayeredSurface& layered,
+void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayersAndCap& layered,
                    mesh::DistributedMesh& volume);
 
 }  // namespace aeroloom::pipeline

@@ -70,12 +70,12 @@ public:
     std::optional<report::LayerRecord> layers;
     VolumeProduct volume = report::with_pictures_of_failure(pictured, _input.output, _record.pictures, [&] {
       VolumeStages stages(_input, *_checkpoints);
-      std::optional<LayeredSurface> layered;
+      std::optional<LayersAndCap> layered;
       if (_input.layers.given) {
         layered = stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface); });
         _record.layers = layers = layered->record;
       }
-      const sizing::SizedSurface& boundary = layered ? layered->front : surface;
+      const sizing::SizedSurface& boundary = layered ? layered->cap : surface;
       VolumeStart start =
           stage("decompose", ExitCode::volume, [&] { return decompose(stages, boundary, surface); });
       VolumeProduct filled =

@@ -12,7 +12,7 @@
 namespace aeroloom::domain {
 namespace {
 
-constexpr std::size_t shown_strips = 5;  // in a line of the log; the report has all
+constexpr std::size_t shown_regions = 5;  // in a line of the log; the report has all
 /// Triangles that are longer than wide by less have angles above the 28 degrees that improvement aims at.
 constexpr double least_listed_aspect = 1.9;
 
@@ -23,16 +23,16 @@ FeatureReport report_features(const sizing::SampledModel& sampled,
   FeatureReport report{resolution, tetrahedra, {}};
   if (!resolution.limited || resolution.aspect < least_listed_aspect) return report;
   const double widest = resolution.minimum / least_listed_aspect;
-  for (const sizing::NarrowRegion& strip :
+  for (const sizing::NarrowRegion& region :
        sizing::narrow_regions_below(sampled, widest, resolution.minimum)) {
-    report.strips.push_back({sampled.model().face(strip.face).name, strip.width, strip.place,
-                             std::atan(1 / resolution.aspect_at(strip.width)) * 180 / std::numbers::pi});
+    report.regions.push_back({sampled.model().face(region.face).name, region.width, region.place,
+                              std::atan(1 / resolution.aspect_at(region.width)) * 180 / std::numbers::pi});
   }
   return report;
 }
 
 double FeatureReport::wanted_tetrahedra() const {
-  if (strips.empty()) return tetrahedra;
+  if (regions.empty()) return tetrahedra;
   return tetrahedra * resolution.gap_ratio * resolution.resolved_ratio / resolution.ratio;
 }
 
@@ -46,7 +46,7 @@ std::string describe_added(const FeatureReport& report) {
 }
 
 std::string describe(const FeatureReport& report) {
-  if (report.strips.empty()) return {};
+  if (report.regions.empty()) return {};
   const std::string longer = report.resolution.aspect == sizing::no_aspect
                                  ? fmt::format("{:.3g} long", report.resolution.minimum)
                                  : fmt::format("{:.2g} times as long as wide", report.resolution.aspect);
@@ -54,14 +54,14 @@ std::string describe(const FeatureReport& report) {
       "{} face(s) have narrow regions that {:.3g} tetrahedra do not resolve: triangles along them are {}; "
       "resolved, "
       "they would take about {:.2g}:",
-      report.strips.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
-  for (std::size_t i = 0; i < std::min(shown_strips, report.strips.size()); ++i) {
-    const UnresolvedStrip& strip = report.strips[i];
-    text += fmt::format(" '{}' is {:.3g} wide at {}, angles from about {:.2g} degrees;", strip.face,
-                        strip.width, geometry::place_text(strip.place), strip.surface_degrees);
+      report.regions.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
+  for (std::size_t i = 0; i < std::min(shown_regions, report.regions.size()); ++i) {
+    const UnresolvedRegion& region = report.regions[i];
+    text += fmt::format(" '{}' is {:.3g} wide at {}, angles from about {:.2g} degrees;", region.face,
+                        region.width, geometry::place_text(region.place), region.surface_degrees);
   }
-  if (report.strips.size() > shown_strips)
-    text += fmt::format(" and {} more;", report.strips.size() - shown_strips);
+  if (report.regions.size() > shown_regions)
+    text += fmt::format(" and {} more;", report.regions.size() - shown_regions);
   return text +
          " remedies: geometry.trailing_edges: sharpen, where they are blunt trailing edges; a larger "
          "sizing.feature_budget; a larger sizing.target_tetrahedra; or edges that are sharp, or thicker, in "

@@ -14,7 +14,7 @@ class SampledModel;
 namespace aeroloom::domain {
 
 /// A narrow region of a face where elements are longer than the region is wide.
-struct UnresolvedStrip {
+struct UnresolvedRegion {
   std::string face;
   double width;            ///< smallest, in the model's unit
   geometry::Vec3 place;    ///< of the smallest width
@@ -24,8 +24,8 @@ struct UnresolvedStrip {
 /// Features finer than the smallest size and their resolution, if sizes were chosen from the model.
 struct FeatureReport {
   sizing::FeatureResolution resolution;
-  double tetrahedra = 0;                ///< predicted total
-  std::vector<UnresolvedStrip> strips;  ///< narrowest first; empty if all are resolved
+  double tetrahedra = 0;                  ///< predicted total
+  std::vector<UnresolvedRegion> regions;  ///< narrowest first; empty if all are resolved
   /// Approximate prediction with all narrow regions resolved.
   double wanted_tetrahedra() const;
 };

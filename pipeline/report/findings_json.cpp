@@ -36,17 +36,17 @@ nlohmann::ordered_json to_json(const domain::TrailingEdgeReport& report) {
 }
 
 nlohmann::ordered_json to_json(const domain::FeatureReport& report) {
-  auto strips = nlohmann::ordered_json::array();
-  for (const domain::UnresolvedStrip& strip : report.strips) {
-    strips.push_back({{"face", strip.face},
-                      {"width", strip.width},
-                      {"at", to_json(strip.place)},
-                      {"surface_degrees", strip.surface_degrees}});
+  auto regions = nlohmann::ordered_json::array();
+  for (const domain::UnresolvedRegion& region : report.regions) {
+    regions.push_back({{"face", region.face},
+                       {"width", region.width},
+                       {"at", to_json(region.place)},
+                       {"surface_degrees", region.surface_degrees}});
   }
   const bool nothing = report.resolution.aspect == sizing::no_aspect;
   double smallest = nothing ? report.resolution.minimum : report.resolution.floor;
-  if (!strips.empty()) {
-    const double width = report.strips.front().width;
+  if (!regions.empty()) {
+    const double width = report.regions.front().width;
     smallest = width * report.resolution.aspect_at(width);
   }
   return {{"aspect", nothing ? nlohmann::ordered_json() : nlohmann::ordered_json(report.resolution.aspect)},
@@ -56,7 +56,7 @@ nlohmann::ordered_json to_json(const domain::FeatureReport& report) {
           {"gap_share", report.resolution.gap_ratio},
           {"predicted_tetrahedra", report.tetrahedra},
           {"wanted_tetrahedra", report.wanted_tetrahedra()},
-          {"unresolved", std::move(strips)}};
+          {"unresolved", std::move(regions)}};
 }
 
 nlohmann::ordered_json to_json(const domain::WallFindings& walls) {

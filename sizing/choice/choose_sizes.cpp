@@ -73,14 +73,14 @@ std::int64_t leaves_for(double tetrahedra) {
 }
 
 /// How much larger sizes are than those wanted in fields that only show the way.
-double coarsening(double target_tetrahedra) {
+double coarsening_for(double target_tetrahedra) {
   return target_tetrahedra < few_tetrahedra ? 1 : usual_coarsening;
 }
 
 /// How many tetrahedra a field predicts over what a coarser one does.
-double usual_bias(double coarser) {
+double usual_bias(double coarsening) {
   constexpr double median_of_seven_models = 0.55;  // with sizes four times as large
-  return coarser > 1 ? median_of_seven_models : 1;
+  return coarsening > 1 ? median_of_seven_models : 1;
 }
 
 struct Preset {
@@ -111,15 +111,15 @@ double first_size(const FieldFactory& factory) {
   return largest_extent(factory.sampled().body_box()) / body_over_first;
 }
 
-/// Searches the size on the body, by fields whose sizes are `coarser` times as large, where features bring
+/// Searches the size on the body, by fields whose sizes are `coarsening` times as large, where features bring
 /// `features.ratio` times the elements that there would be without them.
 class Search {
 public:
-  Search(FieldFactory& factory, double target_tetrahedra, double coarser, const FeatureResolution& features,
-         const GivenSizes& given)
+  Search(FieldFactory& factory, double target_tetrahedra, double coarsening,
+         const FeatureResolution& features, const GivenSizes& given)
       : _factory(factory),
         _given(given),
-        _coarser(coarser),
+        _coarsening(coarsening),
         _features(features),
         _target(std::log(target_tetrahedra)),
         _most_leaves(leaves_for(target_tetrahedra * features.ratio)) {}
@@ -176,19 +176,19 @@ private:
     set_features(options, _features);
     std::optional<Trial> trial;
     std::optional<double> tetrahedra;
-    const double most_parts = parts_per_leaf * static_cast<double>(_most_leaves) * _coarser * _coarser;
+    const double most_parts = parts_per_leaf * static_cast<double>(_most_leaves) * _coarsening * _coarsening;
     if (!_factory.has_more_parts(options, most_parts)) {
-      if (_coarser == 1) trial = _factory.try_sizes(options, _most_leaves);
+      if (_coarsening == 1) trial = _factory.try_sizes(options, _most_leaves);
       if (trial) tetrahedra = trial->tetrahedra;
-      if (_coarser > 1) tetrahedra = _factory.estimate_tetrahedra(options, _coarser, _most_leaves);
+      if (_coarsening > 1) tetrahedra = _factory.estimate_tetrahedra(options, _coarsening, _most_leaves);
     }
     if (!tetrahedra) {
       parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", body_size));
       return 1e300;
     }
-    const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarser);
+    const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarsening);
     parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra", body_size,
-                                      _coarser > 1 ? "about " : "", count));
+                                      _coarsening > 1 ? "about " : "", count));
     const double error = std::log(count / _features.ratio) - _target;
     if (std::abs(error) < std::abs(_error)) {
       _error = error;
@@ -201,7 +201,7 @@ private:
 
   FieldFactory& _factory;
   const GivenSizes& _given;
-  double _coarser;
+  double _coarsening;
   FeatureResolution _features;
   double _target;
   std::int64_t _most_leaves;
@@ -220,7 +220,7 @@ void check_target(double target_tetrahedra) {
 
 SizingOptions estimate_sizes(FieldFactory& factory, double target_tetrahedra, const GivenSizes& given) {
   check_target(target_tetrahedra);
-  Search search(factory, target_tetrahedra, coarsening(target_tetrahedra), {}, given);
+  Search search(factory, target_tetrahedra, coarsening_for(target_tetrahedra), {}, given);
   search.run(first_size(factory), good_enough_to_start, most_rounds);
   return search.options();
 }
@@ -234,14 +234,14 @@ SizingOptions PreliminarySizes::with_features() const {
 PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                                    const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
-  const double coarser = coarsening(target_tetrahedra);
-  Search base(factory, target_tetrahedra, coarser, {}, given);
+  const double coarsening = coarsening_for(target_tetrahedra);
+  Search base(factory, target_tetrahedra, coarsening, {}, given);
   const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(factory);
   base.run(start, near ? near_enough : close_enough, most_rounds);
   PreliminarySizes preliminary{
       base.options(), base.body_size(), base.is_out_of_reach(), base.is_infeasible(), {}};
   if (!given.holds_features()) {
-    preliminary.features = choose_feature_resolution(factory, base.options(), feature_budget, coarser,
+    preliminary.features = choose_feature_resolution(factory, base.options(), feature_budget, coarsening,
                                                      leaves_for(target_tetrahedra * feature_budget));
   }
   return preliminary;
@@ -299,14 +299,14 @@ std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& 
                    [&](const auto& each) { return (given.*each.second).has_value(); }))
     return {};
   const Preset preset = Preset::of(factory.model());
-  const double coarser = coarsening(chosen.counts.tetrahedra);
+  const double coarsening = coarsening_for(chosen.counts.tetrahedra);
   const auto count = [&](const GivenSizes& these) {
     const auto most =
         std::min(leaves_for(std::max(chosen.counts.tetrahedra, least_told)), most_coarse_leaves);
-    const double most_parts = parts_per_leaf * static_cast<double>(most) * coarser * coarser;
+    const double most_parts = parts_per_leaf * static_cast<double>(most) * coarsening * coarsening;
     if (factory.has_more_parts(sizes_for(chosen.body_size, preset, these), most_parts))
       return std::optional<double>();
-    return factory.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarser, most);
+    return factory.estimate_tetrahedra(sizes_for(chosen.body_size, preset, these), coarsening, most);
   };
   const std::optional<double> all = count(given);
   const auto over = [&](const std::optional<double>& without) {

@@ -118,11 +118,11 @@ private:
 /// Predicts tetrahedra, and tells of it.
 class Counter {
 public:
-  Counter(FieldFactory& factory, double coarser, std::int64_t most_leaves)
-      : _factory(factory), _coarser(coarser), _most_leaves(most_leaves) {}
+  Counter(FieldFactory& factory, double coarsening, std::int64_t most_leaves)
+      : _factory(factory), _coarsening(coarsening), _most_leaves(most_leaves) {}
 
   std::optional<double> operator()(const SizingOptions& options, const char* what, double value) const {
-    const std::optional<double> tetrahedra = _factory.estimate_tetrahedra(options, _coarser, _most_leaves);
+    const std::optional<double> tetrahedra = _factory.estimate_tetrahedra(options, _coarsening, _most_leaves);
     parallel::log_verbose(tetrahedra
                               ? fmt::format("sizing: {} {:.3g}: {:.3g} tetrahedra", what, value, *tetrahedra)
                               : fmt::format("sizing: {} {:.3g}: far too many", what, value));
@@ -132,7 +132,7 @@ public:
 
 private:
   FieldFactory& _factory;
-  double _coarser;
+  double _coarsening;
   std::int64_t _most_leaves;
 };
 
@@ -211,7 +211,7 @@ void set_features(SizingOptions& options, const FeatureResolution& features) {
 }
 
 FeatureResolution choose_feature_resolution(FieldFactory& factory, const SizingOptions& options,
-                                            double budget, double coarser, std::int64_t most_leaves) {
+                                            double budget, double coarsening, std::int64_t most_leaves) {
   if (!(budget >= 1)) {
     throw std::invalid_argument(
         fmt::format("sizing: feature_budget must be at least 1, but it is {}", budget));
@@ -223,8 +223,8 @@ FeatureResolution choose_feature_resolution(FieldFactory& factory, const SizingO
   // A field that is so many times coarser has the cube of it fewer leaves where it is a volume's, and more
   // where narrow regions rule. Chosen, not measured.
   constexpr double slack = 4;
-  const double leaves = std::min(1.0, slack / std::pow(coarser, 3)) * static_cast<double>(most_leaves);
-  const Counter count(factory, coarser, std::llround(leaves));
+  const double leaves = std::min(1.0, slack / std::pow(coarsening, 3)) * static_cast<double>(most_leaves);
+  const Counter count(factory, coarsening, std::llround(leaves));
   if (found.floor == options.minimum) return found;
   const std::optional<double> base = resolve_narrow_regions(factory, options, budget, count, found);
   if (!base || factory.gaps().narrowest_gap() >= options.minimum) return found;

@@ -47,9 +47,10 @@ void set_features(SizingOptions& options, const FeatureResolution& features);
 /// First chooses the smallest aspect that fits the budget. Spends the rest of the budget on smaller sizes in
 /// gaps. `options` must not allow features below the minimum. Values are tried on logarithmic scales, so a
 /// larger budget never makes anything coarser. No size is finer than a thousandth of the minimum. Counts come
-/// from fields whose sizes are `coarser` times as large. A field with clearly more leaves than `most_leaves`
-/// counts as beyond any budget. Collective. Throws std::invalid_argument for a budget below one.
+/// from fields whose sizes are `coarsening` times as large. A field with clearly more leaves than
+/// `most_leaves` counts as beyond any budget. Collective. Throws std::invalid_argument for a budget below
+/// one.
 FeatureResolution choose_feature_resolution(FieldFactory& factory, const SizingOptions& options,
-                                            double budget, double coarser, std::int64_t most_leaves);
+                                            double budget, double coarsening, std::int64_t most_leaves);
 
 }  // namespace aeroloom::sizing

@@ -81,7 +81,7 @@ void FieldFactory::request_lines(std::vector<SizeLine> lines) {
   _estimates.clear();
 }
 
-std::vector<SizeSource> FieldFactory::sample_own(const SizingOptions& given, double coarser) {
+std::vector<SizeSource> FieldFactory::sample_own(const SizingOptions& given, double coarsening) {
   std::vector<SizeSource> mine;
   const auto keep = [&](const std::vector<SizeSource>& more) {
     mine.insert(mine.end(), more.begin(), more.end());
@@ -91,7 +91,7 @@ std::vector<SizeSource> FieldFactory::sample_own(const SizingOptions& given, dou
     const SizingOptions options = _requests.options_on(_sampled, face.id, given);
     FaceSamples once(model().is_planar(face.id));
     std::vector<SizeSource> sources =
-        samples_of(face.id, once).sources(model(), face.id, face.facets, far_field, options, coarser);
+        samples_of(face.id, once).sources(model(), face.id, face.facets, far_field, options, coarsening);
     const std::vector<SizeSource> narrow =
         narrow_sources(model(), face.facets, face.closed_corners, options, largest_size(far_field, options));
     sources.insert(sources.end(), narrow.begin(), narrow.end());
@@ -137,16 +137,16 @@ std::vector<SizeSource> FieldFactory::sample_corners(std::span<const SizeSource>
   return mine;
 }
 
-std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, double coarser) {
+std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, double coarsening) {
   check_options(options);
   require_possible(options);
   std::vector<SizeSource> mine;
   parallel::collectively(_sampled.communicator(), ScopedCpu::As::task,
-                         [&] { mine = sample_own(options, coarser); });
+                         [&] { mine = sample_own(options, coarsening); });
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
-  for (SizeSource& source : mine) source.size *= coarser;
-  const std::vector<SizeSource> requested = _requests.sample(_sampled, options, coarser);
+  for (SizeSource& source : mine) source.size *= coarsening;
+  const std::vector<SizeSource> requested = _requests.sample(_sampled, options, coarsening);
   mine.insert(mine.end(), requested.begin(), requested.end());
   return mine;
 }
@@ -164,18 +164,18 @@ SizeField FieldFactory::build_field(const SizingOptions& options) {
   return FieldBuilder(_sampled.communicator(), model().bounds(), options).build(sample(options, 1));
 }
 
-std::optional<SizeField> FieldFactory::build_coarser(const SizingOptions& options, double coarser,
+std::optional<SizeField> FieldFactory::build_coarser(const SizingOptions& options, double coarsening,
                                                      std::int64_t most_leaves) {
-  if (_requests.ask_for_more_cells(_sampled, options, coarser,
+  if (_requests.ask_for_more_cells(_sampled, options, coarsening,
                                    most_cells_per_leaf * static_cast<double>(most_leaves)))
     return std::nullopt;
   SizingOptions coarse = options;
   for (double* size : {&coarse.minimum, &coarse.feature_minimum, &coarse.narrow_minimum, &coarse.gap_minimum,
                        &coarse.surface_maximum, &coarse.maximum})
-    *size *= coarser;
-  if (coarser > 1) coarse.growth = std::min(std::pow(options.growth, coarser), largest_growth);
+    *size *= coarsening;
+  if (coarsening > 1) coarse.growth = std::min(std::pow(options.growth, coarsening), largest_growth);
   return FieldBuilder(_sampled.communicator(), model().bounds(), coarse)
-      .build_within(sample(options, coarser), most_leaves);
+      .build_within(sample(options, coarsening), most_leaves);
 }
 
 std::optional<Trial> FieldFactory::try_sizes(const SizingOptions& options, std::int64_t most_leaves) {
@@ -185,17 +185,17 @@ std::optional<Trial> FieldFactory::try_sizes(const SizingOptions& options, std::
   return Trial{std::move(*field), tetrahedra};
 }
 
-std::optional<double> FieldFactory::estimate_tetrahedra(const SizingOptions& options, double coarser,
+std::optional<double> FieldFactory::estimate_tetrahedra(const SizingOptions& options, double coarsening,
                                                         std::int64_t most_leaves) {
   const auto known = std::find_if(_estimates.begin(), _estimates.end(), [&](const Estimate& each) {
-    return each.coarser == coarser && are_same_sizes(each.options, options);
+    return each.coarsening == coarsening && are_same_sizes(each.options, options);
   });
   if (known != _estimates.end())
     return known->leaves > most_leaves ? std::nullopt : std::optional(known->tetrahedra);
-  const std::optional<SizeField> field = build_coarser(options, coarser, most_leaves);
+  const std::optional<SizeField> field = build_coarser(options, coarsening, most_leaves);
   if (!field) return std::nullopt;
-  const double tetrahedra = std::pow(coarser, 3) * count_tetrahedra(_sampled, *field);
-  _estimates.push_back({options, coarser, field->leaf_count(), tetrahedra});
+  const double tetrahedra = std::pow(coarsening, 3) * count_tetrahedra(_sampled, *field);
+  _estimates.push_back({options, coarsening, field->leaf_count(), tetrahedra});
   return tetrahedra;
 }
 

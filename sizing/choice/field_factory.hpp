@@ -68,10 +68,10 @@ public:
   std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves);
   /// A field with larger sizes: of at most 300,000 leaves, or with sizes 4096 times as large. Collective.
   CoarseField build_coarse_field(const SizingOptions& options);
-  /// The tetrahedra that try_sizes() would predict, about, by a field whose sizes are `coarser` times as
+  /// The tetrahedra that try_sizes() would predict, about, by a field whose sizes are `coarsening` times as
   /// large. With 1 the number is exact. Returns nothing if that field clearly has more than `most_leaves`
   /// leaves. Numbers are kept for equal sizes. Collective.
-  std::optional<double> estimate_tetrahedra(const SizingOptions& options, double coarser,
+  std::optional<double> estimate_tetrahedra(const SizingOptions& options, double coarsening,
                                             std::int64_t most_leaves);
 
   /// The faces where the smallest size wins: elements turn more, or leave the surface by more, than asked
@@ -86,12 +86,12 @@ private:
   /// A result of estimate_tetrahedra().
   struct Estimate {
     SizingOptions options;
-    double coarser;
+    double coarsening;
     std::int64_t leaves;
     double tetrahedra;
   };
-  /// A field whose sizes are `coarser` times as large as those of the options.
-  std::optional<SizeField> build_coarser(const SizingOptions& options, double coarser,
+  /// A field whose sizes are `coarsening` times as large as those of the options.
+  std::optional<SizeField> build_coarser(const SizingOptions& options, double coarsening,
                                          std::int64_t most_leaves);
   /// The kept samples of a face; `once` where only one field is built.
   FaceSamples& samples_of(cad::FaceId face, FaceSamples& once);
@@ -101,10 +101,10 @@ private:
   /// What sizes do to each face of this rank, by curvature.
   std::vector<std::pair<cad::FaceId, FaceSamples::Overview>> look_over(const SizingOptions& options);
   /// The sources on the faces and edges of this rank.
-  std::vector<SizeSource> sample_own(const SizingOptions& options, double coarser);
-  /// The sources on the faces, edges and corners of this rank, and of the requests. All sizes are `coarser`
-  /// times as large. Collective, as what follows.
-  std::vector<SizeSource> sample(const SizingOptions& options, double coarser);
+  std::vector<SizeSource> sample_own(const SizingOptions& options, double coarsening);
+  /// The sources on the faces, edges and corners of this rank, and of the requests. All sizes are
+  /// `coarsening` times as large. Collective, as what follows.
+  std::vector<SizeSource> sample(const SizingOptions& options, double coarsening);
   /// The sources behind sharp corners. The sources of all ranks tell the size at each corner.
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> own, const SizingOptions& options) const;
   /// The sizes that the sources of all ranks give at points, which are the same on each rank.

@@ -83,23 +83,23 @@ SizingOptions RequestSampler::options_on(const SampledModel& sampled, cad::FaceI
   return here;
 }
 
-std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampled, double coarser) const {
+std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampled, double coarsening) const {
   const parallel::Communicator& communicator = sampled.communicator();
   double cells = 0;
   const SizeRegion* largest = nullptr;
   double most = 0;
   for (const SizeRegion& region : _requests.regions) {
-    const double of_region = cells_in(sampled.root(), region, coarser * region.size);
+    const double of_region = cells_in(sampled.root(), region, coarsening * region.size);
     cells += of_region;
     if (of_region > most) most = of_region, largest = &region;
   }
-  for (const SizeLine& line : _requests.lines) cells += points_along(line, coarser);
+  for (const SizeLine& line : _requests.lines) cells += points_along(line, coarsening);
   const double room = static_cast<double>(parallel::node_memory_bytes()) / bytes_per_region_cell;
   if (communicator.maximum(static_cast<std::int64_t>(cells / communicator.size() > room)) != 0) {
     if (largest == nullptr)
       throw std::invalid_argument(fmt::format(
           "sizing.level: sizes along edges and wakes take about {:.2g} elements, more than this machine can "
-          "hold. Remedy: a coarser level",
+          "hold. Remedy: a coarsening level",
           cells));
     throw std::invalid_argument(fmt::format(
         "sizing.sources.{}: elements of {:.3g} there are about {:.2g}, more than this machine can "
@@ -109,13 +109,14 @@ std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampl
   std::vector<SizeSource> mine;
   parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
     for (const SizeRegion& region : _requests.regions) {
-      const auto more =
-          sources_in(sampled.root(), region, coarser * region.size, communicator.rank(), communicator.size());
+      const auto more = sources_in(sampled.root(), region, coarsening * region.size, communicator.rank(),
+                                   communicator.size());
       mine.insert(mine.end(), more.begin(), more.end());
     }
     const auto lines = static_cast<int>(_requests.lines.size());
     for (int i = communicator.rank(); i < lines; i += communicator.size()) {
-      const auto more = sources_along(sampled.root(), _requests.lines[static_cast<std::size_t>(i)], coarser);
+      const auto more =
+          sources_along(sampled.root(), _requests.lines[static_cast<std::size_t>(i)], coarsening);
       mine.insert(mine.end(), more.begin(), more.end());
     }
   });
@@ -161,7 +162,7 @@ void RequestSampler::lay_surfaces(const SampledModel& sampled) {
 }
 
 std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled,
-                                                     const SizingOptions& options, double coarser,
+                                                     const SizingOptions& options, double coarsening,
                                                      double most) const {
   std::vector<SizeSource> mine;
   const auto add = [&](const Request& request) {
@@ -170,8 +171,8 @@ std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled
   };
   if (_requests.formula) {
     const FormulaSize& formula = *_requests.formula;
-    const FormulaSpace space{sampled.model().bounds(), sampled.body_box(), coarser, coarser * options.maximum,
-                             coarser * std::log(options.growth)};
+    const FormulaSpace space{sampled.model().bounds(), sampled.body_box(), coarsening,
+                             coarsening * options.maximum, coarsening * std::log(options.growth)};
     add({"sizing.expression", [&] { return cells_of_formula(formula, space); },
          [&](RankOf part, std::int64_t limit) {
            return sources_of_formula(sampled.root(), formula, space, part.rank, part.ranks, limit);
@@ -179,31 +180,31 @@ std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled
   }
   for (const SurfaceRequest& surface : _surfaces) {
     const auto ask = [&](geometry::Vec3 middle, double half) {
-      return surface.request_in(middle, half, coarser);
+      return surface.request_in(middle, half, coarsening);
     };
-    add({surface.key(), [&] { return surface.cells(sampled.root(), coarser); },
+    add({surface.key(), [&] { return surface.cells(sampled.root(), coarsening); },
          [&](RankOf part, std::int64_t limit) {
-           return sources_where(sampled.root(), ask, part, coarser * options.maximum, limit);
+           return sources_where(sampled.root(), ask, part, coarsening * options.maximum, limit);
          }});
   }
   return mine;
 }
 
 std::vector<SizeSource> RequestSampler::sample(const SampledModel& sampled, const SizingOptions& options,
-                                               double coarser) const {
-  std::vector<SizeSource> mine = sample_regions(sampled, coarser);
-  const std::vector<SizeSource> in_cells = sample_cells(sampled, options, coarser, any_number);
+                                               double coarsening) const {
+  std::vector<SizeSource> mine = sample_regions(sampled, coarsening);
+  const std::vector<SizeSource> in_cells = sample_cells(sampled, options, coarsening, any_number);
   mine.insert(mine.end(), in_cells.begin(), in_cells.end());
   return mine;
 }
 
 bool RequestSampler::ask_for_more_cells(const SampledModel& sampled, const SizingOptions& options,
-                                        double coarser, double most) const {
+                                        double coarsening, double most) const {
   double cells = 0;
   for (const SizeRegion& region : _requests.regions)
-    cells += cells_in(sampled.root(), region, coarser * region.size);
+    cells += cells_in(sampled.root(), region, coarsening * region.size);
   if (cells > most) return true;
-  const std::size_t mine = sample_cells(sampled, options, coarser, most).size();
+  const std::size_t mine = sample_cells(sampled, options, coarsening, most).size();
   return static_cast<double>(sampled.communicator().sum(static_cast<std::int64_t>(mine))) > most;
 }
 

@@ -24,22 +24,22 @@ public:
 
   /// The options that hold on a face. The size of its patch, if there is one, replaces larger ones.
   SizingOptions options_on(const SampledModel& sampled, cad::FaceId face, const SizingOptions& options) const;
-  /// The sources of this rank for all requests but those of patches. All sizes are `coarser` times as large.
-  /// Collective, as what follows. Throws std::invalid_argument where the memory cannot hold them.
+  /// The sources of this rank for all requests but those of patches. All sizes are `coarsening` times as
+  /// large. Collective, as what follows. Throws std::invalid_argument where the memory cannot hold them.
   std::vector<SizeSource> sample(const SampledModel& sampled, const SizingOptions& options,
-                                 double coarser) const;
+                                 double coarsening) const;
   /// Whether the requests clearly take more than `most` cells.
-  bool ask_for_more_cells(const SampledModel& sampled, const SizingOptions& options, double coarser,
+  bool ask_for_more_cells(const SampledModel& sampled, const SizingOptions& options, double coarsening,
                           double most) const;
 
 private:
   /// Makes triangles of the requested walls, wakes and edges.
   void lay_surfaces(const SampledModel& sampled);
-  std::vector<SizeSource> sample_regions(const SampledModel& sampled, double coarser) const;
+  std::vector<SizeSource> sample_regions(const SampledModel& sampled, double coarsening) const;
   /// The sources of the formula, and those of walls, wakes and edges. Each of these ends early with one more
   /// than `most` sources.
   std::vector<SizeSource> sample_cells(const SampledModel& sampled, const SizingOptions& options,
-                                       double coarser, double most) const;
+                                       double coarsening, double most) const;
 
   SizeRequests _requests;
   std::vector<double> _asked_on_faces;  // sizes of their patches; 0: none

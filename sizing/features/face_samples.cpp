@@ -50,9 +50,10 @@ std::uint64_t key_of_cell(Vec3 point, int level) {
 
 std::vector<SizeSource> FaceSamples::sources(const cad::Model& model, cad::FaceId face,
                                              const cad::Facets& facets, bool far_field,
-                                             const SizingOptions& options, double coarser) {
-  Query query{model,  face, options, curvature_limits(far_field, options), largest_size(far_field, options),
-              coarser};
+                                             const SizingOptions& options, double coarsening) {
+  Query query{
+      model,     face, options, curvature_limits(far_field, options), largest_size(far_field, options),
+      coarsening};
   if (_planar && query.largest >= options.maximum) return {};
   if (_points.empty()) start(query, facets);
   query.sizes.resize(_points.size(), -1);
@@ -158,12 +159,12 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
     if (edge > length) length = edge, longest = i;
     size = std::min(size, query.sizes[corners[i]]);
   }
-  if (length <= spacing * query.coarser * size || depth >= deepest_bisection) return;
+  if (length <= spacing * query.coarsening * size || depth >= deepest_bisection) return;
   const std::int32_t a = corners[longest], b = corners[(longest + 1) % 3], c = corners[(longest + 2) % 3];
   const Vec3 p = _points[a].point;
   const double height = norm(cross(_points[b].point - p, _points[c].point - p)) / length;
   const double largest = std::max({query.sizes[a], query.sizes[b], query.sizes[c]});
-  if (height <= slender * spacing * query.coarser * size && size >= same_size * largest) {
+  if (height <= slender * spacing * query.coarsening * size && size >= same_size * largest) {
     if (!is_covered(a, b, query)) cover_edge(a, b, depth, query);
     return;
   }
@@ -181,7 +182,7 @@ void FaceSamples::cover(std::int32_t part, const std::array<std::int32_t, 3>& co
 void FaceSamples::cover_edge(std::int32_t a, std::int32_t b, int depth, Query& query) {
   const double length = distance(_points[a].point, _points[b].point);
   const double size = std::min(query.sizes[a], query.sizes[b]);
-  if (length <= spacing_along * query.coarser * size || depth >= deepest_bisection) return;
+  if (length <= spacing_along * query.coarsening * size || depth >= deepest_bisection) return;
   const std::int32_t middle = middle_of(query, a, b, length);
   add_source(middle, query);
   cover_edge(a, middle, depth + 1, query);
@@ -191,7 +192,7 @@ void FaceSamples::cover_edge(std::int32_t a, std::int32_t b, int depth, Query& q
 /// Whether another edge was sampled all along this one; notes that this one is from now on.
 bool FaceSamples::is_covered(std::int32_t a, std::int32_t b, Query& query) const {
   const double size = std::min(query.sizes[a], query.sizes[b]);
-  const int level = std::ilogb(cell_per_size * query.coarser * size);
+  const int level = std::ilogb(cell_per_size * query.coarsening * size);
   const double edge = std::ldexp(1.0, level);
   const Vec3 from = _points[a].point, to = _points[b].point;
   const double steps = std::ceil(distance(from, to) / edge);

@@ -21,10 +21,10 @@ public:
 
   /// Sources on the face, about as dense as their sizes. They ask for what curvature and, off the far field,
   /// surface_maximum ask; none asks for the maximum or more. Every call must give the same face, whatever its
-  /// number in the model, and the same facets. `coarser`: as dense as sizes so many times as large need.
+  /// number in the model, and the same facets. `coarsening`: as dense as sizes so many times as large need.
   /// Throws CadError.
   std::vector<SizeSource> sources(const cad::Model& model, cad::FaceId face, const cad::Facets& facets,
-                                  bool far_field, const SizingOptions& options, double coarser = 1);
+                                  bool far_field, const SizingOptions& options, double coarsening = 1);
 
   /// An overview of the sizes asked for, from the corners of the facets alone.
   struct Overview {
@@ -60,7 +60,7 @@ private:
     const SizingOptions& options;
     CurvatureLimits limits;
     double largest;
-    double coarser = 1;
+    double coarsening = 1;
     std::vector<double> sizes = {};  // of each point; -1: not known yet
     std::vector<SizeSource> sources = {};
     std::unordered_map<std::uint64_t, double> along = {};  // smallest size sampled along lines, by cell

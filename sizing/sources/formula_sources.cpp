@@ -45,7 +45,7 @@ double largest_extent_of(const Box& box) {
 /// Nobody is asked for sizes outside, where the formula may have none.
 double size_of_formula(const FormulaSize& formula, const FormulaSpace& space, Vec3 p) {
   const Vec3 place = 1 / formula.unit * nearest_in(space.domain, p);
-  return space.coarser * std::max(formula.unit * formula.expression(place), formula.minimum);
+  return space.coarsening * std::max(formula.unit * formula.expression(place), formula.minimum);
 }
 
 }  // namespace
@@ -68,8 +68,8 @@ double cells_of_formula(const FormulaSize& formula, const FormulaSpace& space) {
 std::vector<SizeSource> sources_of_formula(const RootCube& root, const FormulaSize& formula,
                                            const FormulaSpace& space, int rank, int ranks,
                                            std::int64_t most) {
-  const double in_domain = space.coarser * largest_extent_of(space.domain) / cells_along;
-  const double at_body = space.coarser * largest_extent_of(space.body) / cells_along;
+  const double in_domain = space.coarsening * largest_extent_of(space.domain) / cells_along;
+  const double at_body = space.coarsening * largest_extent_of(space.body) / cells_along;
   const auto size_at = [&](Vec3 p) { return size_of_formula(formula, space, p); };
   const auto ask = [&](Vec3 middle, double half) {
     if (!meets(space.domain, middle, half)) return CubeRequest{};

@@ -15,27 +15,27 @@ namespace {
 /// Of the size: two sources of a line are no farther apart.
 constexpr double step_along = 0.5;
 
-double steps_between(const SizeLine& line, std::size_t i, double coarser) {
-  const double size = coarser * std::min(line.sizes[i], line.sizes[i + 1]);
+double steps_between(const SizeLine& line, std::size_t i, double coarsening) {
+  const double size = coarsening * std::min(line.sizes[i], line.sizes[i + 1]);
   return std::ceil(std::max(1.0, distance(line.points[i], line.points[i + 1]) / (step_along * size)));
 }
 
 }  // namespace
 
-double points_along(const SizeLine& line, double coarser) {
+double points_along(const SizeLine& line, double coarsening) {
   double points = 1;
-  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) points += steps_between(line, i, coarser);
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) points += steps_between(line, i, coarsening);
   return points;
 }
 
-std::vector<SizeSource> sources_along(const RootCube& root, const SizeLine& line, double coarser) {
+std::vector<SizeSource> sources_along(const RootCube& root, const SizeLine& line, double coarsening) {
   std::vector<SizeSource> sources;
   for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
-    const double steps = steps_between(line, i, coarser);
+    const double steps = steps_between(line, i, coarsening);
     for (int k = i == 0 ? 0 : 1; k <= steps; ++k) {
       const double part = k / steps;
       sources.push_back({line.points[i] + part * (line.points[i + 1] - line.points[i]),
-                         coarser * (line.sizes[i] + part * (line.sizes[i + 1] - line.sizes[i]))});
+                         coarsening * (line.sizes[i] + part * (line.sizes[i + 1] - line.sizes[i]))});
     }
   }
   return thin_sources(root, sources);

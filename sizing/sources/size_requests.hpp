@@ -75,11 +75,11 @@ struct SizeRequests {
 /// Throws std::invalid_argument, with the key, where a pattern matches no face of the model.
 void require_faces(const cad::Model& model, const SizeRequests& requests);
 
-/// Sources along a line, with all its sizes `coarser` times as large. Two of them are at most half a size
+/// Sources along a line, with all its sizes `coarsening` times as large. Two of them are at most half a size
 /// apart. Of several in one octree cell of about their size the smallest is kept.
-std::vector<SizeSource> sources_along(const RootCube& root, const SizeLine& line, double coarser);
+std::vector<SizeSource> sources_along(const RootCube& root, const SizeLine& line, double coarsening);
 /// The most sources that sources_along() would make.
-double points_along(const SizeLine& line, double coarser);
+double points_along(const SizeLine& line, double coarsening);
 
 /// The largest size that its patch allows on each face; 0 if there is no such size.
 std::vector<double> sizes_on_faces(const cad::Model& model, const SizeRequests& requests);
@@ -95,11 +95,11 @@ std::vector<SizeSource> sources_in(const RootCube& root, const SizeRegion& regio
 
 /// Where and how a formula is evaluated.
 struct FormulaSpace {
-  geometry::Box domain;  ///< the formula is evaluated only here
-  geometry::Box body;    ///< more closely here
-  double coarser = 1;    ///< factor on the sizes of the formula
-  double limit = 0;      ///< only sizes below this count
-  double slope = 0;      ///< the largest slope of the field that follows the formula
+  geometry::Box domain;   ///< the formula is evaluated only here
+  geometry::Box body;     ///< more closely here
+  double coarsening = 1;  ///< factor on the sizes of the formula
+  double limit = 0;       ///< only sizes below this count
+  double slope = 0;       ///< the largest slope of the field that follows the formula
 };
 
 /// About the number of cells that sources_of_formula() finds, from 32 places along each side of the domain.

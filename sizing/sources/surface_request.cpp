@@ -159,7 +159,7 @@ SurfaceRequest::SurfaceRequest(std::string key, std::vector<SizedTriangle> trian
   for (const std::int32_t i : _tree.order()) _triangles.push_back(triangles[i]);
 }
 
-CubeRequest SurfaceRequest::request_in(Vec3 middle, double half_edge, double coarser) const {
+CubeRequest SurfaceRequest::request_in(Vec3 middle, double half_edge, double coarsening) const {
   const double around = std::numbers::sqrt3 * half_edge, reach = _reach + around;
   double size = no_size;
   // With the smallest size found nothing else can matter.
@@ -175,13 +175,13 @@ CubeRequest SurfaceRequest::request_in(Vec3 middle, double half_edge, double coa
     size = std::min(size, std::max(here, _smallest));
   });
   if (size == no_size) return {};
-  return {coarser * std::max(_smallest, size - _slope * around), coarser * size};
+  return {coarsening * std::max(_smallest, size - _slope * around), coarsening * size};
 }
 
-double SurfaceRequest::cells(const RootCube& root, double coarser) const {
+double SurfaceRequest::cells(const RootCube& root, double coarsening) const {
   double cells = 0;
   for (const SizedTriangle& t : _triangles) {
-    const double size = coarser * (t.sizes[0] + t.sizes[1] + t.sizes[2]) / 3;
+    const double size = coarsening * (t.sizes[0] + t.sizes[1] + t.sizes[2]) / 3;
     const double edge = std::ldexp(root.edge, -root.level(size));
     const double area = area_of(t.corners);
     cells +=

@@ -33,11 +33,11 @@ public:
 
   const std::string& key() const { return _key; }
   bool empty() const { return _triangles.empty(); }
-  /// The size asked for in a cube, with all sizes `coarser` times as large.
-  CubeRequest request_in(geometry::Vec3 middle, double half_edge, double coarser) const;
+  /// The size asked for in a cube, with all sizes `coarsening` times as large.
+  CubeRequest request_in(geometry::Vec3 middle, double half_edge, double coarsening) const;
 
   /// About the number of cells in which a size is asked for.
-  double cells(const RootCube& root, double coarser) const;
+  double cells(const RootCube& root, double coarsening) const;
 
 private:
   std::string _key;

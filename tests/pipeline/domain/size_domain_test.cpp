@@ -162,20 +162,20 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   };
   const SizedDomain small = size_within(2);
   ASSERT_TRUE(small.findings.features);
-  ASSERT_EQ(small.findings.features->strips.size(), 3u) << "the blunt end, and the sides beside it";
-  EXPECT_NEAR(small.findings.features->strips[0].width, 0.0005, 1e-6);
-  EXPECT_NEAR(small.findings.features->strips[0].place.x, 1, 1e-9);
+  ASSERT_EQ(small.findings.features->regions.size(), 3u) << "the blunt end, and the sides beside it";
+  EXPECT_NEAR(small.findings.features->regions[0].width, 0.0005, 1e-6);
+  EXPECT_NEAR(small.findings.features->regions[0].place.x, 1, 1e-9);
   const double aspect = small.findings.features->resolution.aspect;
   EXPECT_GT(aspect, 1);
-  EXPECT_NEAR(std::tan(small.findings.features->strips[0].surface_degrees * std::numbers::pi / 180),
+  EXPECT_NEAR(std::tan(small.findings.features->regions[0].surface_degrees * std::numbers::pi / 180),
               1 / aspect, 1e-6);
   EXPECT_GT(small.findings.features->wanted_tetrahedra(), 2 * 20'000);
   const std::string text = describe(*small.findings.features);
-  EXPECT_NE(text.find("'" + small.findings.features->strips[0].face + "'"), std::string::npos) << text;
+  EXPECT_NE(text.find("'" + small.findings.features->regions[0].face + "'"), std::string::npos) << text;
   EXPECT_NE(text.find("sizing.feature_budget"), std::string::npos) << text;
   const SizedDomain large = size_within(500);
   ASSERT_TRUE(large.findings.features);
-  EXPECT_TRUE(large.findings.features->strips.empty());
+  EXPECT_TRUE(large.findings.features->regions.empty());
   EXPECT_TRUE(describe(*large.findings.features).empty());
   EXPECT_LT(large.sizes.narrow_minimum, 0.0005);
   EXPECT_NEAR(small.findings.features->wanted_tetrahedra(), large.findings.counts.tetrahedra,

@@ -15,16 +15,16 @@ using geometry::Vec3;
 TEST(LevelDemands, LinesHaveSourcesCloserThanTheirSizes) {
   const RootCube root(geometry::Box{{0, 0, 0}, {8, 8, 8}});
   const SizeLine line{{{1, 1, 1}, {3, 1, 1}, {3, 4, 1}}, {0.1, 0.2, 0.2}};
-  for (const double coarser : {1.0, 4.0}) {
-    const std::vector<SizeSource> sources = sources_along(root, line, coarser);
-    EXPECT_LE(static_cast<double>(sources.size()), points_along(line, coarser));
+  for (const double coarsening : {1.0, 4.0}) {
+    const std::vector<SizeSource> sources = sources_along(root, line, coarsening);
+    EXPECT_LE(static_cast<double>(sources.size()), points_along(line, coarsening));
     for (double x = 1; x < 3; x += 0.01) {
       double least = 1e300;
       for (const SizeSource& source : sources) least = std::min(least, distance(source.point, Vec3{x, 1, 1}));
-      EXPECT_LT(least, 0.2 * coarser);
+      EXPECT_LT(least, 0.2 * coarsening);
     }
     for (const SizeSource& source : sources) {
-      const double expected = coarser * (source.point.y > 1 ? 0.2 : 0.1 + 0.05 * (source.point.x - 1));
+      const double expected = coarsening * (source.point.y > 1 ? 0.2 : 0.1 + 0.05 * (source.point.x - 1));
       EXPECT_NEAR(source.size, expected, 1e-12);
     }
   }
