@@ -35,7 +35,8 @@ def main():
     assert "sizing: level A:" in done.stdout + done.stderr, done.stdout + done.stderr
     found = forecast["level"]
     edges = {edge["faces"]: edge for edge in found["trailing_edges"]}
-    assert 16.9 < found["semispan"] < 17.1 and {"wing_right_trailing_edge", "horizontal_tail_right_trailing_edge"} == set(edges), found
+    assert 16.9 < found["semispan"] < 17.1, found
+    assert set(edges) == {"wing_right_trailing_edge", "horizontal_tail_right_trailing_edge"}, found
     wing = edges["wing_right_trailing_edge"]
     assert 14 < wing["length"] < 17.5 and 0 < wing["width"] < 0.1 and wing["shortest_chord"] < 2 < 5 < wing["longest_chord"], wing
     assert "wing_right_trailing_edge" in done.stdout and "semispan 17" in done.stdout, done.stdout

@@ -14,8 +14,8 @@ from program import COARSE_DUCT, NO_PICTURES, SOURCE
 from shell import Shell
 
 # By sizes, which a weak series has to scale.
-CASE = COARSE_DUCT.replace("{target_tetrahedra: 2000}", "{minimum: 0.2, feature_minimum: 0.2, maximum: 0.4, growth: 1.9, proximity: 0}") + \
-    NO_PICTURES
+SIZES = "{minimum: 0.2, feature_minimum: 0.2, maximum: 0.4, growth: 1.9, proximity: 0}"
+CASE = COARSE_DUCT.replace("{target_tetrahedra: 2000}", SIZES) + NO_PICTURES
 LAUNCHER = SOURCE / "scripts" / "mpirun_local.sh"
 
 
