@@ -12,11 +12,14 @@ import time
 from cluster import SHARED, Cluster, obstacle
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "pipeline"))
-from program import COARSE_TRANSPORT, SOURCE, Run  # noqa: E402
+from program import COARSE_WING, NO_PICTURES, SOURCE, Run  # noqa: E402
 
 SKIPPED = 77
 HOSTS = 3
-CASE = COARSE_TRANSPORT + "surface: {piece_triangles: 500}\noutput: {pictures: false}\n"
+# Beside its geometry, which hosts may not see where it is.
+GEOMETRY = SOURCE / "tests" / "data" / "wing_body.step"
+PIECES = "surface: {piece_triangles: 100}\nvolume: {piece_tets: 1000}\n"
+CASE = COARSE_WING.replace(str(GEOMETRY), GEOMETRY.name) + PIECES + NO_PICTURES
 DAEMONS = ("munged", "slurmctld", ": slurmscriptd", "slurmd")
 
 
@@ -32,7 +35,7 @@ def wait_until(condition, seconds, words):
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, f"not within {seconds} seconds: {words()}"
-        time.sleep(0.1)
+        time.sleep(0.05)
 
 
 class Queue:
@@ -63,9 +66,12 @@ def prepare(cluster, program, case):
     """The program, found on all hosts, and a case in the shared place; root may run Open MPI's programs."""
     for name in ("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_mpi_yield_when_idle"):
         os.environ[f"OMPI_{name}"] = "1"
+    # A job that is cancelled has time to say so.
+    os.environ.pop("OMPI_MCA_odls_base_sigkill_timeout", None)
     os.environ["SCRATCH"] = str(SHARED)
     os.environ["PATH"] = f"{SHARED}:{os.environ['PATH']}"
     shutil.copy(program, cluster.shared / "aeroloom")
+    shutil.copy(GEOMETRY, cluster.shared)
     (cluster.shared / "case.yaml").write_text(case)
     (cluster.shared / "mesh.sh").write_text(block("mesh.sh"))
 
@@ -119,6 +125,7 @@ def main():
         sys.exit(SKIPPED if "CI" not in os.environ or "unshare" in why else 1)
     program = pathlib.Path(sys.argv[1]).resolve()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
+    shutil.copy(GEOMETRY, folder)
     alone = Run(program, CASE, folder=folder)
     assert alone.code == 0, alone.text
     wanted = alone.report["mesh"]["hash"]

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 from cluster import SHARED, Cluster, obstacle
-from cluster_test import CASE, HOSTS, SKIPPED, Queue, check_nothing_left, prepare, wait_until
+from cluster_test import CASE, GEOMETRY, HOSTS, SKIPPED, Queue, check_nothing_left, prepare, wait_until
 from program import Run
 
 
@@ -63,6 +63,7 @@ def main():
         sys.exit(SKIPPED if "CI" not in os.environ or "unshare" in why else 1)
     program = pathlib.Path(sys.argv[1]).resolve()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_test_"))
+    shutil.copy(GEOMETRY, folder)
     alone = Run(program, CASE, folder=folder)
     assert alone.code == 0, alone.text
     with Cluster(folder / "cluster") as cluster:

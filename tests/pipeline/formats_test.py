@@ -3,18 +3,15 @@
 usage: formats_test.py PROGRAM"""
 import sys
 
-from program import Run
+from program import COARSE_TRANSPORT, NO_PICTURES, Run
 from solver_files import CHECKS
 
-AIRCRAFT = """
-geometry: {builtin: transport, trailing_edges: sharpen}
-farfield: {shape: box, extent: 3}
-sizing: {target_tetrahedra: 20000, feature_budget: 1, proximity: 0, curvature_angle: 30, growth: 1.5}
-volume: {piece_tets: 20000}
+AIRCRAFT = COARSE_TRANSPORT.replace("minimum: 0.5", "minimum: 1").replace("angle: 30", "angle: 45") + """
+volume: {piece_tets: 10000}
 patches:
   wing: {faces: ['wing_*'], type: slip}
   fins: {faces: ['horizontal_*', 'vertical_*']}
-"""
+""" + NO_PICTURES
 
 
 def main():

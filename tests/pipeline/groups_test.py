@@ -63,7 +63,7 @@ def check_example(program):
 
 def check_aircraft(program):
     """On bodies, by an expression, sizes hold and others stay."""
-    run = Run(program, WING, 2)
+    run = Run(program, WING)
     assert run.code == 0, run.text
     wing = median_edge(run, "wing")
     print(f"wing: median edge {wing:.4f} where 0.3 is asked for")

@@ -5,12 +5,12 @@ import subprocess
 import sys
 
 import vtk
-from program import COARSE_TRANSPORT, SOURCE, Run
+from program import COARSE_TRANSPORT, NO_PICTURES, SOURCE, Run
 
 
 def improve(program, file, folder, ranks=1, settings=()):
     command = [SOURCE / "scripts" / "mpirun_local.sh", str(ranks), program, "improve", file, "--set",
-               f"output.directory={folder}"]
+               f"output.directory={folder}", "--set", "output.pictures=false"]
     for setting in settings:
         command += ["--set", setting]
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=120)
@@ -61,7 +61,7 @@ def as_another_program_writes_it(grid):
 
 def main():
     program = sys.argv[1]
-    raw = Run(program, COARSE_TRANSPORT, 2, ("improve.enabled=false",))
+    raw = Run(program, COARSE_TRANSPORT + NO_PICTURES, 1, ("improve.enabled=false", "output.parts=2"))
     assert raw.code == 0, raw.text
     before = raw.report["quality"]["min_dihedral_deg"]
     assert all(needle["forced"] for needle in raw.report["surface"]["needles"]), raw.report["surface"]["needles"]
@@ -91,7 +91,7 @@ def main():
     assert len(hashes) == 1, f"the mesh depends on the number of ranks: {hashes}"
 
     # More than the surface of a file admits, which stays as it is.
-    code, text, report = improve(program, imported, raw.folder / "held", 1, ("improve.target_angle=40",))
+    code, text, report = improve(program, imported, raw.folder / "held", 1, ("improve.target_angle=40", "improve.sweeps=2"))
     kinds = report["improve"]["below_target"]
     assert code == 0 and kinds["held_by_surface"]["tetrahedra"] > 0, (text, kinds)
 

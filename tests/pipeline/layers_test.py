@@ -11,7 +11,7 @@ import numpy
 import vtk
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-from program import SOURCE, Run
+from program import NO_PICTURES, SOURCE, Run
 
 sys.path.append(str(SOURCE / "benchmarks"))
 import layer_coverage  # noqa: E402
@@ -19,17 +19,17 @@ import layer_coverage  # noqa: E402
 SPHERE = f"""
 geometry: {{file: "{SOURCE}/configs/geometry/sphere.brep"}}
 farfield: {{shape: box, extent: 2}}
-sizing: {{target_tetrahedra: 6000}}
-surface: {{piece_triangles: 300}}
-volume: {{piece_tets: 3000}}
-"""
+sizing: {{minimum: 0.1, maximum: 2, curvature_angle: 20, growth: 1.8, proximity: 0}}
+surface: {{piece_triangles: 100}}
+volume: {{piece_tets: 800}}
+""" + NO_PICTURES
 LAYERS = "layers: {first: 1e-3, growth: 1.5}\n"
 DUCT = f"""
 geometry: {{file: "{SOURCE}/configs/geometry/duct.step", domain: fluid}}
 patches: {{inlet: {{faces: ['#ff0000'], type: inlet}}, outlet: {{type: outlet}}}}
 sizing: {{target_tetrahedra: 2000}}
 layers: {{first: 1e-3}}
-"""
+""" + NO_PICTURES
 SCHEMA = json.loads((SOURCE / "docs" / "report.schema.json").read_text())
 
 

@@ -10,8 +10,8 @@ import tempfile
 
 CASE = """
 geometry: {builtin: transport}
-farfield: {extent: 3}
-sizing: {level: B, solver: cell, growth: 3, curvature_angle: 60, surface_maximum: 1.5, maximum: 30}
+farfield: {extent: 3, symmetry: y}
+sizing: {level: A, solver: cell, growth: 3, curvature_angle: 60, surface_maximum: 1.5, maximum: 30}
 """
 FACTORS = {"A": 1.5, "B": 1, "C": 2 / 3, "D": 0.5, "E": 1 / 3, "F": 2 / 9}
 
@@ -32,26 +32,27 @@ def main():
     program = sys.argv[1]
     done, forecast = check(program)
     assert done.returncode == 0, done.stderr
-    assert "sizing: level B:" in done.stdout + done.stderr, done.stdout + done.stderr
+    assert "sizing: level A:" in done.stdout + done.stderr, done.stdout + done.stderr
     found = forecast["level"]
-    assert 16.9 < found["semispan"] < 17.1 and len(found["trailing_edges"]) == 5, found
-    wing = next(edge for edge in found["trailing_edges"] if edge["faces"] == "wing_left_trailing_edge")
+    edges = {edge["faces"]: edge for edge in found["trailing_edges"]}
+    assert 16.9 < found["semispan"] < 17.1, found
+    assert set(edges) == {"wing_right_trailing_edge", "horizontal_tail_right_trailing_edge"}, found
+    wing = edges["wing_right_trailing_edge"]
     assert 14 < wing["length"] < 17.5 and 0 < wing["width"] < 0.1 and wing["shortest_chord"] < 2 < 5 < wing["longest_chord"], wing
-    assert "wing_left_trailing_edge" in done.stdout and "semispan 17" in done.stdout, done.stdout
+    assert "wing_right_trailing_edge" in done.stdout and "semispan 17" in done.stdout, done.stdout
     levels = {row["level"]: row for row in forecast["levels"]}
     assert list(levels) == list(FACTORS), levels
-    assert levels["B"]["tetrahedra"] == forecast["tetrahedra"] and levels["B"]["triangles"] == forecast["triangles"]
+    assert levels["A"]["tetrahedra"] == forecast["tetrahedra"] and levels["A"]["triangles"] == forecast["triangles"]
     for name, factor in FACTORS.items():
-        finer = FACTORS["B"] / factor
+        finer = FACTORS["A"] / factor
         assert abs(levels[name]["tetrahedra"] / (forecast["tetrahedra"] * finer ** 3) - 1) < 0.02, levels
         assert abs(levels[name]["triangles"] / (forecast["triangles"] * finer ** 2) - 1) < 0.02, levels
 
-    # A budget between the level below and this one; and one that holds none.
-    budget = 0.75 * forecast["tetrahedra"]
-    done, within = check(program, f"sizing.budget={budget:.0f}")
+    # A budget between that level and a finer one, which is asked for; and one that holds none.
+    done, within = check(program, "sizing.level=B", f"sizing.budget={1.3 * forecast['tetrahedra']:.0f}")
     assert done.returncode == 0 and "sizing: level A:" in done.stdout + done.stderr, done.stdout + done.stderr
-    assert within["tetrahedra"] <= budget and within["triangles"] < forecast["triangles"], within
-    done, none = check(program, f"sizing.budget={0.5 * within['tetrahedra']:.0f}")
+    assert (within["tetrahedra"], within["triangles"]) == (forecast["tetrahedra"], forecast["triangles"]), within
+    done, none = check(program, f"sizing.budget={0.5 * forecast['tetrahedra']:.0f}")
     assert done.returncode != 0 and none is None and "do not hold level A" in done.stderr, done.stderr
     print("levels: forecasts by the cube, the level that a budget holds")
 

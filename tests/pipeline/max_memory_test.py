@@ -12,9 +12,8 @@ import numpy
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
-from program import COARSE_TRANSPORT, COARSE_WING, SOURCE
+from program import COARSE_DUCT, COARSE_TRANSPORT, COARSE_WING, NO_PICTURES, SOURCE
 
-CASE = COARSE_WING + "output: {pictures: false}\n"
 STEPS = 44  # of a cube's side: large enough for what does not fit to be the mesh, not the program
 
 
@@ -51,7 +50,8 @@ def finest(size):
 def main():
     program = pathlib.Path(sys.argv[1]).resolve()
     folder = pathlib.Path(tempfile.mkdtemp(prefix="aeroloom_memory_"))
-    (folder / "case.yaml").write_text(CASE)
+    (folder / "duct.yaml").write_text(COARSE_DUCT + NO_PICTURES)
+    (folder / "case.yaml").write_text(COARSE_WING + NO_PICTURES)
     (folder / "aircraft.yaml").write_text(COARSE_TRANSPORT)
     write_large(folder / "large.vtu")
 
@@ -68,9 +68,9 @@ def main():
         assert found == code and all(word in text for word in words), f"{ranks} rank(s), {line}: {found}\n{text}"
         return text
 
-    expect(0, ["hash"], 2, "run", "case.yaml")
+    expect(0, ["hash"], 2, "run", "duct.yaml")
     free = report()["mesh"]["hash"]
-    expect(0, [free], 2, "run", "case.yaml", "--max-memory", "4G")
+    expect(0, [free], 2, "run", "duct.yaml", "--max-memory", "4G")
     # Known to be too little before anything is done.
     expect(8, ["--max-memory"], 1, "check", "case.yaml", "--max-memory", "1M")
     # The tetrahedra alone would fit.
@@ -78,7 +78,7 @@ def main():
            "layers.first=1e-4", "--max-memory", "150M")
     for ranks in (1, 2):
         # Known to be too much once sizes are known.
-        expect(8, ["stage sizing failed", "are predicted", "would fit", "--max-memory"], ranks, "run", "case.yaml", *finest(0.03),
+        expect(8, ["stage sizing failed", "are predicted", "would fit", "--max-memory"], ranks, "run", "case.yaml", *finest(0.04),
                "--max-memory", f"{120 * ranks}M")
         assert (report()["status"], report()["exit_code"]) == ("failed", 8)
         # Out of memory on the way: in a sandboxed run, and in the ranks.

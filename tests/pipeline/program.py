@@ -10,6 +10,9 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 GEOMETRY = pathlib.Path(os.environ.get("AEROLOOM_GEOMETRY", SOURCE.parent / "shared" / "geometry"))
 
+# mpirun would sleep for a second, and another, before it ends what a failed run has left.
+os.environ.setdefault("OMPI_MCA_odls_base_sigkill_timeout", "0")
+
 # The built-in aircraft, coarse: two seconds on one core.
 COARSE_TRANSPORT = """
 geometry: {builtin: transport, trailing_edges: sharpen}
@@ -29,6 +32,7 @@ COARSE_DUCT = f"""
 geometry: {{file: "{SOURCE}/configs/geometry/duct.step", domain: fluid}}
 sizing: {{target_tetrahedra: 2000}}
 """
+NO_PICTURES = "output: {pictures: false}\n"
 
 # What several tests look at once it is finished: in pieces, with a patch whose name is markup.
 HOSTILE = "<script>alert('&amp;')</script><img src=x onerror=alert(1)>"

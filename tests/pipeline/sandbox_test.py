@@ -7,9 +7,9 @@ import subprocess
 import sys
 import tempfile
 
-from program import COARSE_WING, SOURCE, with_fault
+from program import COARSE_DUCT, NO_PICTURES, SOURCE, with_fault
 
-CASE = COARSE_WING + "output: {pictures: false}\nvolume: {piece_tets: 8000}\n"
+CASE = COARSE_DUCT + NO_PICTURES + "volume: {piece_tets: 800}\n"
 
 
 def run(program, folder, *overrides, forbidden=True, fault=None):

@@ -10,10 +10,12 @@ import subprocess
 import sys
 import time
 
-from program import COARSE_WING, SOURCE
+from program import COARSE_DUCT, NO_PICTURES, SOURCE
 from shell import Shell
 
-CASE = COARSE_WING + "output: {pictures: false}\n"
+# By sizes, which a weak series has to scale.
+SIZES = "{minimum: 0.2, feature_minimum: 0.2, maximum: 0.4, growth: 1.9, proximity: 0}"
+CASE = COARSE_DUCT.replace("{target_tetrahedra: 2000}", SIZES) + NO_PICTURES
 LAUNCHER = SOURCE / "scripts" / "mpirun_local.sh"
 
 

@@ -30,7 +30,7 @@ class Shell:
         bin_folder.mkdir(exist_ok=True)
         real = os.environ["PATH"]
         # mpirun_local.sh must not find itself under the name mpirun; options before the number of ranks are its own.
-        for name, body in (("aeroloom", f'exec "{self.program}" "$@"'),
+        for name, body in (("aeroloom", f'exec "{LAUNCHER}" 1 "{self.program}" "$@"'),
                            ("mpirun", f'PATH="{real}"; export PATH\nwhile [ "$1" != -n ]; do shift; done\n'
                                       f'ranks=$2; shift 3; exec "{LAUNCHER}" "$ranks" "{self.program}" "$@"')):
             (bin_folder / name).write_text(f"#!/bin/sh\n{body}\n")

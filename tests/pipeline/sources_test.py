@@ -6,6 +6,7 @@ import pathlib
 import statistics
 import sys
 
+import numpy
 from program import COARSE_TRANSPORT, Run
 
 
@@ -34,16 +35,18 @@ def read(path):
     return reader.GetOutput()
 
 
-def edges_of(grid, corners, keeps=lambda cell: True):
+def edges_of(grid, corners, keeps=None):
     """Lengths and middles of edges of cells with so many corners."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    points = vtk_to_numpy(grid.GetPoints().GetData())
+    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
     cells = grid.GetCells() if corners == 4 else grid.GetPolys()
     nodes = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, corners)
-    pairs = {tuple(sorted((int(cell[a]), int(cell[b])))) for i, cell in enumerate(nodes) if keeps(i)
-             for a in range(corners) for b in range(a)}
-    for a, b in pairs:
-        yield float(((points[a] - points[b]) ** 2).sum() ** 0.5), tuple(0.5 * (points[a] + points[b]))
+    if keeps:
+        nodes = nodes[[keeps(i) for i in range(len(nodes))]]
+    pairs = numpy.concatenate([nodes[:, [a, b]] for a in range(corners) for b in range(a)])
+    pairs = numpy.unique(numpy.sort(pairs, axis=1), axis=0)
+    ends = points[pairs[:, 0]], points[pairs[:, 1]]
+    return zip(numpy.linalg.norm(ends[0] - ends[1], axis=1).tolist(), (0.5 * (ends[0] + ends[1])).tolist())
 
 
 def main():

@@ -8,10 +8,8 @@ import subprocess
 import sys
 import time
 
-from program import COARSE_WING, SOURCE
+from program import COARSE_DUCT, COARSE_WING, NO_PICTURES, SOURCE
 from shell import Shell
-
-CASE = COARSE_WING + "output: {pictures: false}\n"
 
 
 def start(shell, ranks, *words):
@@ -34,7 +32,7 @@ def wait_for(path, process):
 def check_one_run_at_a_time(shell):
     """The second is told of the first; what a killed run leaves is no hindrance."""
     lock = shell.folder / "out" / ".lock"
-    first = start(shell, 1, "run", "case.yaml", "--set", "sizing.surface_maximum=0.5")
+    first = start(shell, 1, "run", "long.yaml", "--set", "sizing.surface_maximum=0.5")
     wait_for(lock, first)
     code, _, error = shell.run("run case.yaml")
     assert code == 7 and "another run writes there (process" in error and "Remedy" in error, error
@@ -49,10 +47,10 @@ def check_one_run_at_a_time(shell):
 def check_end_from_outside(shell):
     """A message, the code of shells, and a report that says so."""
     for ranks, sent in ((1, signal.SIGTERM), (1, signal.SIGUSR1), (2, signal.SIGTERM)):
-        run = start(shell, ranks, "run", "case.yaml", "--set", "sizing.minimum=0.02",
+        run = start(shell, ranks, "run", "long.yaml", "--set", "sizing.minimum=0.02",
                     "--set", f"sizing.surface_maximum={0.04 / ranks}")
         wait_for(shell.folder / "out" / ".lock", run)
-        time.sleep(1)
+        time.sleep(0.3)
         if ranks == 1:
             os.kill(int((shell.folder / "out" / ".lock").read_text().split()[1]), sent)
         else:
@@ -76,7 +74,8 @@ def check_closed_streams(shell):
 
 def main():
     shell = Shell(sys.argv[1])
-    (shell.folder / "case.yaml").write_text(CASE)
+    (shell.folder / "case.yaml").write_text(COARSE_DUCT + NO_PICTURES)
+    (shell.folder / "long.yaml").write_text(COARSE_WING + NO_PICTURES)
     assert shell.run("run case.yaml")[0] == 0
     for check in (check_closed_streams, check_one_run_at_a_time, check_end_from_outside):
         check(shell)

@@ -5,7 +5,7 @@ import pty
 import re
 import sys
 
-from program import COARSE_TRANSPORT, COARSE_WING
+from program import COARSE_DUCT, COARSE_TRANSPORT, NO_PICTURES
 from shell import Shell
 
 
@@ -47,8 +47,8 @@ def check_progress(shell):
 
 def main():
     shell = Shell(sys.argv[1])
-    (shell.folder / "quick.yaml").write_text(COARSE_WING + "output: {pictures: false}\n")
-    (shell.folder / "slow.yaml").write_text(COARSE_TRANSPORT + "output: {pictures: false}\n")
+    (shell.folder / "quick.yaml").write_text(COARSE_DUCT + NO_PICTURES)
+    (shell.folder / "slow.yaml").write_text(COARSE_TRANSPORT.replace("angle: 30", "angle: 20") + NO_PICTURES)
     check_progress(shell)
 
 

@@ -12,12 +12,12 @@ import sys
 import time
 
 from killed_run import run_and_kill
-from program import COARSE_WING, SOURCE
+from program import COARSE_DUCT, SOURCE
 from shell import Shell
 
 FORMATS = ["vtu", "vtkhdf", "cgns", "ugrid", "su2", "su2b", "msh", "msh_parts", "meshb", "openfoam"]
 MOMENTS = int(os.environ.get("AEROLOOM_MOMENTS", "1"))
-CASE = COARSE_WING + f"output: {{pictures: false, parts: 2, formats: {json.dumps(FORMATS)}}}\n"
+CASE = COARSE_DUCT + f"output: {{pictures: false, parts: 2, formats: {json.dumps(FORMATS)}}}\n"
 
 
 def files_of(folder):
@@ -34,10 +34,10 @@ def check_runs(shell):
     code, _, error = shell.run("run case.yaml", 2)
     assert code == 0, error
     before = files_of(out)
-    other = ["--set", "sizing.surface_maximum=1.9"]
+    other = ["--set", "sizing.target_tetrahedra=2500"]
     staging = out / ".mesh.unfinished"
     for _ in range(MOMENTS):
-        room = random.randint(10, 300) * 1024
+        room = random.randint(10, 60) * 1024
         run = subprocess.Popen([launcher, "1", shell.program, "run", "case.yaml", *other], cwd=shell.folder, text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         while not staging.exists():
