@@ -27,8 +27,12 @@ cases::Case coarse_aircraft(const std::string& name) {
   input.domain.transport.emplace();
   input.domain.far_field.emplace();
   input.domain.far_field->extent = 3;
-  input.sizing.target_tetrahedra = 40'000;
-  input.sizing.feature_budget = 1.5;
+  input.sizing.minimum = 0.5;
+  input.sizing.maximum = 20;
+  input.sizing.surface_maximum = 4;
+  input.sizing.curvature_angle = 30;
+  input.sizing.growth = 1.8;
+  input.sizing.proximity = 0;
   input.output.directory =
       std::filesystem::temp_directory_path() / ("aeroloom_pictures_" + name + std::to_string(::getpid()));
   input.output.formats = {io::FileFormat::vtu};
@@ -100,11 +104,6 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
 TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   const Communicator world = Communicator::world();
   cases::Case input = coarse_aircraft("c");
-  input.sizing.target_tetrahedra.reset();
-  input.sizing.minimum = 0.5;
-  input.sizing.maximum = 20;
-  input.sizing.surface_maximum = 4;
-  input.sizing.growth = 1.8;
   input.volume.retries = 1;
   const ScopedFault injected("zone=throws");
   const std::vector<std::string> expected{"body", "views", "leading_edge", "junction"};

@@ -168,13 +168,14 @@ TEST(OpenGaps, AreToldFromThinParts) {
   const auto on_part = [&](double thin, double of_gap) {
     return build_with_elements(part, thin, of_gap)({1, 0.04, 1});
   };
-  EXPECT_LT(in_gap(1, 4), 0.6 * 0.04);
-  EXPECT_EQ(in_gap(1, 4), in_gap(0, 4));
-  EXPECT_EQ(in_gap(4, -1), in_gap(4, 4));
-  EXPECT_GT(in_gap(4, 1), 2.5 * in_gap(4, 4));
-  EXPECT_NEAR(on_part(4, 1), 0.01, 0.003);
-  EXPECT_EQ(on_part(4, 1), on_part(4, 0));
-  EXPECT_GT(on_part(1, 4), 2.5 * on_part(4, 1));
+  const double open = in_gap(1, 4), both = in_gap(4, 4), thin = on_part(4, 1);
+  EXPECT_LT(open, 0.6 * 0.04);
+  EXPECT_EQ(open, in_gap(0, 4));
+  EXPECT_EQ(in_gap(4, -1), both);
+  EXPECT_GT(in_gap(4, 1), 2.5 * both);
+  EXPECT_NEAR(thin, 0.01, 0.003);
+  EXPECT_EQ(thin, on_part(4, 0));
+  EXPECT_GT(on_part(1, 4), 2.5 * thin);
 }
 
 TEST(OpenGaps, AWedgeIsNone) {

@@ -40,7 +40,7 @@ TEST(SquaresLocal, are_covered_whatever_points_stand_on_their_edges) {
 // --- cores of any shape
 
 /// The shell of the same lattice once blocks have changed.
-LocalShell remade(const Problem& problem, const Lattice& lattice, std::vector<BlockChange> changes) {
+LocalShell remade(const Lattice& lattice, std::vector<BlockChange> changes) {
   return make_local_shell(lattice, gather_local_surface(lattice), std::move(changes));
 }
 
@@ -59,7 +59,7 @@ void make_ragged(const Problem& problem, Decomposition::Data& data, int seed) {
     if (chance() < of_block) shell = 0xff;
     if (lattice.tree.has(number)) changes[lattice.tree.index(number)].shell = shell;
   }
-  data.shell.local = remade(problem, lattice, std::move(changes));
+  data.shell.local = remade(lattice, std::move(changes));
   EXPECT_LT(problem.communicator.sum(data.shell.local.core_cells()), data.report.core_tetrahedra);
   std::vector<ZoneIndex> all(data.shell.zones.count());
   std::iota(all.begin(), all.end(), 0);
@@ -113,7 +113,7 @@ TEST(Core, gives_leaves_to_the_shell_that_may_not_stay) {
   ASSERT_LT(chosen, tree.total());
   std::vector<BlockChange> changes = data.shell.local.changes;
   if (tree.has(chosen)) changes[tree.index(chosen)].shell = 0xff;
-  const LocalShell after = remade(problem, *data.lattice, std::move(changes));
+  const LocalShell after = remade(*data.lattice, std::move(changes));
   EXPECT_GT(world.sum(static_cast<std::int64_t>(after.points.points.size())), data.report.shell_points);
   if (tree.owner(chosen) == world.rank()) {
     const std::vector<BlockIndex> changed = after.core.blocks_unlike(core);

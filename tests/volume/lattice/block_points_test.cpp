@@ -191,7 +191,7 @@ surfaces::Surface uneven() {
 }
 
 TEST(LatticePointsLocal, keep_off_triangles_of_any_size) {
-  for (const double size : {0.1, 0.14}) {
+  for (const double size : {0.14, 0.2}) {
     const Made made(Communicator::self(), uneven(), fields::uniform(size));
     const double least = least_clearance(made, made.make());
     EXPECT_GE(least, VolumeOptions{}.lattice_clearance);
