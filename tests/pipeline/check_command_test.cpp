@@ -48,7 +48,7 @@ TEST_F(CheckCommand, PredictsTheSameOnAnyNumberOfRanks) {
   EXPECT_EQ(record["read"]["open_edges"], 0);
   const std::set<std::string> patches = names_of(record["domain"]["patches"]);
   EXPECT_TRUE(patches.contains("fuselage") && patches.contains("farfield"));
-  const Json forecast = record["forecast"];
+  const Json& forecast = record["forecast"];
   const double share = forecast["features"]["share"], tetrahedra = forecast["tetrahedra"];
   EXPECT_GT(tetrahedra / share / 200000, 0.5);
   EXPECT_LT(tetrahedra / share / 200000, 2);

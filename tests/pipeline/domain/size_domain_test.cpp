@@ -228,7 +228,7 @@ TEST(TrailingEdges, AreKeptClosedOrGraded) {
     const Model model = thin_wing(thickness);
     request.feature_budget = budget;
     const SizedDomain sized = size_automatically(model, request);
-    const JudgedEdge edge = only_edge(sized);
+    JudgedEdge edge = only_edge(sized);
     EXPECT_NEAR(edge.narrowest, thickness, 0.01 * thickness);
     EXPECT_NEAR(edge.widest, thickness, 0.01 * thickness);
     EXPECT_NEAR(edge.chord, 1, 0.1);
