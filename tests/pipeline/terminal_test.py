@@ -48,7 +48,7 @@ def check_progress(shell):
 def main():
     shell = Shell(sys.argv[1])
     (shell.folder / "quick.yaml").write_text(COARSE_DUCT + NO_PICTURES)
-    (shell.folder / "slow.yaml").write_text(COARSE_TRANSPORT.replace("angle: 30", "angle: 20") + NO_PICTURES)
+    (shell.folder / "slow.yaml").write_text(COARSE_TRANSPORT.replace("maximum: 4", "maximum: 1.5") + NO_PICTURES)
     check_progress(shell)
 
 
