@@ -48,7 +48,8 @@ def check_progress(shell):
 def main():
     shell = Shell(sys.argv[1])
     (shell.folder / "quick.yaml").write_text(COARSE_DUCT + NO_PICTURES)
-    (shell.folder / "slow.yaml").write_text(COARSE_TRANSPORT.replace("maximum: 4", "maximum: 1.5") + NO_PICTURES)
+    slow = COARSE_TRANSPORT.replace("minimum: 0.5", "minimum: 0.2").replace("maximum: 4", "maximum: 0.3")
+    (shell.folder / "slow.yaml").write_text(slow + NO_PICTURES)
     check_progress(shell)
 
 
