@@ -66,8 +66,6 @@ def prepare(cluster, program, case):
     """The program, found on all hosts, and a case in the shared place; root may run Open MPI's programs."""
     for name in ("ALLOW_RUN_AS_ROOT", "ALLOW_RUN_AS_ROOT_CONFIRM", "MCA_mpi_yield_when_idle"):
         os.environ[f"OMPI_{name}"] = "1"
-    # A job that is cancelled has time to say so.
-    os.environ.pop("OMPI_MCA_odls_base_sigkill_timeout", None)
     os.environ["SCRATCH"] = str(SHARED)
     os.environ["PATH"] = f"{SHARED}:{os.environ['PATH']}"
     shutil.copy(program, cluster.shared / "aeroloom")

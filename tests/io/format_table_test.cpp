@@ -47,7 +47,7 @@ TEST_F(FormatTable, NamesLeadBackToTheirFormats) {
 }
 
 TEST_F(FormatTable, EndsOfPathsLeadBackToTheirFormats) {
-  std::vector<std::string> known;
+  std::vector<std::string> first, further;
   for (const FormatRow& row : file_formats()) {
     ASSERT_FALSE(row.ends.front().empty()) << row.name;
     for (const std::string_view end : row.ends) {
@@ -59,19 +59,16 @@ TEST_F(FormatTable, EndsOfPathsLeadBackToTheirFormats) {
       if (format != row.format) {
         EXPECT_EQ(row_of(*format).ends.front(), row.replaced_end) << end;
       } else {
-        known.emplace_back(end);
+        (end == row.ends.front() ? first : further).emplace_back(end);
       }
     }
   }
-  expect_apart(known);
   // A message names each of them, those of a run's output first.
-  std::vector<std::string> named;
-  std::istringstream words(known_extensions());
-  for (std::string word; std::getline(words >> std::ws, word, ',');) named.push_back(word);
-  EXPECT_TRUE(std::is_permutation(named.begin(), named.end(), known.begin(), known.end()))
-      << known_extensions();
-  EXPECT_EQ(named.front(), ".pvtu");
-  EXPECT_EQ(named.back(), ".mesh");
+  std::vector<std::string> known = first;
+  known.insert(known.end(), further.begin(), further.end());
+  expect_apart(known);
+  EXPECT_EQ(known_extensions(), fmt::format("{}", fmt::join(known, ", ")));
+  EXPECT_TRUE(known_extensions().starts_with(".pvtu, .vtkhdf, .cgns, .lb8.ugrid, .lb8l.ugrid, .su2, "));
   EXPECT_EQ(format_of_path("mesh.b8l.ugrid"), FileFormat::ugrid64);
   EXPECT_EQ(format_of_path("mesh.mesh"), FileFormat::meshb);
   EXPECT_EQ(format_of_path("mesh_1.msh"), FileFormat::msh);

@@ -10,9 +10,6 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 GEOMETRY = pathlib.Path(os.environ.get("AEROLOOM_GEOMETRY", SOURCE.parent / "shared" / "geometry"))
 
-# mpirun would sleep for a second, and another, before it ends what a failed run has left.
-os.environ.setdefault("OMPI_MCA_odls_base_sigkill_timeout", "0")
-
 # The built-in aircraft, coarse: two seconds on one core.
 COARSE_TRANSPORT = """
 geometry: {builtin: transport, trailing_edges: sharpen}
