@@ -205,7 +205,7 @@ TEST_F(FormatTable, LaterPartsOfAnEarlierMeshGo) {
     const auto written = [&](int parts) {
       write_mesh(mesh, row.format, file, {.parts = parts});
       world.barrier();
-      const auto files = examples::files_below(folder);
+      auto files = examples::files_below(folder);
       world.barrier();
       return files;
     };
