@@ -82,25 +82,25 @@ double half_sphere(double radius) {
   return 2 * std::numbers::pi / 3 * std::pow(radius, 3);
 }
 
-TEST(HalfModel, SphereIsCutByTheProgram) {
+TEST(HalfModelLocal, SphereIsCutByTheProgram) {
   expect_half({.body = BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, 0), 1).Shape(),
                .symmetry = Symmetry::y,
                .fluid = half_sphere(2 * extent) - half_sphere(1)});
 }
 
-TEST(HalfModel, SymmetricBodyNeedsNoAxis) {
+TEST(HalfModelLocal, SymmetricBodyNeedsNoAxis) {
   expect_half(
       {.body = BRepPrimAPI_MakeBox(gp_Pnt(0, -1, 0), 1, 2, 1).Shape(), .fluid = half_sphere(2 * extent) - 1});
 }
 
-TEST(HalfModel, BoxEndsAtThePlane) {
+TEST(HalfModelLocal, BoxEndsAtThePlane) {
   expect_half({.body = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 2, 1, 1).Shape(),
                .symmetry = Symmetry::z,
                .axis = 2,
                .fluid = half_sphere(2 * extent) - 2});
 }
 
-TEST(HalfModel, HalfBoxAroundATiltedCut) {
+TEST(HalfModelLocal, HalfBoxAroundATiltedCut) {
   expect_half({.body = BRepPrimAPI_MakeSphere(gp_Pnt(0.5, 0, 0), 1).Shape(),
                .shape = FarFieldShape::box,
                .symmetry = Symmetry::x,
@@ -134,7 +134,7 @@ TEST(HalfModel, TorusLeavesTwoHoles) {
 }
 
 // An open tube that stands on the plane: the fluid inside reaches the plane on an island.
-TEST(HalfModel, TubeOnThePlaneKeepsTheFluidInside) {
+TEST(HalfModelLocal, TubeOnThePlaneKeepsTheFluidInside) {
   const gp_Ax2 up(gp_Pnt(0, 0, 0), gp_Dir(0, 1, 0));
   const TopoDS_Shape tube = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(up, 1, 2).Shape(),
                                             BRepPrimAPI_MakeCylinder(up, 0.6, 2).Shape())

@@ -18,6 +18,9 @@ protected:
   Json facts(const std::string& file) const { return Json::parse(expect(0, "info --json " + file).out); }
 };
 
+/// What is not distributed is read by one rank for all.
+class InfoCommandLocal : public InfoCommand {};
+
 TEST_F(InfoCommand, OfAMeshTellsWhatItsReportTells) {
   write("case.yaml", coarse_wing());
   expect(0, "run case.yaml -q");
@@ -44,7 +47,7 @@ TEST_F(InfoCommand, OfAMeshTellsWhatItsReportTells) {
   expect(0, "info " + CommandLine::mesh(), {"tetrahedra " + mesh["tetrahedra"].dump(), "patch body"});
 }
 
-TEST_F(InfoCommand, OfCadTellsUnitSolidsAndNames) {
+TEST_F(InfoCommandLocal, OfCadTellsUnitSolidsAndNames) {
   write("case.yaml", coarse_transport());
   expect(0, "export-cad case.yaml wing.step -q");
   const Json cad = facts(path("wing.step"));
@@ -69,7 +72,7 @@ TEST_F(InfoCommand, OfCadTellsUnitSolidsAndNames) {
   EXPECT_NEAR(bound / in_metres, 1000, 1e-9);
 }
 
-TEST_F(InfoCommand, OfACaseSpellsOutItsValues) {
+TEST_F(InfoCommandLocal, OfACaseSpellsOutItsValues) {
   write("case.yaml", coarse_transport());
   const Json told = facts("case.yaml");
   EXPECT_EQ(told["kind"], "case");
@@ -96,7 +99,7 @@ TEST_F(InfoCommand, OfOtherFilesSaysWhatIsWrong) {
 
 // A face is called by its number in the file, whatever is cut off before it is meshed; info and check say
 // where it is.
-TEST_F(InfoCommand, FacesKeepTheirNamesWhereAPlaneCuts) {
+TEST_F(InfoCommandLocal, FacesKeepTheirNamesWhereAPlaneCuts) {
   const std::string file = (source_tree() / "tests" / "data" / "bracket.igs").string();
   const Json told = facts(file);
   std::map<std::string, Json> by_name;

@@ -61,20 +61,20 @@ void expect_regions(const TopoDS_Shape& shape, const Expected& expected) {
   EXPECT_EQ(written, expected.inner_patches > 0);
 }
 
-TEST(Regions, TwoBoxesShareAFace) {
+TEST(RegionsLocal, TwoBoxesShareAFace) {
   expect_regions(together({box(0, 0, 0, 1, 1, 1), box(1, 0, 0, 2, 1, 1)}), {{1, 2}, 1});
 }
 
-TEST(Regions, ABoxStandsOnPartOfAnother) {
+TEST(RegionsLocal, ABoxStandsOnPartOfAnother) {
   expect_regions(together({box(0, 0, 0, 3, 3, 1), box(1, 1, 1, 1, 1, 1)}), {{1, 9}, 1});
 }
 
-TEST(Regions, ABoxFillsTheVoidOfAnother) {
+TEST(RegionsLocal, ABoxFillsTheVoidOfAnother) {
   const TopoDS_Shape core = box(1, 1, 1, 1, 1, 1);
   expect_regions(together({BRepAlgoAPI_Cut(box(0, 0, 0, 3, 3, 3), core).Shape(), core}), {{1, 26}, 1});
 }
 
-TEST(Regions, ASolidHasAVoid) {
+TEST(RegionsLocal, ASolidHasAVoid) {
   expect_regions(BRepAlgoAPI_Cut(box(0, 0, 0, 3, 3, 3), box(1, 1, 1, 1, 1, 1)).Shape(), {{26}, 0});
 }
 
@@ -83,7 +83,7 @@ TEST(Regions, ThreeBoxesMeetAtOneEdge) {
                  {{1, 1, 1}, 1});
 }
 
-TEST(Regions, TwoBoxesTouchInAnEdgeAlone) {
+TEST(RegionsLocal, TwoBoxesTouchInAnEdgeAlone) {
   expect_regions(together({box(0, 0, 0, 1, 1, 1), box(1, 1, 0, 1, 1, 1)}), {{1, 1}, 0});
 }
 

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class WrittenFiles : public CommandLine {
+class WrittenFilesLocal : public CommandLine {
 protected:
   void SetUp() override {
     CommandLine::SetUp();
@@ -28,7 +28,7 @@ protected:
   }
 };
 
-TEST_F(WrittenFiles, OlderOnesAreTold) {
+TEST_F(WrittenFilesLocal, OlderOnesAreTold) {
   expect(0, "run case.yaml --set output.formats=[vtu,su2]");
   // Of the same mesh, which was made again without it.
   EXPECT_FALSE(expect(0, "run case.yaml").has("not of this run"));
@@ -48,7 +48,7 @@ TEST_F(WrittenFiles, OlderOnesAreTold) {
 }
 
 // What an unfinished file's name points to is nobody's business.
-TEST_F(WrittenFiles, LinksAreNotFollowed) {
+TEST_F(WrittenFilesLocal, LinksAreNotFollowed) {
   const std::string precious = write("precious", "precious");
   for (const std::string name : {"report.json", "report.html", "mesh.pvtu", "mesh.su2", "mesh.cgns",
                                  "mesh.meshb", "mesh.msh", "mesh.vtkhdf"}) {
@@ -61,7 +61,7 @@ TEST_F(WrittenFiles, LinksAreNotFollowed) {
   EXPECT_EQ(read("precious"), "precious");
 }
 
-TEST_F(WrittenFiles, BoundsThatWinOverCurvatureAreTold) {
+TEST_F(WrittenFilesLocal, BoundsThatWinOverCurvatureAreTold) {
   write("case.yaml", coarse_wing());
   const CommandResult ended =
       expect(0, "run case.yaml --set sizing.curvature_angle=2", {"wins over 2 degrees per element: on "});
@@ -79,7 +79,7 @@ TEST_F(WrittenFiles, BoundsThatWinOverCurvatureAreTold) {
 }
 
 // A case in metres and seconds made of lengths that are not, over results of another mesh.
-TEST_F(WrittenFiles, OpenFoamIsWarnedOfUnitsAndOfOtherResults) {
+TEST_F(WrittenFilesLocal, OpenFoamIsWarnedOfUnitsAndOfOtherResults) {
   const std::string line =
       "run /dev/null --set geometry.file=" + (source_tree() / "tests/data/bracket.igs").string() +
       " --set output.directory=foam --set output.formats=[openfoam] --set output.parts=1 "

@@ -101,7 +101,7 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
             }));
 }
 
-TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
+TEST(PicturesLocal, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   const Communicator world = Communicator::world();
   cases::Case input = coarse_aircraft("c");
   input.volume.retries = 1;
@@ -110,6 +110,8 @@ TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   EXPECT_EQ(names_of(record_of(world, input).pictures),
             world.is_root() ? expected : std::vector<std::string>{});
   input.output.pictures = false;
+  input.sizing.minimum = 2;
+  input.sizing.surface_maximum = 8;
   EXPECT_TRUE(record_of(world, input).pictures.empty());
 }
 
