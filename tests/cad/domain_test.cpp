@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <ios>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -36,6 +38,13 @@ Domain prepare(const std::string& file, DomainKind kind = DomainKind::automatic)
   return prepare_domain(options);
 }
 
+/// The same for all tests.
+const Domain& prepared_once(const std::string& name) {
+  static std::map<std::string, Domain> domains;
+  const auto found = domains.find(name);
+  return found != domains.end() ? found->second : domains.emplace(name, prepare(name)).first->second;
+}
+
 class RealFiles : public testing::TestWithParam<RealFile> {
 protected:
   void SetUp() override {
@@ -44,7 +53,7 @@ protected:
 };
 
 TEST_P(RealFiles, AreReadDecidedAndSound) {
-  const Domain domain = prepare(GetParam().file);
+  const Domain& domain = prepared_once(GetParam().file);
   const Model& model = domain.model;
   EXPECT_EQ(domain.report.kind, GetParam().kind) << domain.report.reason;
   EXPECT_FALSE(domain.report.reason.empty());
@@ -63,7 +72,7 @@ TEST_P(RealFiles, AreReadDecidedAndSound) {
 }
 
 TEST_P(RealFiles, GiveTheSameModelTwice) {
-  const Domain first = prepare(GetParam().file), second = prepare(GetParam().file);
+  const Domain &first = prepared_once(GetParam().file), second = prepare(GetParam().file);
   EXPECT_EQ(first.model.serialise(), second.model.serialise());
   const Model rebuilt = Model::from_bytes(first.model.serialise());
   for (FaceId f = 0; f < rebuilt.face_count(); f += 7) {

@@ -71,7 +71,7 @@ TEST_F(CheckCommandLocal, PredictsWhatARunDoesToTrailingEdges) {
             "geometry:\n  builtin: transport\n"
             "  dimensions: {wing: {trailing_edge: 0.0003}, horizontal_tail: {trailing_edge: 0.003}}\n"
             "farfield: {shape: cylinder, extent: 2}\nsizing: {target_tetrahedra: 20000}\n"
-            "output: {pictures: false}\n");
+            "improve: {enabled: false}\noutput: {pictures: false}\n");
   const Json edges = record["forecast"]["trailing_edges"];
   std::map<std::string, std::string> fates;
   for (const Json& edge : edges) {

@@ -81,6 +81,7 @@ void expect_merged_with_neighbour(const std::string& fault) {
   const Folder folder;
   cases::Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
   const ScopedFault injected("zone=" + fault + "@2");
+  input.improve.enabled = false;
   input.volume.retries = fault == "hangs" ? 0 : 1;
   input.volume.base_cpu_seconds = 1;  // what hangs need not do so for long
   report::RunRecord record;

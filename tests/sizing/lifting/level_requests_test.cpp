@@ -36,6 +36,7 @@ TEST(LevelDemands, FieldHasTheSpacingAlongEdges) {
   options.transport = cad::TransportDimensions{};
   options.default_far_field.extent = 100;
   options.default_far_field.unit = cad::ExtentUnit::semispan;
+  options.default_far_field.symmetry = cad::Symmetry::y;
   const cad::Model model = cad::prepare_domain(options).model;
   FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 0, Fields::one);
   const Vec3 flow{1, 0, 0};
