@@ -23,21 +23,22 @@ def report(shell, folder="out"):
     return json.loads((shell.folder / folder / "report.json").read_text())
 
 
-def wait_for(path, process):
-    while not path.exists():
+def holder_of(lock, process):
+    """The process that the lock names, once it does."""
+    while not lock.exists() or len(lock.read_text().split()) < 2:
         assert process.poll() is None, process.stdout.read()
         time.sleep(0.01)
+    return int(lock.read_text().split()[1])
 
 
 def check_one_run_at_a_time(shell):
     """The second is told of the first; what a killed run leaves is no hindrance."""
     lock = shell.folder / "out" / ".lock"
     first = start(shell, 1, "run", "long.yaml", "--set", "sizing.surface_maximum=0.5")
-    wait_for(lock, first)
+    holder = holder_of(lock, first)
     code, _, error = shell.run("run case.yaml")
     assert code == 7 and "another run writes there (process" in error and "Remedy" in error, error
-    for process in lock.read_text().split()[1:2]:
-        os.kill(int(process), signal.SIGKILL)
+    os.kill(holder, signal.SIGKILL)
     first.wait()
     assert lock.exists()
     code, _, error = shell.run("run case.yaml")
@@ -47,12 +48,14 @@ def check_one_run_at_a_time(shell):
 def check_end_from_outside(shell):
     """A message, the code of shells, and a report that says so."""
     for ranks, sent in ((1, signal.SIGTERM), (1, signal.SIGUSR1), (2, signal.SIGTERM)):
+        lock = shell.folder / "out" / ".lock"
+        lock.unlink(missing_ok=True)  # of the one before
         run = start(shell, ranks, "run", "long.yaml", "--set", "sizing.minimum=0.02",
                     "--set", f"sizing.surface_maximum={0.04 / ranks}")
-        wait_for(shell.folder / "out" / ".lock", run)
+        holder = holder_of(lock, run)
         time.sleep(0.3)
         if ranks == 1:
-            os.kill(int((shell.folder / "out" / ".lock").read_text().split()[1]), sent)
+            os.kill(holder, sent)
         else:
             run.terminate()
         text = run.communicate(timeout=60)[0]
