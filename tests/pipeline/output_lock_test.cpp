@@ -46,6 +46,7 @@ TEST_F(OutputLockTest, TellsTheSecondOfTheFirst) {
   first.reset();
   world.barrier();
   EXPECT_FALSE(exists(".lock"));
+  world.barrier();
   EXPECT_EQ(refusal(folder.string()), "");
 }
 
