@@ -65,10 +65,7 @@ TEST_F(CheckpointedRuns, FindWhatOthersHaveLeftOnAnotherNumberOfRanks) {
 }
 
 // Any bit of any file: that stage is done anew, the mesh is the same.
-/// What a file holds and where it lies has nothing to do with ranks.
-class CheckpointedRunsLocal : public CheckpointedRuns {};
-
-TEST_F(CheckpointedRunsLocal, MakeDamagedStagesAnew) {
+TEST_F(CheckpointedRuns, MakeDamagedStagesAnew) {
   expect(0, "run case.yaml --checkpoints");
   const std::string wanted = hash();
   std::mt19937 random(5);
@@ -89,7 +86,7 @@ TEST_F(CheckpointedRunsLocal, MakeDamagedStagesAnew) {
   EXPECT_EQ(hash(), wanted);
 }
 
-TEST_F(CheckpointedRunsLocal, GoOnWhereACaseDiffersAndRefuseAnotherGeometry) {
+TEST_F(CheckpointedRuns, GoOnWhereACaseDiffersAndRefuseAnotherGeometry) {
   expect(0, "run case.yaml --checkpoints");
   const std::string other = "run case.yaml --resume --set improve.target_angle=20";
   expect(0, other, {"improve.target_angle: 28, in the case 20"});

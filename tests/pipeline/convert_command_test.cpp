@@ -117,10 +117,7 @@ private:
 };
 
 // Files of a mesh appear together or not at all.
-/// Room in files is a matter of each writer, not of how many there are.
-class ConvertCommandLocal : public ConvertCommand {};
-
-TEST_F(ConvertCommandLocal, WhatWasThereIsWholeWhereThereIsNoRoom) {
+TEST_F(ConvertCommand, WhatWasThereIsWholeWhereThereIsNoRoom) {
   expect(0, "run case.yaml -q");
   expect(0, "run case.yaml -q --set output.directory=finer --set sizing.surface_maximum=1.5");
   const std::vector<std::string> targets = {"a.pvtu", "b.vtkhdf", "c.cgns",  "d.lb8.ugrid", "e.su2",

@@ -98,7 +98,7 @@ TEST(VolumePieces, ThatFailEndMergedWithTheirNeighbours) {
   for (const char* fault : {"throws", "aborts"}) expect_merged_with_neighbour(fault);
 }
 
-// A process ends another that does neither, on whatever rank.
+// On several ranks: FailingChild, in tests/volume/filling.
 TEST(VolumePiecesLocal, WithoutEndEndMergedWithTheirNeighbours) {
   for (const char* fault : {"hangs", "exhausts_memory"}) expect_merged_with_neighbour(fault);
 }

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-class WrittenFilesLocal : public CommandLine {
+class WrittenFiles : public CommandLine {
 protected:
   void SetUp() override {
     CommandLine::SetUp();
@@ -27,6 +27,9 @@ protected:
     return read_json("out/report.json")["older_files"].get<std::vector<std::string>>();
   }
 };
+
+/// What one rank says of a folder, or of lengths.
+class WrittenFilesLocal : public WrittenFiles {};
 
 TEST_F(WrittenFilesLocal, OlderOnesAreTold) {
   expect(0, "run case.yaml --set output.formats=[vtu,su2]");
@@ -48,7 +51,7 @@ TEST_F(WrittenFilesLocal, OlderOnesAreTold) {
 }
 
 // What an unfinished file's name points to is nobody's business.
-TEST_F(WrittenFilesLocal, LinksAreNotFollowed) {
+TEST_F(WrittenFiles, LinksAreNotFollowed) {
   const std::string precious = write("precious", "precious");
   for (const std::string name : {"report.json", "report.html", "mesh.pvtu", "mesh.su2", "mesh.cgns",
                                  "mesh.meshb", "mesh.msh", "mesh.vtkhdf"}) {

@@ -101,7 +101,7 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
             }));
 }
 
-TEST(PicturesLocal, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
+TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   const Communicator world = Communicator::world();
   cases::Case input = coarse_aircraft("c");
   input.volume.retries = 1;
@@ -110,7 +110,7 @@ TEST(PicturesLocal, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   EXPECT_EQ(names_of(record_of(world, input).pictures),
             world.is_root() ? expected : std::vector<std::string>{});
   input.output.pictures = false;
-  input.sizing.minimum = 2;
+  input.sizing.minimum = 2;  // without them, any surface will do
   input.sizing.surface_maximum = 8;
   EXPECT_TRUE(record_of(world, input).pictures.empty());
 }
