@@ -58,7 +58,7 @@ TEST_F(InfoCommandLocal, OfCadTellsUnitSolidsAndNames) {
   EXPECT_EQ(cad["shells"], 1);
   EXPECT_EQ(cad["bounds"], cad["bounds_in_metres"]);
   EXPECT_NEAR(cad["bounds"][1][0].get<double>(), 37.6, 1e-6);
-  const Json names = cad["face_names"];
+  const Json& names = cad["face_names"];
   EXPECT_EQ(std::count(names.begin(), names.end(), Json({{"name", "fuselage"}, {"faces", 12}})), 1) << names;
   EXPECT_EQ(cad["parts"][0]["name"], "transport");
 
