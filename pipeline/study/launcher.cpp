@@ -17,7 +17,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -113,31 +112,22 @@ void terminate_then_kill(pid_t group) {
 
 }  // namespace
 
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789_-./=:,+@%") == std::string::npos;
-  if (plain) return word;
-  std::string text = word;
-  replace_all(text, "'", "'\\''");
-  return fmt::format("'{}'", text);
-}
-
-std::string quoted(const std::vector<std::string>& words) {
-  std::vector<std::string> texts;
-  texts.reserve(words.size());
-  for (const std::string& word : words) texts.push_back(quoted(word));
-  return fmt::format("{}", fmt::join(texts, " "));
-}
-
 std::string Launcher::line(int ranks, int nodes, const std::vector<std::string>& command) const {
-  const std::string words = quoted(command);
-  if (ranks == 1 && !starts_single) return fmt::format("exec {}", words);
+  if (ranks == 1 && !starts_single) return fmt::format("exec {}", quoted(command));
   std::string text = pattern;
   replace_all(text, "{ranks}", std::to_string(ranks));
   replace_all(text, "{nodes}", std::to_string(nodes));
-  replace_all(text, "{command}", words);
-  return text;
+  return with_command(text, "{command}", command);
+}
+
+Launcher srun_launcher() {
+  return {"srun --mpi=pmix --kill-on-bad-exit --nodes={nodes} --ntasks={ranks} {command}", true};
+}
+
+Launcher mpirun_launcher(const std::string& settings, const std::string& options) {
+  const char* root = ::getuid() == 0 ? " --allow-run-as-root" : "";
+  return {fmt::format("{}mpirun{} --oversubscribe{} -n {{ranks}} {{command}}", settings, root, options),
+          false};
 }
 
 Launcher make_launcher(const std::string& pattern) {
@@ -147,17 +137,13 @@ Launcher make_launcher(const std::string& pattern) {
         throw std::invalid_argument(fmt::format(
             "the launcher '{}' lacks {}. Remedy: as in 'mpirun -n {{ranks}} {{command}}'", pattern, part));
     }
-    return {pattern, true};
+    const Launcher launcher{pattern, true};
+    launcher.line(2, 1, {"command"});  // refuses what it cannot fill
+    return launcher;
   }
-  if (std::getenv("SLURM_JOB_ID") != nullptr)
-    return {"srun --mpi=pmix --kill-on-bad-exit --nodes={nodes} --ntasks={ranks} {command}", true};
+  if (std::getenv("SLURM_JOB_ID") != nullptr) return srun_launcher();
   // Ranks that share a core give it to each other while they wait.
-  const char* root = ::getuid() == 0 ? " --allow-run-as-root" : "";
-  return {
-      fmt::format(
-          "OMPI_MCA_mpi_yield_when_idle=1 mpirun{} --oversubscribe --bind-to none -n {{ranks}} {{command}}",
-          root),
-      false};
+  return mpirun_launcher("OMPI_MCA_mpi_yield_when_idle=1 ", " --bind-to none");
 }
 
 namespace detail {

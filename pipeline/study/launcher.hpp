@@ -1,6 +1,8 @@
 /// Starts runs on any number of ranks.
 #pragma once
 
+#include "pipeline/study/shell_text.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,7 +11,8 @@
 
 namespace aeroloom::study {
 
-/// A shell line in which {ranks}, {nodes} and {command} are replaced.
+/// A shell line in which {ranks}, {nodes} and {command} are replaced; the command is quoted as quotes around
+/// it ask for.
 struct Launcher {
   std::string pattern;
   bool starts_single = true;  ///< also starts one rank; else the command is started directly
@@ -17,14 +20,15 @@ struct Launcher {
   std::string line(int ranks, int nodes, const std::vector<std::string>& command) const;
 };
 
-/// The user's launcher; else srun inside a SLURM job; else mpirun. Throws std::invalid_argument for a pattern
-/// without {command} or {ranks}.
-Launcher make_launcher(const std::string& pattern);
+/// Within a job of SLURM.
+Launcher srun_launcher();
+/// Elsewhere; a single rank is started directly. `settings` (NAME=VALUE, with a blank behind) and `options`
+/// (with a blank before) are shell text.
+Launcher mpirun_launcher(const std::string& settings = "", const std::string& options = "");
 
-/// Quotes a word for the shell.
-std::string quoted(const std::string& word);
-/// Quotes and joins the words of a command.
-std::string quoted(const std::vector<std::string>& words);
+/// The user's launcher; else srun inside a SLURM job; else mpirun. Throws std::invalid_argument for a pattern
+/// without {command} or {ranks}, or where {command} cannot be quoted.
+Launcher make_launcher(const std::string& pattern);
 
 /// How a shell line ended.
 struct Ended {

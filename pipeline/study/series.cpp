@@ -64,8 +64,8 @@ std::vector<std::string> command_of(const StudyOptions& options, const RunSpec& 
   std::vector<std::string> words{options.program, "run", options.case_file};
   add_settings(words, options.overrides);
   add_settings(words, run.settings);
-  add_settings(words,
-               {"output.directory=" + folder_of(options.directory, run).string(), "output.pictures=false"});
+  add_settings(words, {"output.directory=" + quoted_for_key(folder_of(options.directory, run).string()),
+                       "output.pictures=false"});
   return words;
 }
 
@@ -75,7 +75,7 @@ CaseForecast forecast_case(const StudyOptions& options, const std::vector<std::s
   std::vector<std::string> words{options.program, "check", options.case_file};
   add_settings(words, options.overrides);
   add_settings(words, settings);
-  add_settings(words, {"output.directory=" + folder.string()});
+  add_settings(words, {"output.directory=" + quoted_for_key(folder.string())});
   const Ended ended = run_line(fmt::format("exec {}", quoted(words)), folder / "log");
   if (ended.code != 0) {
     throw std::runtime_error(

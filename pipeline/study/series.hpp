@@ -33,7 +33,8 @@ struct CaseSize {
 std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize& size,
                                     const std::function<void(const std::string&)>& log);
 
-/// The words of the command for a run, without launcher.
+/// The words of the command for a run, without launcher. Throws as quoted_for_key() for the folder of
+/// results.
 std::vector<std::string> command_of(const StudyOptions& options, const RunSpec& run);
 
 /// Starts all runs that have not succeeded. Failures are logged and do not stop the series. Mesh files are

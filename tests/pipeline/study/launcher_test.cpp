@@ -22,6 +22,28 @@ TEST(Launcher, FillsItsPattern) {
 TEST(Launcher, RefusesPatternsThatStartNothing) {
   EXPECT_THROW(make_launcher("mpirun {command}"), std::invalid_argument);
   EXPECT_THROW(make_launcher("mpirun -n {ranks}"), std::invalid_argument);
+  // Where a name cannot be quoted.
+  for (const char* pattern :
+       {"x {ranks} `{command}`", "x {ranks} \"`{command}`\"", "x {ranks} sh -c \"ssh host '{command}'\"",
+        "x {ranks} sh -c 'ssh host \"{command}\"'", "x {ranks} sh -c \"ssh host \\\"{command}\\\"\"",
+        "x {ranks} <<EOF\n{command}\nEOF"})
+    EXPECT_THROW(make_launcher(pattern), std::invalid_argument) << pattern;
+}
+
+TEST(Launcher, GivesNamesToShellsWithinTheLine) {
+  const StudyFolder folder("quotes");
+  const std::string name = "a'b\"c$(exit 1)`exit 1`\\ \n#;d";
+  for (const char* pattern :
+       {"x={ranks}; {command}", "x={ranks} sh -c '{command}'", "x={ranks} sh -c \"{command}\"",
+        "x={ranks}; echo \"$({command})\"", "x=\"'{ranks}'\" y=$((1 + (2))) {command} # '{command}'",
+        "x=\"$(echo \")\")\" sh -c '{command}' \\' {ranks}"}) {
+    const Ended ended =
+        run_line(make_launcher(pattern).line(1, 1, {"printf", "%s", name}), folder.path / "log");
+    EXPECT_EQ(ended.code, 0) << pattern;
+    std::string said = read_file(folder.path / "log");
+    if (said.ends_with('\n')) said.pop_back();
+    EXPECT_EQ(said, name) << pattern;
+  }
 }
 
 TEST(Launcher, TellsHowALineEnded) {
