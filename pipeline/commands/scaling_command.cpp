@@ -6,6 +6,7 @@
 #include "pipeline/output_lock.hpp"
 #include "pipeline/report/library_versions.hpp"
 #include "pipeline/report/text_file.hpp"
+#include "pipeline/study/comparison.hpp"
 #include "pipeline/study/jobs.hpp"
 #include "pipeline/study/page.hpp"
 #include "pipeline/study/prediction_files.hpp"
@@ -14,6 +15,7 @@
 #include "pipeline/study/table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -132,6 +134,16 @@ void add_prediction(study::Json& study, const study::StudyRecord& record,
   }
 }
 
+/// A run's own code, if the program ends with such. What a launcher or a queue made of it is none: the file
+/// that the run should have left is missing.
+report::ExitCode code_of_failed(const study::RunResult& run) {
+  constexpr std::array documented{2, 3, 4, 5, 6, 7, 8, 70, 129, 130, 138, 143};
+  for (const int code : {run.marks.code, run.reported_code})
+    if (std::find(documented.begin(), documented.end(), code) != documented.end())
+      return static_cast<report::ExitCode>(code);
+  return report::ExitCode::files;
+}
+
 /// Tables, page, and the exit code: that of the first run that failed.
 report::ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs,
                              const study::Network& network) {
@@ -140,17 +152,20 @@ report::ExitCode write_study(const study::StudyRecord& record, const std::vector
   const std::vector<study::SeriesRow> rows = study::make_rows(record, runs, machine);
   study::Json study = study::study_json(record, runs, rows, machine);
   add_prediction(study, record, runs, network);
-  const std::string json = study.dump(1) + "\n";
+  const std::string json = study.dump(1, ' ', false, study::Json::error_handler_t::replace) + "\n";
   const fs::path& folder = record.options.directory;
   report::write_text((folder / "scaling.json").string(), json);
   report::write_text((folder / "scaling.csv").string(), study::study_csv(runs));
   report::write_text((folder / "scaling.html").string(), study::study_page(json));
   report::print_text(study::study_text(rows));
   log_progress((folder / "scaling.html").string());
-  for (const study::RunResult& run : runs)
-    if (run.marks.state == study::RunState::failed)
-      return static_cast<report::ExitCode>(std::max(1, run.marks.code));
-  return report::ExitCode::ok;
+  report::ExitCode code = report::ExitCode::ok;
+  for (const study::RunResult& run : runs) {
+    if (run.marks.state != study::RunState::failed) continue;
+    if (code == report::ExitCode::ok) code = code_of_failed(run);
+    log_progress(fmt::format("{} failed with code {}: {}", run.spec.name(), run.marks.code, run.failure));
+  }
+  return code;
 }
 
 report::ExitCode carry_out_study(const ScalingArguments& arguments, const cases::Case& input) {
@@ -195,10 +210,10 @@ report::ExitCode collect_study(const ScalingArguments& arguments) {
 }
 
 report::ExitCode compare_studies(const ScalingArguments& arguments) {
-  const auto json_of = [](const std::string& place) {
-    return report::read_text(fs::is_directory(place) ? place + "/scaling.json" : place);
+  const auto study_in = [](const fs::path& place) {
+    return study::read_study(fs::is_directory(place) ? place / "scaling.json" : place);
   };
-  report::print_text(study::compare_text(json_of(arguments.compared[0]), json_of(arguments.compared[1])));
+  report::print_text(study::compare_text(study_in(arguments.compared[0]), study_in(arguments.compared[1])));
   return report::ExitCode::ok;
 }
 

@@ -155,13 +155,16 @@ StageCosts stage_costs(const Json& stage, int ranks, const std::vector<TaskLine>
 RunCosts costs_of(const Json& report, std::string_view tasks) {
   if (!report.is_object() || !report.contains("stages") || !report.contains("ranks"))
     throw std::runtime_error("this is no report of a run");
-  if (report.value("status", "") != "ok")
+  const auto text_of = [](const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+  };
+  if (!report.contains("status") || text_of(report["status"]) != "ok")
     throw std::runtime_error("the run failed: what it would have cost is not on record");
   if (report.contains("resumed") && !report["resumed"].empty())
     throw std::runtime_error(
         fmt::format("the run took '{}' from a checkpoint, whose cost is not on record. Remedy: a run from "
                     "the beginning",
-                    report["resumed"].front().get<std::string>()));
+                    text_of(report["resumed"].front())));
   const std::vector<TaskLine> rows = task_lines(tasks);
   try {
     RunCosts costs;
@@ -184,8 +187,7 @@ RunCosts read_costs(const std::filesystem::path& folder) {
     throw std::runtime_error(
         fmt::format("'{}' has no tasks.csv. Remedy: a run with output.tasks: true, which is the default",
                     folder.string()));
-  const Json json = Json::parse(read_file(report), nullptr, false);
-  if (json.is_discarded()) throw std::runtime_error(fmt::format("'{}' is not JSON", report.string()));
+  const Json json = read_json(report);
   std::string text = read_file(tasks);
   try {
     return costs_of(json, text);

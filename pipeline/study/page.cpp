@@ -336,28 +336,4 @@ std::string study_page(const std::string& json) {
       escaped(stem), style_sheet(), body);
 }
 
-std::string compare_text(const std::string& old_json, const std::string& new_json) {
-  const Json before = Json::parse(old_json), after = Json::parse(new_json);
-  std::string out = fmt::format("{:<7} {:>6} {:>10} {:>10} {:>8} {:>11} {:>11}  {}\n", "series", "ranks",
-                                "old s", "new s", "ratio", "old eff.", "new eff.", "mesh");
-  int found = 0;
-  for (const Json& now : find(after, "/rows")) {
-    for (const Json& then : find(before, "/rows")) {
-      if (find(then, "/series") != find(now, "/series") || find(then, "/ranks") != find(now, "/ranks"))
-        continue;
-      if (number(find(then, "/ended")) == 0 || number(find(now, "/ended")) == 0) continue;
-      // The clock is compared with the clock: what one study judges by CPU the other is asked for, too.
-      const char* key = is_by_cpu(now) || is_by_cpu(then) ? "/busy_cpu_seconds" : "/wall_seconds";
-      const double old_seconds = number(find(then, key)), new_seconds = number(find(now, key));
-      out += fmt::format("{:<7} {:>6.0f} {:>10.2f} {:>10.2f} {:>8.3f} {:>10.0f}% {:>10.0f}%  {}\n",
-                         text(find(now, "/series")), number(find(now, "/ranks")), old_seconds, new_seconds,
-                         old_seconds > 0 ? new_seconds / old_seconds : 0,
-                         100 * number(find(then, "/efficiency")), 100 * number(find(now, "/efficiency")),
-                         find(then, "/hash") == find(now, "/hash") ? "the same" : "another");
-      ++found;
-    }
-  }
-  return found > 0 ? out : "the two studies have no finished runs of one series on one number of ranks\n";
-}
-
 }  // namespace aeroloom::study

@@ -68,8 +68,11 @@ Json to_json(const RunSpec& run) {
 }
 
 RunSpec run_of(const Json& json) {
-  return {series_called(json.at("series").get<std::string>()), json.at("ranks").get<int>(),
-          json.at("repeat").get<int>(), json.at("settings").get<std::vector<std::string>>()};
+  RunSpec run{series_called(json.at("series").get<std::string>()), json.at("ranks").get<int>(),
+              json.at("repeat").get<int>(), json.at("settings").get<std::vector<std::string>>()};
+  if (run.ranks < 1 || run.repeat < 1)
+    throw std::runtime_error(fmt::format("a run '{}' is none", run.name()));
+  return run;
 }
 
 void save(const StudyRecord& record) {
@@ -80,7 +83,8 @@ void save(const StudyRecord& record) {
       {"program", options.program},  {"case", options.case_file},  {"overrides", options.overrides},
       {"ranks", options.ranks},      {"repeats", options.repeats}, {"ranks_per_node", options.ranks_per_node},
       {"versions", record.versions}, {"subject", record.subject},  {"runs", std::move(runs)}};
-  write_file(options.directory / record_name, json.dump(1) + "\n");
+  write_file(options.directory / record_name,
+             json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 bool holds_study(const fs::path& directory) {
@@ -89,9 +93,8 @@ bool holds_study(const fs::path& directory) {
 
 StudyRecord load_study(const fs::path& directory) {
   const fs::path file = directory / record_name;
-  const std::string text = read_file(file);
+  const Json json = read_json(file);
   try {
-    const Json json = Json::parse(text);
     StudyRecord record;
     record.options.program = json.at("program").get<std::string>();
     record.options.case_file = json.at("case").get<std::string>();
@@ -104,8 +107,8 @@ StudyRecord load_study(const fs::path& directory) {
     record.subject = json.at("subject").get<std::string>();
     for (const Json& run : json.at("runs")) record.runs.push_back(run_of(run));
     return record;
-  } catch (const Json::exception& error) {
-    throw std::runtime_error(fmt::format("'{}' is no record of a study: {}", file.string(), error.what()));
+  } catch (const std::exception& error) {
+    refuse_json(file, "the record of a study", error);
   }
 }
 

@@ -25,12 +25,6 @@ double seconds_since_epoch() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::string host_name() {
-  std::array<char, 256> name{};
-  ::gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
-
 void add_mark(const fs::path& folder, const std::string& line) {
   fs::create_directories(folder);
   std::ofstream file(folder / marks_name, std::ios::app);
@@ -51,7 +45,7 @@ std::string last_words(const fs::path& log) {
 }
 
 double number_at(const Json& json, const char* key) {
-  const auto found = json.find(key);
+  const auto found = json.find(key);  // the end, in what is no object
   return found != json.end() && found->is_number() ? found->get<double>() : 0;
 }
 
@@ -72,23 +66,27 @@ StageFigures stage_figures(const Json& stage) {
   return figures;
 }
 
-void look_at(const fs::path& folder, RunResult& run) {
-  std::optional<Json> report;
-  if (fs::exists(folder / "report.json")) {
-    const Json read = Json::parse(read_file(folder / "report.json"), nullptr, false);
-    if (read.is_object()) report = read;
+const Json& object_at(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_object()) throw std::runtime_error(fmt::format("has no '{}'", key));
+  return *found;
+}
+
+/// The report as far as it is one, and the figures if it is that of a finished run.
+void look_at_report(const fs::path& file, RunResult& run, std::string& fault) {
+  if (!fs::exists(file)) return;
+  Json report;
+  try {
+    report = read_json(file);
+    if (text_at(report, "status") == "ok") run.figures = figures_of(report);
+    fault = "with a report that tells of a failure";
+  } catch (const std::runtime_error& error) {
+    fault = fmt::format("with a report that is not that of a finished run: {}", error.what());
   }
-  if (run.marks.state == RunState::ended && report && text_at(*report, "status") == "ok") {
-    run.figures = figures_of(*report);
-    return;
-  }
-  if (run.marks.state == RunState::ended) run.marks.state = RunState::failed;
-  if (report && report->contains("failure"))
-    run.failure = fmt::format("stage {}: {}", text_at((*report)["failure"], "stage"),
-                              text_at((*report)["failure"], "message"));
-  else if (run.marks.state == RunState::failed)
-    run.failure = last_words(folder / "log");
-  run.failure = run.failure.substr(0, run.failure.find('\n'));
+  if (!report.is_object()) return;
+  run.reported_code = static_cast<int>(number_at(report, "exit_code"));
+  if (const auto failure = report.find("failure"); failure != report.end() && failure->is_object())
+    run.failure = fmt::format("stage {}: {}", text_at(*failure, "stage"), text_at(*failure, "message"));
 }
 
 }  // namespace
@@ -96,6 +94,12 @@ void look_at(const fs::path& folder, RunResult& run) {
 std::string_view name_of(RunState state) {
   constexpr std::array<std::string_view, 5> names{"planned", "queued", "begun", "ended", "failed"};
   return names.at(static_cast<std::size_t>(state));
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
 }
 
 void mark_begin(const fs::path& folder, std::int64_t process) {
@@ -126,14 +130,38 @@ RunMarks read_marks(const fs::path& folder) {
   return marks;
 }
 
+RunResult result_of(const fs::path& directory, const RunSpec& spec) {
+  const fs::path folder = folder_of(directory, spec);
+  RunResult run{spec, read_marks(folder), {}, {}};
+  std::string fault = "without a report";
+  look_at_report(folder / "report.json", run, fault);
+  if (run.marks.state == RunState::ended && run.figures) {
+    run.failure.clear();
+    return run;
+  }
+  run.figures.reset();  // of an earlier attempt
+  if (run.marks.state == RunState::ended) {
+    run.marks.state = RunState::failed;
+    if (run.failure.empty())
+      run.failure = fmt::format("ended with 0 {}; its log: {}", fault, last_words(folder / "log"));
+  }
+  if (run.marks.state == RunState::failed && run.failure.empty()) run.failure = last_words(folder / "log");
+  run.failure = run.failure.substr(0, run.failure.find('\n'));
+  return run;
+}
+
 RunFigures figures_of(const Json& report) {
   RunFigures figures;
+  const Json& mesh = object_at(report, "mesh");
+  const auto stages = report.find("stages");
+  if (stages == report.end() || !stages->is_array()) throw std::runtime_error("has no 'stages'");
   figures.wall = number_at(report, "wall_seconds");
-  figures.tetrahedra = number_at(report.at("mesh"), "tetrahedra");
-  figures.hash = text_at(report.at("mesh"), "hash");
-  if (report.contains("input")) figures.input_hash = text_at(report["input"], "hash");
+  figures.tetrahedra = number_at(mesh, "tetrahedra");
+  figures.hash = text_at(mesh, "hash");
+  if (const auto input = report.find("input"); input != report.end())
+    figures.input_hash = text_at(*input, "hash");
   double tasks_max = 0, tasks_mean = 0;
-  for (const Json& each : report.at("stages")) {
+  for (const Json& each : *stages) {
     figures.stages.push_back(stage_figures(each));
     const StageFigures& stage = figures.stages.back();
     figures.busy += stage.busy;
@@ -152,9 +180,7 @@ std::vector<RunResult> collect_runs(const StudyRecord& record,
                                     const std::map<std::string, std::string>& queue) {
   std::vector<RunResult> results;
   for (const RunSpec& spec : record.runs) {
-    const fs::path folder = folder_of(record.options.directory, spec);
-    RunResult run{spec, read_marks(folder), {}, {}};
-    look_at(folder, run);
+    RunResult run = result_of(record.options.directory, spec);
     if (const auto state = queue.find(spec.name());
         state != queue.end() && run.marks.state != RunState::ended) {
       if (run.marks.state == RunState::planned) run.marks.state = RunState::queued;

@@ -24,6 +24,8 @@ struct RunMarks {
   std::int64_t process = 0;  ///< process group or job of the last attempt
   std::string host;          ///< of the last attempt
 };
+/// As marks have it.
+std::string host_name();
 void mark_begin(const std::filesystem::path& folder, std::int64_t process);
 void mark_end(const std::filesystem::path& folder, int code);
 RunMarks read_marks(const std::filesystem::path& folder);
@@ -54,10 +56,15 @@ struct RunResult {
   RunSpec spec;
   RunMarks marks;
   std::optional<RunFigures> figures;  ///< of a successful run
-  std::string failure;                ///< one line from its report or log
+  std::string failure;                ///< one line from its report or log, or what is wrong with these
+  int reported_code = 0;              ///< of a failed run, by its report; 0: there is none
 };
 
+/// Throws std::runtime_error with what the report of a finished run lacks.
 RunFigures figures_of(const Json& report);
+
+/// What a run has left in its folder. One that has ended without the report of a finished run has failed.
+RunResult result_of(const std::filesystem::path& directory, const RunSpec& spec);
 
 /// The results of all runs. `queue`: states of jobs by run name (query_queue()).
 std::vector<RunResult> collect_runs(const StudyRecord& record,

@@ -52,12 +52,6 @@ std::vector<std::string> find_lengths(const StudyOptions& options, const CaseSiz
   return scaled(size, factor);
 }
 
-bool is_done(const fs::path& folder) {
-  if (read_marks(folder).state != RunState::ended || !fs::exists(folder / "report.json")) return false;
-  const Json report = Json::parse(read_file(folder / "report.json"), nullptr, false);
-  return report.is_object() && report.value("status", "") == "ok";
-}
-
 }  // namespace
 
 std::vector<std::string> command_of(const StudyOptions& options, const RunSpec& run) {
@@ -82,9 +76,13 @@ CaseForecast forecast_case(const StudyOptions& options, const std::vector<std::s
         fmt::format("the size of the case cannot be predicted, 'aeroloom check' ended with {}:\n{}",
                     ended.code, read_file(folder / "log")));
   }
-  const Json json = Json::parse(read_file(folder / "check.json"), nullptr, false);
-  const auto at = [&](const char* key) { return json.at("forecast").at(key).get<double>(); };
-  return {at("tetrahedra"), at("seconds_on_one_core"), at("bytes")};
+  const Json json = read_json(folder / "check.json");
+  try {
+    const auto at = [&](const char* key) { return json.at("forecast").at(key).get<double>(); };
+    return {at("tetrahedra"), at("seconds_on_one_core"), at("bytes")};
+  } catch (const Json::exception& error) {
+    refuse_json(folder / "check.json", "what 'aeroloom check' of this program leaves", error);
+  }
 }
 
 std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize& size,
@@ -126,21 +124,23 @@ void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
   for (const RunSpec& run : record.runs) {
     const fs::path folder = folder_of(options.directory, run);
     const std::string title = fmt::format("[{}/{}] {}", ++number, record.runs.size(), run.name());
-    if (is_done(folder)) {
+    const RunResult before = result_of(options.directory, run);
+    if (before.figures) {
       log(title + ": done before");
       continue;
     }
-    if (const RunMarks marks = read_marks(folder); marks.state == RunState::begun)
-      end_group(static_cast<pid_t>(marks.process), options.program);
+    if (before.marks.state == RunState::begun && before.marks.host == host_name())
+      end_group(static_cast<pid_t>(before.marks.process), options.program);
     fs::create_directories(folder);
+    fs::remove(folder / "report.json");  // of an earlier attempt
     const std::string line =
         launcher.line(run.ranks, nodes_for(run.ranks, options.ranks_per_node), command_of(options, run));
     const Ended ended = run_line(line, folder / "log", [&](pid_t group) { mark_begin(folder, group); });
     mark_end(folder, ended.code);
-    if (ended.code == 0 && is_done(folder)) {
-      const RunFigures figures = figures_of(Json::parse(read_file(folder / "report.json")));
-      log(fmt::format("{}: {:.0f} tetrahedra in {:.2f} s, hash {}", title, figures.tetrahedra, figures.wall,
-                      figures.hash));
+    const RunResult result = result_of(options.directory, run);
+    if (result.figures) {
+      log(fmt::format("{}: {:.0f} tetrahedra in {:.2f} s, hash {}", title, result.figures->tetrahedra,
+                      result.figures->wall, result.figures->hash));
       if (!keep) remove_meshes(folder);
     } else {
       log(fmt::format("{}: failed with code {}, see {}", title, ended.code, (folder / "log").string()));

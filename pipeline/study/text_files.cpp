@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace aeroloom::study {
 
@@ -17,6 +18,25 @@ std::string read_file(const std::filesystem::path& file) {
   if (!stream)
     throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
   return text.str();
+}
+
+void refuse_json(const std::filesystem::path& file, const std::string& what, const std::exception& error) {
+  // The library begins with the name of the exception, in brackets.
+  std::string said = error.what();
+  if (said.starts_with('[') && said.find("] ") != std::string::npos) said.erase(0, said.find("] ") + 2);
+  throw std::runtime_error(fmt::format("'{}' is not {}: {}", file.string(), what, said));
+}
+
+nlohmann::ordered_json read_json(const std::filesystem::path& file) {
+  const std::string text = read_file(file);
+  try {
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(text);
+    if (!json.is_object())
+      throw std::runtime_error(fmt::format("an object was expected, not {}", json.type_name()));
+    return json;
+  } catch (const std::exception& error) {
+    refuse_json(file, "whole JSON", error);
+  }
 }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {

@@ -194,6 +194,8 @@ TEST_F(Refusals, OfStudies) {
   }
   write("cut/report.json", "{\"status\": ");
   write("cut/tasks.csv", "stage,kind\n");
+  write("jobs/results", folder.string() + "\n");
+  write("study.json", "{\"program\": \"aeroloom\"}");
   write("network.json", "{\"latency_seconds\": 1e-6, \"bytes_per_second\": 1e9}\n");
   for (const auto& [line, code, word] : std::vector<std::tuple<std::string, int, std::string>>{
            {"scaling case.yaml --launcher true", 2, "lacks {ranks}"},
@@ -201,7 +203,12 @@ TEST_F(Refusals, OfStudies) {
            {"scaling case.yaml --job-header x", 2, "--write-jobs"},
            {"scaling --collect nowhere", 7, "nowhere"},
            {"scaling --predict nowhere", 7, "has no report.json"},
-           {"scaling --predict cut", 7, "is not JSON"},
+           {"scaling --predict cut", 7, "report.json' is not whole JSON"},
+           {"scaling --compare cut/report.json cut", 7,
+            "report.json' is not whole JSON: parse error at line 1"},
+           {"scaling --compare network.json network.json", 7, "it has no list 'rows'"},
+           {"scaling --compare nowhere cut", 7, "nowhere"},
+           {"scaling --collect jobs", 7, "study.json' is not the record of a study"},
            {"scaling --predict cut --ranks 0", 2, "--ranks"},
            {"scaling --predict cut --bandwidth 0", 2, "--bandwidth"},
            {"scaling --predict cut --network network.json --latency 1e-6", 2, "--latency"},

@@ -151,21 +151,28 @@ def check_failures_are_shown(shell):
 
 
 def check_jobs(shell):
-    """Scripts are run here as a queue would run them; one is not, and is shown as planned."""
-    code, text, error = shell.run(f"scaling case.yaml --ranks 1,2 --repeats 1 --set output.directory=of_jobs --write-jobs jobs "
-                                  f"--launcher '{LAUNCHER} {{ranks}} {{command}}'")
+    """Scripts are run here as a queue would run them; one is not, and is shown as planned. Folders have names of which a shell,
+    or YAML, would make more."""
+    out, jobs = "of jobs: #1 $(touch executed) `touch executed`", "jobs; touch executed"
+    code, text, error = shell.run(f"scaling case.yaml --ranks 1,2 --repeats 1 --set 'output.directory=\"{out}\"' "
+                                  f"--write-jobs '{jobs}' --launcher 'X={{ranks}}; {LAUNCHER} $X {{command}}'")
     assert code == 0, text + error
-    for name in ("serial_1_1", "strong_2_1"):
-        done = subprocess.run(["bash", shell.folder / "jobs" / f"{name}.slurm"], capture_output=True, text=True, timeout=120)
+    for name in ("serial_1_1.slurm", "strong_2_1.sh"):
+        done = subprocess.run(["bash", shell.folder / jobs / name], capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, done.stdout + done.stderr
-    code, text, error = shell.run("scaling --collect jobs")
+    code, text, error = shell.run(f"scaling --collect '{jobs}'")
     assert code == 0, text + error
-    states = {run["name"]: run["state"] for run in study(shell, "of_jobs")["runs"]}
+    states = {run["name"]: run["state"] for run in study(shell, out)["runs"]}
     assert states == {"serial_1_1": "ended", "strong_1_1": "planned", "strong_2_1": "ended"}, states
-    rows = {(row["series"], row["ranks"]): row for row in study(shell, "of_jobs")["rows"]}
+    rows = {(row["series"], row["ranks"]): row for row in study(shell, out)["rows"]}
     mesh = {(row["series"], row["ranks"]): row for row in study(shell)["rows"]}["strong", 2]["hash"]
     assert rows["strong", 2]["hash"] == mesh, (rows, mesh)
-    assert not (shell.folder / "of_jobs" / "runs" / "strong_2_1" / "checkpoint").exists()
+    assert not (shell.folder / out / "runs" / "strong_2_1" / "checkpoint").exists()
+    # A run that ended with 0 and left no report has failed, in words and by a code of the program.
+    (shell.folder / out / "runs" / "strong_2_1" / "report.json").unlink()
+    code, text, error = shell.run(f"scaling --collect '{jobs}'")
+    assert code == 7 and "strong_2_1 failed with code 0: ended with 0 without a report" in text + error, (code, text, error)
+    assert not list(shell.folder.rglob("executed"))
 
 
 def main():

@@ -111,7 +111,7 @@ TEST(Costs, ReadsTheFolderOfARun) {
   write_file(folder.path / "tasks.csv", head);
   EXPECT_EQ(read_costs(folder.path).stages.size(), 1u);
   write_file(folder.path / "report.json", "{");
-  EXPECT_NE(refusal([&] { read_costs(folder.path); }).find("is not JSON"), std::string::npos);
+  EXPECT_NE(refusal([&] { read_costs(folder.path); }).find("is not whole JSON"), std::string::npos);
 }
 
 TEST(Costs, LeavesOutAStage) {

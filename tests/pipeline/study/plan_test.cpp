@@ -60,14 +60,25 @@ TEST(Plan, RefusesToMixCases) {
 
 TEST(Plan, DamagedRecordsAreNamed) {
   const StudyFolder folder("damaged");
-  write_file(folder.path / "study.json", "{\"program\": 1}");
-  try {
-    load_study(folder.path);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("study.json' is no record of a study"), std::string::npos)
-        << error.what();
-  }
+  const auto expect = [&](const std::string& text, const std::string& words) {
+    write_file(folder.path / "study.json", text);
+    try {
+      load_study(folder.path);
+      ADD_FAILURE() << text;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  };
+  expect("{\"program\": 1}", "study.json' is not the record of a study");
+  expect("{\"program\": \"a\"}", "key 'case' not found");
+  expect("{\"program\": ", "study.json' is not whole JSON: parse error at line 1");
+  expect("[]", "study.json' is not");
+  save(a_study(folder.path, {1}, 1));
+  Json record = Json::parse(read_file(folder.path / "study.json"));
+  record["runs"][0]["ranks"] = -1;
+  expect(record.dump(), "'serial_-1_1'");
+  record["runs"][0]["series"] = "../..";
+  expect(record.dump(), "no series is called '../..'");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "pipeline/study/results.hpp"
 
+#include "pipeline/study/comparison.hpp"
 #include "pipeline/study/page.hpp"
 #include "pipeline/study/table.hpp"
 #include "tests/pipeline/study/studies.hpp"
@@ -135,14 +136,76 @@ TEST(Results, TableAndPageHaveAllRuns) {
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line); ++count) EXPECT_EQ(commas(line), commas(head)) << line;
   EXPECT_EQ(count, study.runs.size());
-  const std::string json = study_json(study, runs, rows, machine_of(2)).dump();
-  const std::string page = study_page(json);
+  const Json json = study_json(study, runs, rows, machine_of(2));
+  const std::string page = study_page(json.dump());
   for (const char* part : {"Speed-up of the strong series", "class=\"ideal\"", "Efficiency", "Time per stage",
                            "weak_2_2", "&lt;here&gt;", "minimum: 1"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("://"), std::string::npos);
   EXPECT_NE(compare_text(json, json).find("1.000"), std::string::npos);
   EXPECT_NE(compare_text(json, json).find("the same"), std::string::npos);
+}
+
+/// What a study says of a file that is cut, after each of its first letters and where the whole is another.
+TEST(Results, DamagedFilesOfAStudyAreNamed) {
+  const StudyFolder folder("damaged");
+  const StudyRecord study = a_study(folder.path, {1}, 1);
+  leave_all(study);
+  const std::vector<RunResult> runs = collect_runs(study);
+  const std::filesystem::path file = folder.path / "scaling.json";
+  const auto refusal_of = [&](const std::string& text) -> std::string {
+    write_file(file, text);
+    try {
+      read_study(file);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Json whole = study_json(study, runs, make_rows(study, runs, machine_of(2)), machine_of(2));
+  EXPECT_EQ(refusal_of(whole.dump()), "");
+  for (const std::size_t letters : {0UL, 1UL, 20UL, whole.dump().size() - 1})
+    EXPECT_NE(
+        refusal_of(whole.dump().substr(0, letters)).find("scaling.json' is not whole JSON: parse error"),
+        std::string::npos)
+        << letters;
+  for (const char* other : {"[]", "1", "null", "\"rows\""})
+    EXPECT_NE(refusal_of(other).find("scaling.json' is not"), std::string::npos) << other;
+  EXPECT_NE(refusal_of("{}").find("it has no list 'rows'"), std::string::npos);
+  EXPECT_NE(refusal_of("{\"rows\": [7]}").find("rows[0] has no text 'series'"), std::string::npos);
+  for (const char* key : {"series", "ranks", "ended", "judged_by", "wall_seconds", "efficiency", "hash"}) {
+    Json part = whole;
+    part["rows"][1].erase(key);
+    EXPECT_NE(refusal_of(part.dump()).find(fmt::format("'{}'", key)), std::string::npos) << key;
+    part["rows"][1][key] = Json::array();
+    EXPECT_NE(refusal_of(part.dump()).find(fmt::format("rows[1] has no")), std::string::npos) << key;
+  }
+}
+
+TEST(Results, RunsWithoutAReportHaveFailed) {
+  const StudyFolder folder("reports");
+  const StudyRecord study = a_study(folder.path, {1}, 1);
+  const std::filesystem::path run = folder_of(folder.path, study.runs[1]);
+  const auto said = [&](const std::string& report) {
+    leave_report(run, 1, 1, "x");
+    std::filesystem::remove(run / "report.json");
+    if (!report.empty()) write_file(run / "report.json", report);
+    const RunResult result = collect_runs(study)[1];
+    EXPECT_EQ(result.marks.state, RunState::failed) << report;
+    EXPECT_FALSE(result.figures) << report;
+    return result.failure;
+  };
+  write_file(run / "log", "sh: mpirun: not found\n");
+  EXPECT_EQ(said(""), "ended with 0 without a report; its log: sh: mpirun: not found");
+  for (const char* report :
+       {"{\"status\": \"ok\", \"wall_sec", "[1]", "{\"status\": \"ok\"}", "{\"status\": \"ok\", \"mesh\": 1}",
+        "{\"status\": \"ok\", \"mesh\": {}, \"stages\": 7}"})
+    EXPECT_NE(said(report).find("ended with 0 with a report that is not that of a finished run"),
+              std::string::npos)
+        << report << "\n"
+        << said(report);
+  EXPECT_NE(said("{\"status\": 1, \"failure\": [\"stage\"]}").find("ended with 0 with a report that tells"),
+            std::string::npos);
 }
 
 TEST(Results, MeshesGoAndReportsStay) {
