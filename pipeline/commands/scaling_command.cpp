@@ -1,11 +1,14 @@
 #include "geometry/sort_unique.hpp"
 #include "parallel/communication/termination.hpp"
+#include "parallel/storage/digest.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/scaling_prediction.hpp"
 #include "pipeline/output_lock.hpp"
 #include "pipeline/report/library_versions.hpp"
+#include "pipeline/report/page/html_text.hpp"
 #include "pipeline/report/text_file.hpp"
+#include "pipeline/run_identity.hpp"
 #include "pipeline/study/comparison.hpp"
 #include "pipeline/study/jobs.hpp"
 #include "pipeline/study/page.hpp"
@@ -85,7 +88,17 @@ void log_progress(const std::string& text) {
   parallel::log_info("scaling: " + text);
 }
 
-study::StudyRecord make_record(const ScalingArguments& arguments, const cases::Case& input) {
+/// What a file of the study holds; no hash if it cannot be read, which its reader reports.
+study::StudyInput file_by_content(const std::string& file) {
+  study::StudyInput known{file, {}};
+  if (file.empty() || !fs::is_regular_file(file)) return known;
+  parallel::Digester digester;
+  known.hash = digester.text(report::read_text(file)).result().text();
+  return known;
+}
+
+study::StudyRecord make_record(const Invocation& invocation, const ScalingArguments& arguments,
+                               const cases::Case& input) {
   study::StudyRecord record;
   study::StudyOptions& options = record.options;
   options.program = own_path();
@@ -102,8 +115,12 @@ study::StudyRecord make_record(const ScalingArguments& arguments, const cases::C
   options.serial = options.strong && !arguments.without_serial;
   options.repeats = arguments.repeats;
   options.ranks_per_node = arguments.ranks_per_node;
-  record.subject = subject_of(input);
+  record.subject = page::as_utf8(subject_of(input));
   record.versions = versions_line();
+  const RunIdentity identity = identify_run(invocation.communicator, input);
+  record.geometry = {input.domain.file.empty() ? identity.input : input.domain.file,
+                     identity.is_known ? identity.digest.text() : std::string()};
+  record.network = file_by_content(arguments.prediction.network);
   return record;
 }
 
@@ -112,6 +129,8 @@ void add_earlier_runs(study::StudyRecord& record) {
   if (!study::holds_study(record.options.directory)) return;
   const study::StudyRecord earlier = study::load_study(record.options.directory);
   study::require_same_subject(earlier, record);
+  if (earlier.network.hash != record.network.hash)
+    log_progress("the network is described by another file than before: predictions are made anew");
   for (const study::RunSpec& run : earlier.runs) {
     const auto same = [&](const study::RunSpec& other) { return other.name() == run.name(); };
     if (std::none_of(record.runs.begin(), record.runs.end(), same)) record.runs.push_back(run);
@@ -147,6 +166,7 @@ report::ExitCode code_of_failed(const study::RunResult& run) {
 /// Tables, page, and the exit code: that of the first run that failed.
 report::ExitCode write_study(const study::StudyRecord& record, const std::vector<study::RunResult>& runs,
                              const study::Network& network) {
+  study::require_geometry(record, runs);
   study::require_equal_meshes(runs);
   const study::Machine machine = study::this_machine();
   const std::vector<study::SeriesRow> rows = study::make_rows(record, runs, machine);
@@ -168,8 +188,9 @@ report::ExitCode write_study(const study::StudyRecord& record, const std::vector
   return code;
 }
 
-report::ExitCode carry_out_study(const ScalingArguments& arguments, const cases::Case& input) {
-  study::StudyRecord record = make_record(arguments, input);
+report::ExitCode carry_out_study(const Invocation& invocation, const ScalingArguments& arguments,
+                                 const cases::Case& input) {
+  study::StudyRecord record = make_record(invocation, arguments, input);
   const study::Launcher launcher = study::make_launcher(arguments.launcher);
   std::vector<study::WeakScale> weak;
   if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), log_progress);
@@ -181,8 +202,9 @@ report::ExitCode carry_out_study(const ScalingArguments& arguments, const cases:
   return write_study(record, study::collect_runs(record), network_of(arguments.prediction));
 }
 
-report::ExitCode write_study_jobs(const ScalingArguments& arguments, const cases::Case& input) {
-  study::StudyRecord record = make_record(arguments, input);
+report::ExitCode write_study_jobs(const Invocation& invocation, const ScalingArguments& arguments,
+                                  const cases::Case& input) {
+  study::StudyRecord record = make_record(invocation, arguments, input);
   std::vector<study::WeakScale> weak;
   if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), log_progress);
   record.runs = study::plan_runs(record.options, weak);
@@ -201,7 +223,8 @@ report::ExitCode write_study_jobs(const ScalingArguments& arguments, const cases
 
 report::ExitCode collect_study(const ScalingArguments& arguments) {
   const fs::path jobs = fs::absolute(arguments.collected).lexically_normal();
-  const study::StudyRecord record = study::load_study(study::results_of_jobs(jobs));
+  study::StudyRecord record = study::load_study(study::results_of_jobs(jobs));
+  record.network = file_by_content(arguments.prediction.network);
   const std::vector<study::RunResult> runs = study::collect_runs(record, study::query_queue(jobs));
   for (const study::RunResult& run : runs)
     if (run.figures && !arguments.keep)
@@ -288,7 +311,8 @@ int run_scaling(const Invocation& invocation, const ScalingArguments& arguments)
     return guard([&] {
       fs::create_directories(input.output.directory);
       const OutputLock lock(invocation.communicator, input.output.directory);
-      return arguments.jobs.empty() ? carry_out_study(arguments, input) : write_study_jobs(arguments, input);
+      return arguments.jobs.empty() ? carry_out_study(invocation, arguments, input)
+                                    : write_study_jobs(invocation, arguments, input);
     });
   });
 }

@@ -138,7 +138,7 @@ void write_jobs(const StudyRecord& record, const JobOptions& jobs,
   std::string submit = head_of_submit + assignments({{"submitted", submitted}});
   for (const RunSpec& run : record.runs) {
     const fs::path run_folder = folder_of(options.directory, run);
-    if (result_of(options.directory, run).figures) continue;
+    if (is_done(record, result_of(options.directory, run))) continue;
     if (known.count(run.settings) == 0) known[run.settings] = forecast(run.settings);
     const CaseForecast& size = known[run.settings];
     Job job{run.name(),

@@ -24,6 +24,17 @@ Series series_called(const std::string& name) {
   throw std::runtime_error(fmt::format("no series is called '{}'", name));
 }
 
+Json input_json(const StudyInput& input) {
+  return {{"name", input.name}, {"hash", input.hash.empty() ? Json() : Json(input.hash)}};
+}
+
+StudyInput input_of(const Json& inputs, const char* key) {
+  if (!inputs.contains(key)) return {};
+  const Json& input = inputs.at(key);
+  return {input.at("name").get<std::string>(),
+          input.at("hash").is_null() ? std::string() : input.at("hash").get<std::string>()};
+}
+
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
@@ -79,10 +90,11 @@ void save(const StudyRecord& record) {
   const StudyOptions& options = record.options;
   Json runs = Json::array();
   for (const RunSpec& run : record.runs) runs.push_back(to_json(run));
-  const Json json{
+  Json json{
       {"program", options.program},  {"case", options.case_file},  {"overrides", options.overrides},
       {"ranks", options.ranks},      {"repeats", options.repeats}, {"ranks_per_node", options.ranks_per_node},
       {"versions", record.versions}, {"subject", record.subject},  {"runs", std::move(runs)}};
+  json["inputs"] = {{"geometry", input_json(record.geometry)}, {"network", input_json(record.network)}};
   write_file(options.directory / record_name,
              json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
@@ -105,6 +117,9 @@ StudyRecord load_study(const fs::path& directory) {
     record.options.ranks_per_node = json.at("ranks_per_node").get<int>();
     record.versions = json.at("versions").get<std::string>();
     record.subject = json.at("subject").get<std::string>();
+    const Json inputs = json.value("inputs", Json::object());
+    record.geometry = input_of(inputs, "geometry");
+    record.network = input_of(inputs, "network");
     for (const Json& run : json.at("runs")) record.runs.push_back(run_of(run));
     return record;
   } catch (const std::exception& error) {
@@ -122,7 +137,16 @@ void require_same_subject(const StudyRecord& earlier, const StudyRecord& now) {
     refuse(fmt::format("it was made by {}, this is {}", earlier.versions, now.versions));
   const std::vector<std::string> old = lines_of(earlier.subject), recent = lines_of(now.subject);
   const auto [was, is] = std::mismatch(old.begin(), old.end(), recent.begin(), recent.end());
-  if (was == old.end() && is == recent.end()) return;
+  if (was == old.end() && is == recent.end()) {
+    if (earlier.geometry.hash.empty() || earlier.geometry.hash == now.geometry.hash) return;
+    if (now.geometry.hash.empty())
+      throw std::runtime_error(
+          fmt::format("cannot read the geometry of the study in '{}', '{}' or a file beside it",
+                      now.options.directory.string(), now.geometry.name));
+    refuse(
+        fmt::format("its geometry, '{}' with all that is read beside it, has changed since (hash {}, now {})",
+                    now.geometry.name, earlier.geometry.hash, now.geometry.hash));
+  }
   refuse(fmt::format("it has '{}', this case '{}'", was == old.end() ? "" : *was,
                      is == recent.end() ? "" : *is));
 }

@@ -56,12 +56,20 @@ std::filesystem::path folder_of(const std::filesystem::path& directory, const Ru
 Json to_json(const RunSpec& run);
 RunSpec run_of(const Json& json);
 
+/// A file that a study reads, or several as one, known by its content.
+struct StudyInput {
+  std::string name;  ///< for messages
+  std::string hash;  ///< empty: there is none, or it cannot be read
+};
+
 /// The stored description of a study. `subject`: the lines of the case except the output section; studies of
-/// different subjects are not mixed.
+/// different subjects or geometry are not mixed.
 struct StudyRecord {
   StudyOptions options;
   std::string subject;
-  std::string versions;  ///< of program and libraries, one line
+  StudyInput geometry = {};  ///< with all that is read beside it; hash as in the report of a run
+  StudyInput network = {};   ///< of --network, which predictions depend on, and runs do not
+  std::string versions;      ///< of program and libraries, one line
   std::vector<RunSpec> runs;
 };
 
@@ -71,7 +79,8 @@ void save(const StudyRecord& record);
 StudyRecord load_study(const std::filesystem::path& directory);
 bool holds_study(const std::filesystem::path& directory);
 
-/// Throws std::invalid_argument, with the first different lines, if the folder has a study of another case.
+/// Throws std::invalid_argument, with the first different lines, if the folder has a study of another case,
+/// or its geometry has changed; std::runtime_error if the geometry can no longer be read.
 void require_same_subject(const StudyRecord& earlier, const StudyRecord& now);
 
 }  // namespace aeroloom::study

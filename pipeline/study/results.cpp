@@ -218,6 +218,22 @@ std::vector<int> ranks_to_predict(const std::vector<RunResult>& runs) {
   return {ranks.begin(), ranks.end()};
 }
 
+bool is_done(const StudyRecord& record, const RunResult& run) {
+  const std::string& planned = record.geometry.hash;
+  return run.figures &&
+         (planned.empty() || run.figures->input_hash.empty() || run.figures->input_hash == planned);
+}
+
+void require_geometry(const StudyRecord& record, const std::vector<RunResult>& runs) {
+  for (const RunResult& run : runs) {
+    if (!run.figures || is_done(record, run)) continue;
+    throw std::runtime_error(fmt::format(
+        "run '{}' has read other geometry than the study has: '{}' or a file beside it was changed in "
+        "between. Remedy: restore it, and make that run again by the command of the study",
+        run.spec.name(), record.geometry.name));
+  }
+}
+
 void require_equal_meshes(const std::vector<RunResult>& runs) {
   std::map<std::string, const RunResult*> first_of;
   const RunResult* first_read = nullptr;

@@ -76,6 +76,10 @@ const RunResult* recorded_run(const std::vector<RunResult>& runs);
 /// The ranks of the strong series, and powers of two up to four times the largest.
 std::vector<int> ranks_to_predict(const std::vector<RunResult>& runs);
 
+/// Whether a run has ended well and has read the geometry that the study has.
+bool is_done(const StudyRecord& record, const RunResult& run);
+/// Throws std::runtime_error with the name of a run that has read other geometry than the study has.
+void require_geometry(const StudyRecord& record, const std::vector<RunResult>& runs);
 /// Throws std::runtime_error with the names of runs of equal configuration but different meshes or input
 /// files.
 void require_equal_meshes(const std::vector<RunResult>& runs);

@@ -125,7 +125,7 @@ void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
     const fs::path folder = folder_of(options.directory, run);
     const std::string title = fmt::format("[{}/{}] {}", ++number, record.runs.size(), run.name());
     const RunResult before = result_of(options.directory, run);
-    if (before.figures) {
+    if (is_done(record, before)) {
       log(title + ": done before");
       continue;
     }

@@ -147,6 +147,9 @@ Json study_json(const StudyRecord& record, const std::vector<RunResult>& runs,
             {"case", record.options.case_file},
             {"overrides", record.options.overrides},
             {"versions", record.versions},
+            {"input",
+             {{"geometry", record.geometry.hash.empty() ? Json() : Json(record.geometry.hash)},
+              {"network", record.network.hash.empty() ? Json() : Json(record.network.hash)}}},
             {"ranks_per_node", record.options.ranks_per_node},
             {"machine", machine.json()}};
   Json& table = json["rows"] = Json::array();

@@ -58,6 +58,31 @@ TEST(Plan, RefusesToMixCases) {
   EXPECT_THROW(require_same_subject(before, now), std::invalid_argument);
 }
 
+TEST(Plan, RefusesGeometryThatHasChanged) {
+  const StudyFolder folder("geometry");
+  StudyRecord before = a_study(folder.path, {1}, 1);
+  before.geometry = {"wing.poly", "f00d"};
+  before.network = {"network.json", "cafe"};
+  save(before);
+  const StudyRecord read = load_study(folder.path);
+  EXPECT_EQ(read.geometry.hash, "f00d");
+  EXPECT_EQ(read.network.hash, "cafe");
+  StudyRecord now = before;
+  now.network.hash = "";
+  EXPECT_NO_THROW(require_same_subject(read, now)) << "runs do not depend on it";
+  now.geometry.hash = "beef";
+  try {
+    require_same_subject(read, now);
+    ADD_FAILURE() << "taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("'wing.poly' with all that is read beside it, has changed"),
+              std::string::npos)
+        << error.what();
+  }
+  now.geometry.hash = "";
+  EXPECT_THROW(require_same_subject(read, now), std::runtime_error);
+}
+
 TEST(Plan, DamagedRecordsAreNamed) {
   const StudyFolder folder("damaged");
   const auto expect = [&](const std::string& text, const std::string& words) {

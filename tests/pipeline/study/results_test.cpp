@@ -98,6 +98,18 @@ TEST(Results, DifferentMeshesAreNamed) {
   }
 }
 
+TEST(Results, RunsOnOtherGeometryAreNotDone) {
+  const StudyFolder folder("changed");
+  StudyRecord study = a_study(folder.path, {1}, 1);
+  leave_all(study);
+  study.geometry = {"wing.step", "f00d"};
+  EXPECT_TRUE(is_done(study, collect_runs(study)[0]));
+  EXPECT_NO_THROW(require_geometry(study, collect_runs(study)));
+  study.geometry.hash = "beef";
+  EXPECT_FALSE(is_done(study, collect_runs(study)[0]));
+  EXPECT_THROW(require_geometry(study, collect_runs(study)), std::runtime_error);
+}
+
 TEST(Results, WhatFailedIsShownAsThat) {
   const StudyFolder folder("failed");
   const StudyRecord study = a_study(folder.path, {1, 2}, 1);
