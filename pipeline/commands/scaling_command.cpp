@@ -190,6 +190,7 @@ report::ExitCode write_study(const study::StudyRecord& record, const std::vector
 
 report::ExitCode carry_out_study(const Invocation& invocation, const ScalingArguments& arguments,
                                  const cases::Case& input) {
+  const parallel::LastWords last_words([](int) { study::end_lines(); });
   study::StudyRecord record = make_record(invocation, arguments, input);
   const study::Launcher launcher = study::make_launcher(arguments.launcher);
   std::vector<study::WeakScale> weak;
@@ -197,13 +198,13 @@ report::ExitCode carry_out_study(const Invocation& invocation, const ScalingArgu
   record.runs = study::plan_runs(record.options, weak);
   add_earlier_runs(record);
   study::save(record);
-  const parallel::LastWords last_words([](int) { study::end_line(); });
   study::carry_out(record, launcher, arguments.keep, log_progress);
   return write_study(record, study::collect_runs(record), network_of(arguments.prediction));
 }
 
 report::ExitCode write_study_jobs(const Invocation& invocation, const ScalingArguments& arguments,
                                   const cases::Case& input) {
+  const parallel::LastWords last_words([](int) { study::end_lines(); });
   study::StudyRecord record = make_record(invocation, arguments, input);
   std::vector<study::WeakScale> weak;
   if (record.options.weak) weak = study::scale_weakly(record.options, size_of(input.sizing), log_progress);

@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -25,7 +27,10 @@ namespace aeroloom::study {
 
 namespace {
 
-std::atomic<pid_t> running_group = 0;
+std::atomic<pid_t> running_session = 0;
+/// Held while a line begins, and while it is decided that none does any more.
+std::mutex beginning;
+bool is_over = false;
 
 void replace_all(std::string& text, const std::string& what, const std::string& by) {
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
@@ -80,7 +85,7 @@ public:
   posix_spawn_file_actions_t actions{};
 };
 
-/// A group of its own, and no signal held back.
+/// A session of its own, and no signal held back.
 class SpawnAttributes {
 public:
   SpawnAttributes() {
@@ -91,9 +96,8 @@ public:
     sigset_t all;
     sigfillset(&all);
     posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setflags(&attributes,
-                             POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+                             POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   }
   ~SpawnAttributes() { posix_spawnattr_destroy(&attributes); }
   SpawnAttributes(const SpawnAttributes&) = delete;
@@ -102,12 +106,62 @@ public:
   posix_spawnattr_t attributes{};
 };
 
-void terminate_then_kill(pid_t group) {
-  constexpr int rounds = 50;  // five seconds between being asked and being killed
+bool is_in(pid_t session, const std::filesystem::path& process) {
+  std::ifstream file(process / "stat");
+  std::string line;
+  std::getline(file, line);
+  const std::size_t name_end = line.rfind(')');  // the name may hold anything
+  if (name_end == std::string::npos) return false;
+  std::istringstream words(line.substr(name_end + 1));
+  std::string state;
+  pid_t parent = 0, group = 0, of_process = 0;
+  words >> state >> parent >> group >> of_process;
+  return words && of_process == session && state != "Z" && state != "X";
+}
+
+/// All that live, in whatever groups: launchers give a group to each rank.
+std::vector<pid_t> processes_of(pid_t session) {
+  std::vector<pid_t> processes;
+  std::error_code ignored;  // of a process that ends meanwhile
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    if (is_in(session, entry.path())) processes.push_back(static_cast<pid_t>(std::stol(name)));
+  }
+  return processes;
+}
+
+/// Whether all are gone within so many rounds.
+bool await_processes(pid_t session, int rounds) {
   constexpr std::chrono::milliseconds step(100);
-  ::kill(-group, SIGTERM);
-  for (int round = 0; round < rounds && ::kill(-group, 0) == 0; ++round) std::this_thread::sleep_for(step);
-  ::kill(-group, SIGKILL);
+  for (int round = 0; round < rounds; ++round) {
+    if (processes_of(session).empty()) return true;
+    std::this_thread::sleep_for(step);
+  }
+  return processes_of(session).empty();
+}
+
+void send_to_all(pid_t session, int signal) {
+  for (const pid_t process : processes_of(session)) ::kill(process, signal);
+}
+
+void terminate_then_kill(pid_t session) {
+  // The launcher tells its ranks. Five seconds lie between being asked and being killed; chosen, not
+  // measured.
+  constexpr int rounds_to_relay = 25, rounds_to_end = 25, rounds_of_killed = 50;
+  ::kill(-session, SIGTERM);
+  if (await_processes(session, rounds_to_relay)) return;
+  send_to_all(session, SIGTERM);
+  if (await_processes(session, rounds_to_end)) return;
+  send_to_all(session, SIGKILL);
+  await_processes(session, rounds_of_killed);
+}
+
+/// For a thread that is not to go on while another ends the program.
+void wait_for_end() {
+  constexpr std::chrono::minutes longest(1);
+  std::this_thread::sleep_for(longest);
+  throw std::runtime_error("no run is started while the program ends");
 }
 
 }  // namespace
@@ -162,19 +216,25 @@ pid_t start_line(const std::string& line, const std::filesystem::path& log) {
   std::array<char*, 4> words{shell.data(), flag.data(), text.data(), nullptr};
   const SpawnFiles files(log);
   const SpawnAttributes attributes;
-  pid_t group = 0;
-  const int failed = ::posix_spawn(&group, "/bin/sh", &files.actions, &attributes.attributes, words.data(),
+  std::unique_lock lock(beginning);
+  if (is_over) {
+    lock.unlock();
+    wait_for_end();
+  }
+  pid_t session = 0;
+  const int failed = ::posix_spawn(&session, "/bin/sh", &files.actions, &attributes.attributes, words.data(),
                                    environment.data());
   if (failed != 0) throw std::system_error(failed, std::generic_category(), "cannot start '" + line + "'");
-  running_group = group;
-  return group;
+  running_session = session;
+  return session;
 }
 
-int await_line(pid_t group) {
+int await_line(pid_t session) {
   int status = 0;
-  while (::waitpid(group, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(session, &status, 0) < 0 && errno == EINTR) {
   }
-  running_group = 0;
+  if (WIFSIGNALED(status)) terminate_then_kill(session);
+  running_session = 0;
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
@@ -185,14 +245,26 @@ Ended run_line(const std::string& line, const std::filesystem::path& log) {
 }
 
 void end_line() {
-  if (const pid_t group = running_group; group > 0) terminate_then_kill(group);
+  if (const pid_t session = running_session; session > 0) terminate_then_kill(session);
 }
 
-void end_group(pid_t group, const std::string& program) {
-  std::ifstream file(fmt::format("/proc/{}/cmdline", group), std::ios::binary);
-  const std::string words{std::istreambuf_iterator<char>(file), {}};
-  if (group <= 1 || words.find(program) == std::string::npos) return;
-  terminate_then_kill(group);
+void end_lines() {
+  {
+    const std::lock_guard lock(beginning);
+    is_over = true;
+  }
+  end_line();
+}
+
+void end_session(pid_t session, const std::string& program) {
+  if (session <= 1) return;
+  for (const pid_t process : processes_of(session)) {
+    std::ifstream file(fmt::format("/proc/{}/cmdline", process), std::ios::binary);
+    const std::string words{std::istreambuf_iterator<char>(file), {}};
+    if (words.find(program) == std::string::npos) continue;
+    terminate_then_kill(session);
+    return;
+  }
 }
 
 }  // namespace aeroloom::study

@@ -36,30 +36,35 @@ struct Ended {
   double seconds = 0;
 };
 
-/// Runs a line in a shell, in its own process group and in the environment with which this process was
-/// started (without changes by MPI). Output goes to `log`. `began` is called with the group once it runs. A
-/// handler of termination signals must call end_line().
+/// Runs a line in a shell, in its own session and in the environment with which this process was started
+/// (without changes by MPI). Output goes to `log`. `began` is called with the session once it runs. What a
+/// line that a signal ended has left is ended, too. A handler of termination signals must call end_lines().
 template <class Began>
 Ended run_line(const std::string& line, const std::filesystem::path& log, Began began);
 Ended run_line(const std::string& line, const std::filesystem::path& log);
 
 namespace detail {
 pid_t start_line(const std::string& line, const std::filesystem::path& log);
-int await_line(pid_t group);
+int await_line(pid_t session);
 double now_seconds();
 }  // namespace detail
 
-/// Ends the current line, if any, and all its processes: SIGTERM, then SIGKILL after a few seconds.
+/// Ends the current line, if any, and all its processes: SIGTERM, then SIGKILL after a few seconds. They are
+/// gone when it returns, ranks in process groups of their own included, unless the system cannot end them
+/// within some seconds more.
 void end_line();
-/// Ends a process group left by an earlier call. Does nothing if it is gone or belongs to another program.
-void end_group(pid_t group, const std::string& program);
+/// The same for a program that is about to end: no other line begins, and what would begin one waits.
+void end_lines();
+/// Ends a session left by an earlier call, as end_line(). Does nothing if it is gone or belongs to another
+/// program.
+void end_session(pid_t session, const std::string& program);
 
 template <class Began>
 Ended run_line(const std::string& line, const std::filesystem::path& log, Began began) {
   const double begin = detail::now_seconds();
-  const pid_t group = detail::start_line(line, log);
-  began(group);
-  const int code = detail::await_line(group);
+  const pid_t session = detail::start_line(line, log);
+  began(session);
+  const int code = detail::await_line(session);
   return {code, detail::now_seconds() - begin};
 }
 

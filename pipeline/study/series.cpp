@@ -130,12 +130,12 @@ void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
       continue;
     }
     if (before.marks.state == RunState::begun && before.marks.host == host_name())
-      end_group(static_cast<pid_t>(before.marks.process), options.program);
+      end_session(static_cast<pid_t>(before.marks.process), options.program);
     fs::create_directories(folder);
     fs::remove(folder / "report.json");  // of an earlier attempt
     const std::string line =
         launcher.line(run.ranks, nodes_for(run.ranks, options.ranks_per_node), command_of(options, run));
-    const Ended ended = run_line(line, folder / "log", [&](pid_t group) { mark_begin(folder, group); });
+    const Ended ended = run_line(line, folder / "log", [&](pid_t session) { mark_begin(folder, session); });
     mark_end(folder, ended.code);
     const RunResult result = result_of(options.directory, run);
     if (result.figures) {

@@ -80,5 +80,32 @@ TEST(Launcher, EndsALineWithAllThatItStarted) {
   EXPECT_FALSE(std::filesystem::exists("/proc/" + child.substr(0, child.find('\n')) + "/cwd/"));
 }
 
+TEST(Launcher, WaitsForRanksInGroupsOfTheirOwn) {
+  const StudyFolder folder("ranks");
+  const std::string rank = (folder.path / "rank").string();
+  std::thread other([&] {
+    while (!std::filesystem::exists(rank)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    end_line();
+    const std::string process = read_file(rank);
+    EXPECT_FALSE(std::filesystem::exists("/proc/" + process.substr(0, process.find('\n')) + "/cwd/"));
+  });
+  // The launcher hands the signal on and is gone at once; its rank takes its time.
+  const std::string launcher = fmt::format(
+      "set -m\n(trap 'sleep 0.7; exit' TERM; echo $BASHPID > {0}.part; mv {0}.part {0}; while :; do sleep "
+      "0.05; done) &\n"
+      "trap \"kill -TERM $!; exit 3\" TERM\nwait",
+      rank);
+  EXPECT_EQ(run_line("exec bash -c " + quoted(launcher), folder.path / "log").code, 3);
+  other.join();
+}
+
+TEST(Launcher, EndsWhatALineLeftThatASignalEnded) {
+  const StudyFolder folder("left");
+  const std::string begun = (folder.path / "begun").string();
+  EXPECT_EQ(run_line("sleep 100 & echo $! > " + begun + "; kill -9 $$", folder.path / "log").code, 128 + 9);
+  const std::string child = read_file(begun);
+  EXPECT_FALSE(std::filesystem::exists("/proc/" + child.substr(0, child.find('\n')) + "/cwd/"));
+}
+
 }  // namespace
 }  // namespace aeroloom::study
