@@ -4,6 +4,7 @@
 #include "pipeline/report/page/html_text.hpp"
 #include "pipeline/report/page/line_chart.hpp"
 #include "pipeline/report/page/style.hpp"
+#include "pipeline/study/processor_use.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -29,12 +30,21 @@ std::vector<const Json*> rows_of_series(const Json& study, const std::string& se
   return rows;
 }
 
+/// Points of rows that are judged by CPU are of another kind than those by the clock.
+void part_by_judge(ChartLine& line, const Json& study, const std::string& series) {
+  for (const Json* row : rows_of_series(study, series)) line.other_kind.push_back(is_by_cpu(*row));
+  line.other_name = line.name + ", by CPU";
+}
+
 ChartLine line_of(const Json& study, const std::string& series, const std::string& key,
                   const std::string& name) {
   ChartLine line{name, {}};
   for (const Json* row : rows_of_series(study, series))
     if (const Json& value = find(*row, "/" + key); value.is_number())
       line.points.emplace_back(number(find(*row, "/ranks")), number(value));
+  const bool is_judged = key == "speedup" || key == "speedup_of_series" || key == "efficiency" ||
+                         key == "tetrahedra_per_second_and_core";
+  if (is_judged && !line.points.empty()) part_by_judge(line, study, series);
   return line;
 }
 
@@ -53,9 +63,9 @@ ChartLine ideal_line(const Json& study, double constant = 0) {
 
 /// Of the strong series as its smallest number of ranks predicts it; by CPU where the series is judged so.
 ChartLine predicted_line(const Json& study, const std::string& key) {
-  ChartLine line{"predicted", {}};
   const std::vector<const Json*> rows = rows_of_series(study, "strong");
   const bool by_cpu = std::any_of(rows.begin(), rows.end(), [](const Json* row) { return is_by_cpu(*row); });
+  ChartLine line{by_cpu ? "predicted, by CPU" : "predicted", {}};
   double one = 0;
   for (const Json& row : find(study, "/prediction/rows")) {
     const double ranks = number(find(row, "/ranks"));
@@ -244,15 +254,19 @@ std::string run_table(const Json& study) {
                {"seconds", Align::right},
                {"hash"},
                {"host"},
+               {"busy beside", Align::right, "processors that other programs used"},
                {"what it said"}},
               "scaling.json");
   for (const Json& run : find(study, "/runs")) {
     const std::string state = text(find(run, "/state"));
     const char* kind = state == "ended" ? "good" : state == "failed" ? "poor" : "plain";
-    table.add({name(find(run, "/name")), badge(kind, escaped(state)), count(find(run, "/exit_code")),
-               count(find(run, "/attempts")), seconds(find(run, "/wall_seconds")),
-               "<code>" + escaped(text(find(run, "/hash")).substr(0, 12)) + "</code>",
-               name(find(run, "/host")), long_text(find(run, "/said"), 400)});
+    table.add(
+        {name(find(run, "/name")), badge(kind, escaped(state)), count(find(run, "/exit_code")),
+         count(find(run, "/attempts")), seconds(find(run, "/wall_seconds")),
+         "<code>" + escaped(text(find(run, "/hash")).substr(0, 12)) + "</code>", name(find(run, "/host")),
+         find(run, "/busy_beside").is_number() ? fmt::format("{:.1f}", number(find(run, "/busy_beside")))
+                                               : "–",
+         long_text(find(run, "/said"), 400)});
   }
   return table.html();
 }
@@ -294,8 +308,16 @@ std::string remarks(const Json& study) {
     any_by_cpu = any_by_cpu || is_by_cpu(row);
     any_missing = any_missing || number(find(row, "/ended")) < number(find(row, "/runs"));
   }
+  int busy_runs = 0;
+  double most_beside = 0;
+  for (const Json& run : find(study, "/runs")) {
+    const double beside = number(find(run, "/busy_beside"));
+    if (beside > busy_processors) ++busy_runs;
+    most_beside = std::max(most_beside, beside);
+  }
   std::string text = paragraph(
-      "Seconds are those of the run with the median, from the start of its processes to the end. Speed-up is "
+      "Seconds are those of the run with the median, or the mean of the two in the middle, from the start of "
+      "its processes to the end. Speed-up is "
       "against "
       "one rank that makes the mesh in one piece, the best way through the program for one core; efficiency "
       "is speed-up "
@@ -308,6 +330,13 @@ std::string remarks(const Json& study) {
         "of the busiest rank, "
         "summed over stages, without waiting. That is what balance and repeated work would allow, not "
         "what a clock has shown.");
+  if (busy_runs > 0)
+    text += paragraph(
+        badge("fair", "busy") +
+        fmt::format(
+            " The machine was busy: during {} of the runs other programs used more than half a processor, "
+            "up to {:.1f} of {} beside the ranks of the study. Seconds tell of that, too.",
+            busy_runs, most_beside, count(find(study, "/machine/processors"))));
   if (any_missing)
     text += paragraph(badge("fair", "unfinished") + " Some runs have not ended well; see the list below.");
   return text;

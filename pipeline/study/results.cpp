@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <initializer_list>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -106,8 +107,9 @@ void mark_begin(const fs::path& folder, std::int64_t process) {
   add_mark(folder, fmt::format("begin {:.3f} {} {}", seconds_since_epoch(), process, host_name()));
 }
 
-void mark_end(const fs::path& folder, int code) {
-  add_mark(folder, fmt::format("end {:.3f} {}", seconds_since_epoch(), code));
+void mark_end(const fs::path& folder, int code, std::optional<double> beside) {
+  add_mark(folder, fmt::format("end {:.3f} {}{}", seconds_since_epoch(), code,
+                               beside ? fmt::format(" {:.2f}", *beside) : ""));
 }
 
 RunMarks read_marks(const fs::path& folder) {
@@ -125,6 +127,8 @@ RunMarks read_marks(const fs::path& folder) {
     } else if (kind == "end" && words >> marks.code) {
       marks.state = marks.code == 0 ? RunState::ended : RunState::failed;
       marks.seconds = at - first;
+      double beside = 0;
+      marks.beside = words >> beside ? std::optional(beside) : std::nullopt;
     }
   }
   return marks;
@@ -174,6 +178,31 @@ RunFigures figures_of(const Json& report) {
   }
   if (tasks_mean > 0) figures.imbalance = tasks_max / tasks_mean;
   return figures;
+}
+
+namespace {
+
+template <class Figures>
+void average(Figures& into, const Figures& with, std::initializer_list<double Figures::*> parts) {
+  for (const auto part : parts) into.*part = 0.5 * (into.*part + with.*part);
+}
+
+}  // namespace
+
+RunFigures mean_of(const RunFigures& one, const RunFigures& other) {
+  RunFigures mean = one;
+  average(mean, other,
+          {&RunFigures::wall, &RunFigures::busy, &RunFigures::serial, &RunFigures::waiting,
+           &RunFigures::imbalance, &RunFigures::memory_of_rank, &RunFigures::memory_of_all});
+  for (StageFigures& stage : mean.stages) {
+    const auto same = std::find_if(other.stages.begin(), other.stages.end(),
+                                   [&](const StageFigures& each) { return each.name == stage.name; });
+    if (same == other.stages.end()) continue;
+    average(stage, *same,
+            {&StageFigures::wall, &StageFigures::busy, &StageFigures::serial, &StageFigures::waiting,
+             &StageFigures::tasks_mean, &StageFigures::tasks_max});
+  }
+  return mean;
 }
 
 std::vector<RunResult> collect_runs(const StudyRecord& record,

@@ -23,11 +23,13 @@ struct RunMarks {
   int attempts = 0;          ///< number of attempts
   std::int64_t process = 0;  ///< process group or job of the last attempt
   std::string host;          ///< of the last attempt
+  std::optional<double>
+      beside;  ///< processors that other programs kept busy during the last attempt, if known
 };
 /// As marks have it.
 std::string host_name();
 void mark_begin(const std::filesystem::path& folder, std::int64_t process);
-void mark_end(const std::filesystem::path& folder, int code);
+void mark_end(const std::filesystem::path& folder, int code, std::optional<double> beside = {});
 RunMarks read_marks(const std::filesystem::path& folder);
 
 /// One stage of one run.
@@ -62,6 +64,8 @@ struct RunResult {
 
 /// Throws std::runtime_error with what the report of a finished run lacks.
 RunFigures figures_of(const Json& report);
+/// The means of two runs that made the same mesh: half of them each.
+RunFigures mean_of(const RunFigures& one, const RunFigures& other);
 
 /// What a run has left in its folder. One that has ended without the report of a finished run has failed.
 RunResult result_of(const std::filesystem::path& directory, const RunSpec& spec);

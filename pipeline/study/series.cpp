@@ -1,5 +1,6 @@
 #include "pipeline/study/series.hpp"
 
+#include "pipeline/study/processor_use.hpp"
 #include "pipeline/study/results.hpp"
 #include "pipeline/study/text_files.hpp"
 
@@ -116,9 +117,8 @@ std::vector<WeakScale> scale_weakly(const StudyOptions& options, const CaseSize&
 void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
                const std::function<void(const std::string&)>& log) {
   const StudyOptions& options = record.options;
-  constexpr double busy = 0.5;  // of a core that others use; chosen, not measured
   double load = 0;
-  if (std::ifstream("/proc/loadavg") >> load && load > busy)
+  if (std::ifstream("/proc/loadavg") >> load && load > busy_processors)
     log(fmt::format("this machine is busy, its load is {:.1f}: seconds will tell of that, too", load));
   std::size_t number = 0;
   for (const RunSpec& run : record.runs) {
@@ -135,8 +135,9 @@ void carry_out(const StudyRecord& record, const Launcher& launcher, bool keep,
     fs::remove(folder / "report.json");  // of an earlier attempt
     const std::string line =
         launcher.line(run.ranks, nodes_for(run.ranks, options.ranks_per_node), command_of(options, run));
+    const ProcessorUse use_before = processor_use();
     const Ended ended = run_line(line, folder / "log", [&](pid_t session) { mark_begin(folder, session); });
-    mark_end(folder, ended.code);
+    mark_end(folder, ended.code, busy_beside(use_before, processor_use(), ended.seconds));
     const RunResult result = result_of(options.directory, run);
     if (result.figures) {
       log(fmt::format("{}: {:.0f} tetrahedra in {:.2f} s, hash {}", title, result.figures->tetrahedra,

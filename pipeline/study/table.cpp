@@ -1,5 +1,7 @@
 #include "pipeline/study/table.hpp"
 
+#include "pipeline/study/processor_use.hpp"
+
 #include <algorithm>
 #include <map>
 
@@ -33,7 +35,10 @@ SeriesRow make_row(const StudyRecord& record, std::vector<const RunResult*> runs
   std::stable_sort(runs.begin(), runs.end(), [&](const RunResult* a, const RunResult* b) {
     return seconds_of(*a, row.by_cpu) < seconds_of(*b, row.by_cpu);
   });
-  row.median = *runs[(runs.size() - 1) / 2]->figures;
+  const RunFigures &lower = *runs[(runs.size() - 1) / 2]->figures, &upper = *runs[runs.size() / 2]->figures;
+  row.median = runs.size() % 2 == 1 ? lower : mean_of(lower, upper);
+  for (const RunResult* run : runs)
+    if (const auto& beside = run->marks.beside) row.beside = std::max(row.beside.value_or(0), *beside);
   row.least = seconds_of(*runs.front(), row.by_cpu);
   row.most = seconds_of(*runs.back(), row.by_cpu);
   return row;
@@ -82,6 +87,7 @@ Json row_json(const SeriesRow& row) {
   json.update(Json{{"seconds", row.seconds()},
                    {"seconds_min", row.least},
                    {"seconds_max", row.most},
+                   {"busy_beside", row.beside ? Json(*row.beside) : Json()},
                    {"wall_seconds", median.wall},
                    {"busy_cpu_seconds", median.busy},
                    {"serial_cpu_seconds", median.serial},
@@ -119,6 +125,7 @@ Json run_json(const RunResult& run) {
                               : Json()},
             {"host", run.marks.host},
             {"seconds_from_start", run.marks.seconds},
+            {"busy_beside", run.marks.beside ? Json(*run.marks.beside) : Json()},
             {"said", run.failure}};
   if (run.figures)
     json.update(Json{{"wall_seconds", run.figures->wall},
@@ -199,7 +206,9 @@ std::string study_text(const std::vector<SeriesRow>& rows) {
                                  "ranks", "runs", "seconds", "speed-up", "efficiency", "imbalance",
                                  "MiB/rank", "tetrahedra", "per s, core");
   bool any_by_cpu = false;
+  double beside = 0;
   for (const SeriesRow& row : rows) {
+    beside = std::max(beside, row.beside.value_or(0));
     text += fmt::format("{:<7} {:>6} {:>6} ", name_of(row.series), row.ranks,
                         fmt::format("{}/{}", row.ended, row.planned));
     if (row.ended == 0) {
@@ -214,6 +223,9 @@ std::string study_text(const std::vector<SeriesRow>& rows) {
                         row.median.rate(row.ranks, row.by_cpu));
   }
   if (any_by_cpu) text += "* more ranks than processors: CPU seconds of the busiest rank\n";
+  if (beside > busy_processors)
+    text += fmt::format("The machine was busy: other programs used up to {:.1f} processors during a run.\n",
+                        beside);
   return text;
 }
 

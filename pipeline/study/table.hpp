@@ -4,6 +4,7 @@
 #include "pipeline/study/machine.hpp"
 #include "pipeline/study/results.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ struct SeriesRow {
   Series series = Series::strong;
   int ranks = 1, nodes = 1;
   int planned = 0, ended = 0, failed = 0;
-  bool by_cpu = false;           ///< more ranks than processors: CPU of the busiest rank replaces wall time
-  RunFigures median;             ///< the run with median time, if any has ended
+  bool by_cpu = false;  ///< more ranks than processors: CPU of the busiest rank replaces wall time
+  RunFigures median;    ///< the run with median time, if any has ended; of two in the middle their mean
   double least = 0, most = 0;    ///< shortest and longest time
+  std::optional<double> beside;  ///< most processors that other programs kept busy during a run, if known
   double speedup = 0;            ///< over one rank and one piece; 0: not known
   double speedup_of_series = 0;  ///< over the fewest ranks of the series, times that number of ranks
   double efficiency = 0;  ///< speed-up over ranks; weak series: rate per core over that of the first row

@@ -66,25 +66,49 @@ std::vector<double> ticks_of(const Scale& scale) {
   return ticks;
 }
 
-/// Shapes that differ without colour; a class each for colour.
-std::string marker(std::size_t line, double x, double y) {
+/// Shapes that differ without colour; a class each for colour. Hollow ones have the colour at their edge.
+std::string marker(std::size_t line, double x, double y, bool is_hollow = false) {
   constexpr double r = 4;
+  const std::string kind =
+      is_hollow ? fmt::format("hollow stroke{}", line % 4) : fmt::format("line{}", line % 4);
   switch (line % 4) {
     case 0:
-      return fmt::format("<circle class=\"line{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">", line % 4, x, y, r);
+      return fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\">", kind, x, y, r);
     case 1:
-      return fmt::format("<rect class=\"line{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\">",
-                         line % 4, x - r, y - r, 2 * r, 2 * r);
+      return fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{}\" height=\"{}\">", kind,
+                         x - r, y - r, 2 * r, 2 * r);
     case 2:
-      return fmt::format("<path class=\"line{}\" d=\"M{:.1f} {:.1f}l5 9h-10z\">", line % 4, x, y - 5);
+      return fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}l5 9h-10z\">", kind, x, y - 5);
     default:
-      return fmt::format("<path class=\"line{}\" d=\"M{:.1f} {:.1f}l5 5l-5 5l-5 -5z\">", line % 4, x, y - 5);
+      return fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}l5 5l-5 5l-5 -5z\">", kind, x, y - 5);
   }
 }
 
 const char* name_of_marker(std::size_t line) {
   constexpr std::array<const char*, 4> names{"circle", "rect", "path", "path"};
   return names.at(line % 4);
+}
+
+bool is_other(const ChartLine& line, std::size_t point) {
+  return point < line.other_kind.size() && line.other_kind[point];
+}
+
+std::string legend_entry(const ChartLine& line, std::size_t number) {
+  if (line.ideal)
+    return fmt::format(
+        "<li><svg viewBox=\"0 0 24 12\" aria-hidden=\"true\"><path class=\"ideal\" d=\"M0 6L24 "
+        "6\"/></svg>{}</li>",
+        escaped(line.name));
+  bool any_plain = false, any_other = false;
+  for (std::size_t i = 0; i < line.points.size(); ++i) (is_other(line, i) ? any_other : any_plain) = true;
+  std::string entries;
+  for (const bool is_hollow : {false, true}) {
+    if (is_hollow ? any_other : any_plain)
+      entries += fmt::format("<li><svg viewBox=\"0 0 12 12\" aria-hidden=\"true\">{}</{}></svg>{}</li>",
+                             marker(number, 6, 6, is_hollow), name_of_marker(number),
+                             escaped(is_hollow ? line.other_name : line.name));
+  }
+  return entries;
 }
 
 /// The smallest power of two above, or a bit more than the largest.
@@ -131,24 +155,21 @@ std::string line_chart(const std::vector<ChartLine>& lines, const LineChart& cha
     const ChartLine& line = lines[l];
     if (line.points.empty()) continue;
     std::string path, markers;
-    for (const auto& [x, y] : line.points) {
-      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_of(x), y_of(y));
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const auto& [x, y] = line.points[i];
+      const bool is_joined = i > 0 && is_other(line, i) == is_other(line, i - 1);
+      path += fmt::format("{}{:.1f} {:.1f}", is_joined ? "L" : "M", x_of(x), y_of(y));
       if (!line.ideal)
-        markers += marker(l, x_of(x), y_of(y)) +
-                   fmt::format("<title>{}, {}: {}</title></{}>\n", escaped(line.name), short_number(x),
+        markers += marker(l, x_of(x), y_of(y), is_other(line, i)) +
+                   fmt::format("<title>{}, {}: {}</title></{}>\n",
+                               escaped(is_other(line, i) ? line.other_name : line.name), short_number(x),
                                chart.percent ? fmt::format("{:.0f} %", 100 * y) : short_number(y),
                                name_of_marker(l));
     }
     body += fmt::format("<path class=\"{}\" d=\"{}\"/>\n",
                         line.ideal ? "ideal" : fmt::format("stroke{}", l % 4), path) +
             markers;
-    legend += line.ideal
-                  ? fmt::format(
-                        "<li><svg viewBox=\"0 0 24 12\" aria-hidden=\"true\"><path class=\"ideal\" d=\"M0 "
-                        "6L24 6\"/></svg>{}</li>",
-                        escaped(line.name))
-                  : fmt::format("<li><svg viewBox=\"0 0 12 12\" aria-hidden=\"true\">{}</{}></svg>{}</li>",
-                                marker(l, 6, 6), name_of_marker(l), escaped(line.name));
+    legend += legend_entry(line, l);
   }
   return fmt::format(
       "<div><svg class=\"chart\" viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n"

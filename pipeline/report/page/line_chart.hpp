@@ -12,6 +12,9 @@ struct ChartLine {
   std::string name;  ///< plain text
   std::vector<std::pair<double, double>> points;
   bool ideal = false;  ///< a reference line: thin, without markers
+  /// By point: of another kind, with a hollow marker; points of two kinds are not joined. Empty: of one kind.
+  std::vector<bool> other_kind = {};
+  std::string other_name = {};  ///< of the other kind, plain text
 };
 
 struct LineChart {

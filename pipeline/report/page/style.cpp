@@ -78,10 +78,11 @@ svg .ideal { fill: none; stroke: var(--quiet); stroke-width: 1.2; stroke-dasharr
 svg .stroke0, svg .stroke1, svg .stroke2, svg .stroke3 { fill: none; stroke: var(--bar); stroke-width: 1.8; }
 svg .stroke1 { stroke: var(--second); stroke-dasharray: 7 3; } svg .stroke2 { stroke: var(--good); stroke-dasharray: 2 2; }
 svg .stroke3 { stroke: var(--fair); stroke-dasharray: 7 3 2 3; }
+svg .hollow { fill: var(--paper); stroke-dasharray: none; }
 svg .line0 { fill: var(--bar); } svg .line1 { fill: var(--second); }
 svg .line2 { fill: var(--good); } svg .line3 { fill: var(--fair); }
 .bars rect { stroke: var(--paper); stroke-width: 1; }
-.loads rect, .legend rect, .swatch rect { stroke: var(--paper); stroke-width: 1; }
+.loads rect, .legend rect:not(.hollow), .swatch rect { stroke: var(--paper); stroke-width: 1; }
 .swatch, .legend svg { width: 12px; height: 12px; margin-right: 6px; vertical-align: -1px; }
 .legend { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 14px; padding: 0; margin: 6px 0; font-size: 13px; }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 18px; }

@@ -1,7 +1,9 @@
 #include "pipeline/study/results.hpp"
 
 #include "pipeline/study/comparison.hpp"
+#include "pipeline/study/launcher.hpp"
 #include "pipeline/study/page.hpp"
+#include "pipeline/study/processor_use.hpp"
 #include "pipeline/study/table.hpp"
 #include "tests/pipeline/study/studies.hpp"
 
@@ -82,6 +84,67 @@ TEST(Results, MoreRanksThanProcessorsAreJudgedByCpu) {
   EXPECT_NEAR(two.seconds(), 4, 1e-12);
   EXPECT_NEAR(two.speedup, 2, 1e-12);
   EXPECT_NE(study_text(rows).find("* more ranks than processors"), std::string::npos);
+}
+
+TEST(Results, TwoRepeatsHaveAMedian) {
+  const StudyFolder folder("two");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 2);
+  leave_all(study);
+  const std::vector<SeriesRow> rows = make_rows(study, collect_runs(study), machine_of(2));
+  const SeriesRow& two = row_of(rows, Series::strong, 2);
+  EXPECT_NEAR(two.seconds(), 5.05, 1e-12);  // of 5 and 5.1
+  EXPECT_NEAR(two.median.stages[1].wall, 0.75 * 5.05, 1e-12);
+  EXPECT_NEAR(two.speedup, 8.05 / 5.05, 1e-12);
+  EXPECT_NEAR(two.least, 5, 1e-12);
+}
+
+TEST(Results, ABusyMachineIsShown) {
+  const StudyFolder folder("busy");
+  const StudyRecord study = a_study(folder.path, {1, 2}, 1);
+  leave_all(study);
+  const auto page = [&] {
+    const std::vector<RunResult> runs = collect_runs(study);
+    const std::vector<SeriesRow> rows = make_rows(study, runs, machine_of(2));
+    return study_text(rows) + study_page(study_json(study, runs, rows, machine_of(2)).dump());
+  };
+  EXPECT_EQ(page().find("The machine was busy"), std::string::npos) << "nobody knows";
+  for (const auto& [beside, is_busy] : {std::pair(0.2, false), std::pair(1.34, true)}) {
+    const std::filesystem::path run = folder_of(folder.path, study.runs[2]);
+    mark_end(run, 0, beside);
+    EXPECT_EQ(
+        page().find("during 1 of the runs other programs used more than half a processor, up to 1.3 of 2") !=
+            std::string::npos,
+        is_busy);
+    EXPECT_EQ(page().find("other programs used up to 1.3 processors during a run.") != std::string::npos,
+              is_busy);
+  }
+}
+
+TEST(Results, OwnRanksMakeNoMachineBusy) {
+  EXPECT_NEAR(*busy_beside({10, 3}, {16, 7}, 4), 0.5, 1e-12);
+  EXPECT_EQ(busy_beside({10, 3}, {14, 8}, 4), 0) << "clocks of the system are coarse";
+  EXPECT_FALSE(busy_beside({0, 3}, {0, 8}, 4)) << "a system that does not tell";
+  const StudyFolder folder("own");
+  const ProcessorUse before = processor_use();
+  run_line("i=0; while [ $i -lt 100000 ]; do i=$((i + 1)); done", folder.path / "log");
+  EXPECT_GT(processor_use().of_children, before.of_children);
+}
+
+TEST(Results, ChartsJoinNoCpuWithTheClock) {
+  const StudyFolder folder("kinds");
+  const StudyRecord study = a_study(folder.path, {1, 2, 4, 8}, 1);
+  leave_all(study);
+  const std::vector<RunResult> runs = collect_runs(study);
+  const std::string page =
+      study_page(study_json(study, runs, make_rows(study, runs, machine_of(2)), machine_of(2)).dump());
+  std::size_t parted = 0;
+  for (std::size_t at = page.find("<path class=\"stroke"); at != std::string::npos;
+       at = page.find("<path class=\"stroke", at + 1)) {
+    const std::string path = page.substr(at, page.find("/>", at) - at);
+    if (std::count(path.begin(), path.end(), 'M') == 2) ++parted;
+  }
+  EXPECT_EQ(parted, 4U) << "both speed-ups, efficiency, rate";
+  EXPECT_NE(page.find("strong, by CPU"), std::string::npos);
 }
 
 TEST(Results, DifferentMeshesAreNamed) {

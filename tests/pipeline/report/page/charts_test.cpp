@@ -85,6 +85,20 @@ TEST(LineChart, HasAMarkerAtEachPointAndAShapeForEachLine) {
   EXPECT_GT(y[1], y[0]) << "down the page";
 }
 
+TEST(LineChart, JoinsNoPointsOfTwoKinds) {
+  const ChartLine line{
+      "by the clock", {{1, 1}, {2, 2}, {4, 3}, {8, 4}}, false, {false, false, true, true}, "by CPU"};
+  const std::string chart = line_chart({line}, {.title = "kinds", .x_name = "ranks", .y_name = ""});
+  const std::size_t path = chart.find("<path class=\"stroke0\" d=\"");
+  ASSERT_NE(path, std::string::npos);
+  const std::string drawn = chart.substr(path, chart.find("/>", path) - path);
+  EXPECT_EQ(occurrences(drawn, "M"), 2);
+  EXPECT_EQ(occurrences(drawn, "L"), 2);
+  EXPECT_EQ(occurrences(chart, "<circle class=\"hollow stroke0\""), 3) << "two points, and the legend";
+  EXPECT_EQ(occurrences(chart, "<title>by CPU, 8: 4</title>"), 1);
+  EXPECT_EQ(occurrences(chart, "</svg>by CPU</li>"), 1);
+}
+
 TEST(LineChart, FractionsArePercent) {
   LineChart of_fractions;
   of_fractions.percent = true;
