@@ -98,14 +98,15 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
-  log_layers(made.report);
+  report::LayerRecord record{options, std::move(made.report)};
+  log_layers(record.report);
+  if (surface.communicator.is_root()) warn_of_missing_layers(record, surface.patches);
   const std::vector<sizing::SizeSource> sizes = sizes_of_cap(surface, made.columns, surface.field);
   sizing::SizeField field = surface.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)
                                 : surface.field;
-  return {std::move(made.columns),
-          {mesh::number_mesh(std::move(made.cap)), std::move(field)},
-          {options, std::move(made.report)}};
+  return {
+      std::move(made.columns), {mesh::number_mesh(std::move(made.cap)), std::move(field)}, std::move(record)};
 }
 
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayersAndCap& layered,

@@ -3,6 +3,7 @@
 #include "geometry/place_text.hpp"
 #include "io/file_formats.hpp"
 #include "parallel/observation/log.hpp"
+#include "pipeline/case/layer_gate.hpp"
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/shown_changes.hpp"
 
@@ -136,6 +137,11 @@ void log_layers(const layers::LayerReport& report) {
       "asked "
       "for, {:.1f} % none",
       all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area));
+}
+
+void warn_of_missing_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches) {
+  const std::string text = cases::missing_layers(layers.asked, layers.report, patches);
+  if (!text.empty()) parallel::log_warning("layers: " + text);
 }
 
 void log_decompose(const volume::DecompositionReport& report) {

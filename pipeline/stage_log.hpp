@@ -25,6 +25,8 @@ void log_needles(const surface::SurfaceReport& report, const std::vector<report:
 /// Joined faces could not be meshed: the surface is meshed again without joining.
 void log_surface_again(const std::string& reason);
 void log_layers(const layers::LayerReport& report);
+/// Warns of walls that ask for layers and have none. `patches`: names by patch. One rank calls.
+void warn_of_missing_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches);
 void log_decompose(const volume::DecompositionReport& report);
 /// Warns where many more tetrahedra are expected than were forecast. `resize_rounds`: of the surface.
 void warn_of_count(double expected, double forecast, int resize_rounds);

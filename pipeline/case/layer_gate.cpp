@@ -117,4 +117,31 @@ std::string missed_limits(const LayerGate& gate, const layers::LayerOptions& ask
          "narrow places, or a lower limit";
 }
 
+std::string missing_layers(const layers::LayerOptions& asked, const layers::LayerReport& report,
+                           const std::vector<std::string>& patches) {
+  std::size_t walls = 0;
+  std::vector<std::size_t> bare;
+  for (std::size_t p = 0; p < report.patches.size(); ++p) {
+    const layers::PatchLayers& patch = report.patches[p];
+    if (asked.patches.at(p).first <= 0 || patch.area <= 0) continue;
+    ++walls;
+    if (patch.most_layers == 0) bare.push_back(p);
+  }
+  if (walls == 0)
+    return "layers are asked for, and no wall is there to have them. Remedy: the type of a patch (patches), "
+           "or no 'layers'";
+  if (bare.empty()) return {};
+  std::stable_sort(bare.begin(), bare.end(), [&](std::size_t a, std::size_t b) {
+    return report.patches[a].area > report.patches[b].area;
+  });
+  std::string names;
+  for (std::size_t i = 0; i < std::min(shown_patches, bare.size()); ++i)
+    names += fmt::format("{}'{}'", i == 0 ? "" : ", ", patches.at(bare[i]));
+  if (bare.size() > shown_patches) names += fmt::format(" and {} more", bare.size() - shown_patches);
+  return fmt::format(
+      "{} of {} walls that ask for layers have none at all ({}){}. Remedy: fewer or lower "
+      "layers there (layers.patches), or smaller sizes",
+      bare.size(), walls, names, causes_of(report.patches[bare.front()]));
+}
+
 }  // namespace aeroloom::cases

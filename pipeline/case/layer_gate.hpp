@@ -18,4 +18,9 @@ std::vector<GateLimit> compare_with_gate(const LayerGate& gate, const layers::La
 std::string missed_limits(const LayerGate& gate, const layers::LayerOptions& asked,
                           const layers::LayerReport& report, const std::vector<std::string>& patches);
 
+/// A warning about walls that ask for layers and have none at all, with what prevents most. Empty if each has
+/// some.
+std::string missing_layers(const layers::LayerOptions& asked, const layers::LayerReport& report,
+                           const std::vector<std::string>& patches);
+
 }  // namespace aeroloom::cases

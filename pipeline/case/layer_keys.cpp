@@ -83,6 +83,35 @@ void check_layer_rule(const KeyTable& keys, const LayerRule& rule, bool height_f
                               keys.where(path), path));
 }
 
+/// Where a member of a rule or of all walls was given; a rule's first.
+std::string path_of_member(const char* member, const LayerRule* rule, bool is_of_rule) {
+  return is_of_rule ? fmt::format("layers.patches.{}.{}", rule->name, member)
+                    : fmt::format("layers.{}", member);
+}
+
+/// The heights ask for at least one layer and have an end.
+void check_heights(const KeyTable& keys, const CaseDraft& draft, const LayerRule* rule) {
+  const layers::WallLayers wanted = wanted_layers(draft.result.layers, draft.result.sizing, rule);
+  if (wanted.first <= 0) return;
+  const std::string patch = rule != nullptr ? fmt::format(" on patch '{}'", rule->name) : "";
+  if (wanted.growth <= 1 && wanted.count == 0 && wanted.total == 0) {
+    const std::string path = path_of_member("growth", rule, rule != nullptr && rule->growth);
+    throw CaseError(
+        fmt::format("{}: '{}' is {:g}, and neither 'count' nor 'total' ends the layers{}. Remedy: "
+                    "one of the two, or a growth above 1",
+                    keys.where(path), path, wanted.growth, patch));
+  }
+  if (wanted.total > 0 && wanted.total < wanted.first) {
+    const std::string path = path_of_member("total", rule, rule != nullptr && rule->total);
+    const std::string at = path_of_member("first", rule, rule != nullptr && rule->first);
+    const std::string where = keys.where(rule != nullptr && rule->first && !rule->total ? at : path);
+    throw CaseError(
+        fmt::format("{}: '{}' is {:.6g}, less than the height of the first layer{}, {:.6g}: none "
+                    "fits. Remedy: a larger 'total', or a lower 'first'",
+                    where, path, wanted.total, patch, wanted.first));
+  }
+}
+
 }  // namespace
 
 void declare_layers(KeyTable& root, CaseDraft& draft) {
@@ -149,6 +178,8 @@ void check_layers(const KeyTable& keys, const CaseDraft& draft) {
   if (request.walls == LayeredWalls::none && draft.layer_rules.empty())
     refuse("layers.walls", "with 'layers.walls: none' patches with layers are needed below 'layers.patches'");
   for (const LayerRule& rule : draft.layer_rules) check_layer_rule(keys, rule, height_for_all);
+  if (request.walls == LayeredWalls::all) check_heights(keys, draft, nullptr);
+  for (const LayerRule& rule : draft.layer_rules) check_heights(keys, draft, &rule);
 }
 
 }  // namespace aeroloom::cases

@@ -71,6 +71,12 @@ double y_plus_of(double first, double reynolds, double length) {
   return first / first_height(1, reynolds, length, sizing::SolverPoints::vertex);
 }
 
+layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
+                                 const LayerRule* rule) {
+  const layers::WallLayers of_walls = layers_of_walls(request, sizing);
+  return rule != nullptr ? layers_of_patch(*rule, of_walls) : of_walls;
+}
+
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,
                                    const std::vector<std::string>& patches,
                                    const std::vector<mesh::PatchType>& types) {
@@ -79,12 +85,12 @@ layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequ
   options.ends_on_planes = true;
   options.elements = request.elements;
   if (!request.given) return options;
-  const layers::WallLayers wanted = layers_of_walls(request, sizing);
+  const layers::WallLayers wanted = wanted_layers(request, sizing);
   for (std::size_t p = 0; p < patches.size() && request.walls == LayeredWalls::all; ++p) {
     if (types.at(p) == mesh::PatchType::wall) options.patches[p] = wanted;
   }
   for (const LayerRule& rule : request.patches)
-    options.patches[patch_of_rule(rule, patches, types)] = layers_of_patch(rule, wanted);
+    options.patches[patch_of_rule(rule, patches, types)] = wanted_layers(request, sizing, &rule);
   return options;
 }
 

@@ -58,6 +58,10 @@ double y_plus_of(double first, double reynolds, double length);
 
 struct SizingRequest;
 
+/// The layers that the case asks for on a wall; by `rule` where the patch has one, else as on all walls.
+layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
+                                 const LayerRule* rule = nullptr);
+
 /// The layers of each patch. Throws std::invalid_argument for a rule whose patch does not exist (with the
 /// nearest name) or is no wall.
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,

@@ -68,5 +68,18 @@ TEST_F(LayerGates, AreMissedWhereNoWallAsks) {
   EXPECT_NE(missed(0.5).find("no wall asks for layers"), std::string::npos);
 }
 
+TEST_F(LayerGates, WarnOfWallsWithoutAny) {
+  report.patches[0].most_layers = report.patches[2].most_layers = 7;
+  EXPECT_EQ(missing_layers(asked, report, patches), "");
+  report.patches[2].most_layers = 0;
+  const std::string text = missing_layers(asked, report, patches);
+  EXPECT_EQ(text.find("1 of 2 walls that ask for layers have none at all ('nacelle'), mostly for walls too "
+                      "near opposite"),
+            0u)
+      << text;
+  asked.patches.assign(3, {});
+  EXPECT_NE(missing_layers(asked, report, patches).find("no wall is there"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace aeroloom::cases

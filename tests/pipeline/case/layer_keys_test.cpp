@@ -153,9 +153,27 @@ TEST_F(LayerKeys, SayWhatIsMissing) {
   expect("first: 0", "above 0");
   expect("first: 1, growth: 0.9", "at least 1 and at most 2");
   expect("first: 1, until: forever", "isotropic");
+  expect("first: 1, growth: 1", "case.yaml:2:20: 'layers.growth' is 1, and neither 'count' nor 'total'");
+  expect("first: 0.01, total: 0.001",
+         "case.yaml:2:23: 'layers.total' is 0.001, less than the height of the first layer, 0.01");
   const std::string of_level = transport + "sizing: {level: C}\nlayers: {first: level, length: 1}\n";
   EXPECT_NE(error_of(of_level).find("'layers.reynolds' and 'layers.length' are needed"), std::string::npos)
       << error_of(of_level);
+}
+
+TEST_F(LayerKeys, HeightsOfPatchesHaveRoomAndAnEnd) {
+  const auto expect = [&](const std::string& layers, const std::string& text) {
+    EXPECT_NE(refused(layers).find(text), std::string::npos) << layers << "\n" << refused(layers);
+  };
+  expect("first: 1, total: 2, patches: {wing: {growth: 1.2, first: 3}}",
+         "'layers.total' is 2, less than the height of the first layer on patch 'wing', 3");
+  expect("first: 1, patches: {wing: {total: 0.5}}", "'layers.patches.wing.total' is 0.5, less than");
+  expect("first: 1, patches: {wing: {growth: 1}}", "'layers.patches.wing.growth' is 1, and neither");
+  expect("reynolds: 1e3, length: 10, y_plus: 1, total: 1e-5", "'layers.total' is 1e-05, less than");
+  expect("walls: none, growth: 1, patches: {wing: {first: 1}}", "'layers.growth' is 1, and neither");
+  EXPECT_EQ(refused("first: 1, growth: 1, count: 4, total: 1"), "no error");
+  EXPECT_EQ(refused("first: 1, growth: 1, total: 1, patches: {wing: {first: 5, count: 0}}"), "no error");
+  EXPECT_EQ(refused("walls: none, growth: 1, patches: {wing: {first: 1, growth: 1.1}}"), "no error");
 }
 
 }  // namespace
