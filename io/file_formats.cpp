@@ -106,7 +106,8 @@ constexpr FormatRow format_rows[] = {
      .name = "cgns",
      .ends = {".cgns"},
      .write = plain<write_cgns>,
-     .content = {.regions = true}},
+     .content = {.regions = true},
+     .in_metres = true},
     // A single letter of byte order before `.ugrid` is the writer's affair.
     {.format = FileFormat::ugrid,
      .name = "ugrid",
@@ -128,14 +129,16 @@ constexpr FormatRow format_rows[] = {
      .readable_ends = {{{".su2", "SU2, text"}}},
      .read = read_su2,
      .write = plain<write_su2>,
-     .content = one_region},
+     .content = one_region,
+     .in_metres = true},
     {.format = FileFormat::su2b,
      .name = "su2b",
      .ends = {".su2b"},
      .readable_ends = {{{".su2b", "SU2, binary"}}},
      .read = read_su2b,
      .write = plain<write_su2b>,
-     .content = one_region},
+     .content = one_region,
+     .in_metres = true},
     {.format = FileFormat::msh,
      .name = "msh",
      .ends = {".msh"},
@@ -164,7 +167,8 @@ constexpr FormatRow format_rows[] = {
      .write = plain<write_foam>,
      .content = whole_mesh_in_parts,
      .folder = "openfoam",
-     .unit_warning = openfoam_unit_warning},
+     .in_metres = true,
+     .scaling = openfoam_scaling},
 };
 
 constexpr bool is_in_order() {

@@ -65,8 +65,10 @@ struct FormatRow {
   int (*named_parts)(const std::string& path) = nullptr;
   /// Removes the files of parts from `parts` on, of an earlier mesh. Null: the format has no such files.
   void (*remove_later_parts)(const SharedPath& file, std::int32_t parts) = nullptr;
-  /// A warning for a unit of length other than the metre. Null: files may have any unit.
-  std::string (*unit_warning)(const std::string& unit, double in_metres) = nullptr;
+  /// Whether the solvers that read the files take lengths for metres.
+  bool in_metres = false;
+  /// The command of the format that scales a mesh by a factor. Null: there is none.
+  std::string (*scaling)(double factor) = nullptr;
 };
 
 /// All formats, in the order of FileFormat.

@@ -16,6 +16,7 @@
 #include "pipeline/report/task_table.hpp"
 #include "pipeline/report/text_file.hpp"
 #include "pipeline/shown_changes.hpp"
+#include "pipeline/stage_log.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -312,6 +313,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
         domain::find_patches(communicator, domain::broadcast_model(communicator, std::move(bytes)), input);
     clock.end();
     const cad::Model& model = patches.model;
+    if (communicator.is_root()) warn_of_units(model.unit_name(), model.unit_in_metres(), input.output);
     record.patch_types = patches.types;
     if (communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);

@@ -95,7 +95,7 @@ public:
                             surface.sizes, domain.model.unit_name()};
     stage("output", ExitCode::files, [&] {
       write(finished, surface);
-      if (_communicator.is_root()) warn(judged, domain.model.unit_in_metres());
+      if (_communicator.is_root()) warn(judged);
       if (_input.output.pictures) _record.pictures = report::pictures_or_warning(pictured, &finished);
     });
     require_quality(_input, judged);
@@ -130,6 +130,8 @@ private:
     }
     const cad::Domain domain = find_or_load_domain();
     cases::TypedPatches patches = domain::find_patches(_communicator, domain.model, _input);
+    if (_communicator.is_root())
+      warn_of_units(patches.model.unit_name(), patches.model.unit_in_metres(), _input.output);
     if (_communicator.is_root())
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     note_model(patches.model);
@@ -334,8 +336,7 @@ private:
       note_files(volume.figures.counts.cells);
   }
 
-  void warn(const JudgedMesh& judged, double metres) const {
-    warn_of_units(judged.unit, metres, _input.output);
+  void warn(const JudgedMesh& judged) const {
     if (const std::string coarse = coarse_region(_input.gate, judged); !coarse.empty())
       parallel::log_warning("quality gate: " + coarse);
   }

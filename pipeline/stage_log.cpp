@@ -59,10 +59,18 @@ void warn_of_sizes(const domain::SizedDomain& sized) {
 
 void warn_of_units(const std::string& unit, double metres, const cases::OutputOptions& output) {
   if (unit.empty() || metres == 1) return;
+  std::string formats, command;
   for (const io::FileFormat format : output.formats) {
     const io::FormatRow& row = io::row_of(format);
-    if (row.unit_warning != nullptr) parallel::log_warning("output: " + row.unit_warning(unit, metres));
+    if (!row.in_metres) continue;
+    formats += fmt::format("{}{}", formats.empty() ? "" : ", ", row.name);
+    if (row.scaling != nullptr) command = fmt::format(" ({}: {})", row.name, row.scaling(metres));
   }
+  if (formats.empty()) return;
+  parallel::log_warning(fmt::format(
+      "output: lengths stay in {}, and solvers take those of {} for metres. Remedy: scale the mesh by {:g} "
+      "before a solver reads it{}",
+      unit, formats, metres, command));
 }
 
 namespace {

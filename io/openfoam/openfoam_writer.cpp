@@ -320,11 +320,8 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   });
 }
 
-std::string openfoam_unit_warning(const std::string& unit, double in_metres) {
-  return fmt::format(
-      "lengths of the OpenFOAM case are in {}, its velocities and viscosity in metres and seconds. Remedy: "
-      "transformPoints -scale '({:g} {:g} {:g})' in the case, with -parallel where it has parts",
-      unit, in_metres, in_metres, in_metres);
+std::string openfoam_scaling(double factor) {
+  return fmt::format("transformPoints -scale '({:g} {:g} {:g})'", factor, factor, factor);
 }
 
 }  // namespace aeroloom::io

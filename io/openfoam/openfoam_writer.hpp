@@ -29,8 +29,8 @@ struct OpenFoamOptions {
 /// also where surplus processor folders hold results; (input) where the mesh has open faces.
 void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenFoamOptions& options = {});
 
-/// The warning for a mesh whose unit of length is `in_metres` metres.
-std::string openfoam_unit_warning(const std::string& unit, double in_metres);
+/// The command that scales a mesh in a case; with `-parallel` where that has parts.
+std::string openfoam_scaling(double factor);
 
 /// The bits of labels: 32, or 64 where a count of the mesh or of the face corners of a part needs them.
 int foam_label_bits(mesh::GlobalIndex cells, mesh::GlobalIndex faces, mesh::GlobalIndex points,

@@ -231,14 +231,11 @@ TEST_F(FormatTable, FilesNameTheirParts) {
   }
 }
 
-TEST_F(FormatTable, UnitsThatMatterAreToldWithTheirFactor) {
-  for (const FormatRow& row : file_formats()) {
-    if (row.unit_warning == nullptr) continue;
-    const std::string text = row.unit_warning("mm", 0.001);
-    EXPECT_NE(text.find(" in mm"), std::string::npos) << text;
-    EXPECT_NE(text.find("(0.001 0.001 0.001)"), std::string::npos) << text;
-  }
-  EXPECT_NE(row_of(FileFormat::openfoam).unit_warning, nullptr);
+TEST_F(FormatTable, SolversOfTheseFormatsTakeLengthsForMetres) {
+  for (const FileFormat format : {FileFormat::openfoam, FileFormat::su2, FileFormat::su2b, FileFormat::cgns})
+    EXPECT_TRUE(row_of(format).in_metres) << name_of(format);
+  EXPECT_FALSE(row_of(FileFormat::vtu).in_metres);
+  EXPECT_EQ(row_of(FileFormat::openfoam).scaling(0.001), "transformPoints -scale '(0.001 0.001 0.001)'");
 }
 
 /// Each format has a row in the table of the page, which says whether it is read.

@@ -110,6 +110,16 @@ TEST_F(CheckCommandLocal, TellsOfEdgesThatAreClosedOnRequest) {
   EXPECT_TRUE(patches.contains("vertical_tail_trailing_edge"));
 }
 
+// Before hours of meshing, and for every format whose solvers expect metres.
+TEST_F(CheckCommandLocal, TellsOfLengthsThatSolversTakeForMetres) {
+  const std::string line =
+      "check /dev/null --set geometry.file=" + (source_tree() / "tests/data/bracket.igs").string() +
+      " --set geometry.domain=fluid --set output.directory=out --set sizing.target_tetrahedra=4000 "
+      "--set output.formats=";
+  EXPECT_FALSE(expect(0, line + "[vtu,msh]").has("for metres"));
+  expect(0, line + "[su2,cgns]", {"lengths stay in mm, and solvers take those of su2, cgns for metres"});
+}
+
 // What layers would be: y+ in both meanings, as many as sizes ask, and how much of them a duct has no room
 // for.
 TEST_F(CheckCommandLocal, TellsOfLayersAndOfRoomForThem) {

@@ -46,14 +46,20 @@ TEST_F(StageLog, WarnsWhereMoreTetrahedraComeThanWereForecast) {
   EXPECT_TRUE(has(said_by([&] { warn_of_count(3e6, 1e6, 2); }).warnings, "sizes fell in 2 round(s)"));
 }
 
-TEST_F(StageLog, WarnsOfLengthsThatAreNoMetresForOpenFoamAlone) {
+TEST_F(StageLog, WarnsOfLengthsThatAreNoMetresWhereSolversExpectThem) {
   cases::OutputOptions output;
+  output.formats = {io::FileFormat::vtu};
   EXPECT_EQ(said_by([&] { warn_of_units("mm", 1e-3, output); }).warnings, "");
+  output.formats = {io::FileFormat::su2, io::FileFormat::cgns};
+  EXPECT_TRUE(has(said_by([&] { warn_of_units("mm", 1e-3, output); }).warnings,
+                  "lengths stay in mm, and solvers take those of su2, cgns for metres. Remedy: scale the "
+                  "mesh by 0.001"));
   output.formats.push_back(io::FileFormat::openfoam);
-  const Said said = said_by([&] { warn_of_units("mm", 1e-3, output); });
-  EXPECT_TRUE(has(said.warnings, "are in mm")) << said.warnings;
-  EXPECT_TRUE(has(said.warnings, "transformPoints -scale '(0.001 0.001 0.001)'")) << said.warnings;
+  const Said said = said_by([&] { warn_of_units("in", 0.0254, output); });
+  EXPECT_TRUE(has(said.warnings, "su2, cgns, openfoam for metres")) << said.warnings;
+  EXPECT_TRUE(has(said.warnings, "transformPoints -scale '(0.0254 0.0254 0.0254)'")) << said.warnings;
   EXPECT_EQ(said_by([&] { warn_of_units("m", 1, output); }).warnings, "");
+  EXPECT_EQ(said_by([&] { warn_of_units("", 1, output); }).warnings, "");
 }
 
 TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {

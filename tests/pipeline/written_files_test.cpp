@@ -88,8 +88,11 @@ TEST_F(WrittenFilesLocal, OpenFoamIsWarnedOfUnitsAndOfOtherResults) {
       " --set output.directory=foam --set output.formats=[openfoam] --set output.parts=1 "
       "--set geometry.domain=fluid --set output.pictures=false --set sizing.target_tetrahedra=";
   const CommandResult first =
-      expect(0, line + "4000", {"are in mm", "transformPoints -scale '(0.001 0.001 0.001)'"});
+      expect(0, line + "4000", {"lengths stay in mm", "transformPoints -scale '(0.001 0.001 0.001)'"});
   EXPECT_FALSE(first.has("fields of another mesh")) << first;
+  const nlohmann::json warnings = read_json("foam/report.json")["warnings"];
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0]["message"].get<std::string>().find("stay in mm"), std::string::npos) << warnings;
   write("foam/openfoam/50/U", "results\n");
   expect(0, line + "6000", {"50' holds fields of another mesh"});
   EXPECT_TRUE(exists("foam/openfoam/50/U"));
