@@ -161,6 +161,8 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
   if (!added.empty()) text += "features: " + added + "\n";
   const std::string bounded = describe(findings.bounded, forecast.sizes);
   if (!bounded.empty()) text += "bounds: " + bounded + "\n";
+  if (const std::string lost = warning_of(findings.bounded, forecast.sizes); !lost.empty())
+    text += "bounds: " + lost + "\n";
   const std::string unseen = describe(findings.walls.unseen);
   if (!unseen.empty()) text += "gaps: " + unseen + "\n";
   const std::string coincident = describe(findings.walls.coincident);

@@ -43,7 +43,7 @@ void log_sizing(const domain::SizedDomain& sized) {
       log_info("sizing: " + text);
   }
   const std::string bounds = describe(findings.bounded, sized.sizes);
-  if (!bounds.empty() && !domain::is_much_of_body(findings.bounded)) log_info("sizing: " + bounds);
+  if (!bounds.empty()) log_info("sizing: " + bounds);
 }
 
 void warn_of_sizes(const domain::SizedDomain& sized) {
@@ -53,8 +53,8 @@ void warn_of_sizes(const domain::SizedDomain& sized) {
   if (const std::string text = findings.features ? describe(*findings.features) : std::string();
       !text.empty())
     parallel::log_warning("sizing: " + text);
-  if (domain::is_much_of_body(findings.bounded))
-    parallel::log_warning("sizing: " + describe(findings.bounded, sized.sizes));
+  if (const std::string text = warning_of(findings.bounded, sized.sizes); !text.empty())
+    parallel::log_warning("sizing: " + text);
 }
 
 void warn_of_units(const std::string& unit, double metres, const cases::OutputOptions& output) {
@@ -98,11 +98,10 @@ void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigu
 }
 
 void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces) {
-  constexpr int shown = 5;  // lines of the log; the report has all
   std::int64_t forced = 0, forced_groups = 0, others = 0;
   double least = surface::needle_degrees;
-  int listed = 0;
-  std::string places;
+  int places = 0;
+  const surface::NeedleGroup* worst = nullptr;
   for (const surface::NeedleGroup& group : report.needles) {
     if (group.cause != surface::NeedleCause::mesh) {
       forced += group.needles, ++forced_groups;
@@ -110,9 +109,8 @@ void log_needles(const surface::SurfaceReport& report, const std::vector<report:
       continue;
     }
     others += group.needles;
-    if (++listed > shown) continue;
-    places += fmt::format("; {} on '{}', {:.3g} degrees at {}", group.needles, faces.at(group.face).name,
-                          group.degrees, geometry::place_text(group.at));
+    ++places;
+    if (worst == nullptr || group.degrees < worst->degrees) worst = &group;
   }
   if (forced > 0) {
     log_info(fmt::format(
@@ -121,10 +119,13 @@ void log_needles(const surface::SurfaceReport& report, const std::vector<report:
         forced, surface::needle_degrees, forced_groups, least));
   }
   if (others > 0) {
-    parallel::log_warning(fmt::format(
-        "surface: before improvement {} triangles are below {:g} degrees that the CAD does not force{}{}",
-        others, surface::needle_degrees, places,
-        listed > shown ? "; and more, see surface.needles[] of the report" : ""));
+    parallel::log_warning(
+        fmt::format("surface: before improvement {} triangles in {} place(s) are below {:g} degrees that the "
+                    "CAD does not "
+                    "force, the least {:.3g} on '{}' at {}. Remedy: smaller sizes there (surface.needles[] "
+                    "of the report)",
+                    others, places, surface::needle_degrees, worst->degrees, faces.at(worst->face).name,
+                    geometry::place_text(worst->at)));
   }
 }
 

@@ -14,6 +14,9 @@ constexpr std::size_t shown_faces = 4;   // in a line of the log; the report has
 constexpr double least_fraction = 0.01;  // of a face's area, to be named in a line
 constexpr double half_turn = 180;        // degrees: an element that turns by it follows no curvature at all
 constexpr double few_degrees = 10;       // below this, printed with a digit more
+/// Two elements around a leading edge. Chosen, not measured.
+constexpr double lost_shape = 90;
+constexpr double much_of_body = 0.1;  // of its area; chosen, not measured
 
 std::string degrees_text(double degrees) {
   if (degrees >= half_turn) return "180 degrees and more";
@@ -74,18 +77,22 @@ std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingO
   text = fmt::format("the smallest size ({:.3g}) wins over {:.3g} degrees per element{}:{}", sizes.minimum,
                      sizes.curvature_angle, sizes.chordal_deviation > 0 ? " and the deviation asked for" : "",
                      text);
-  if (is_much_of_body(faces))
-    text += fmt::format(
-        ". That is {:.0f} % of the body. Remedy: sizes in the unit of the model; a smaller "
-        "sizing.minimum, or a larger sizing.target_tetrahedra where it was chosen; or a larger "
-        "sizing.curvature_angle, which takes fewer elements elsewhere",
-        100 * body_fraction(faces));
   return text;
 }
 
-bool is_much_of_body(const std::vector<NamedBound>& faces) {
-  constexpr double much = 0.1;  // of its area; chosen, not measured
-  return body_fraction(faces) > much;
+std::string warning_of(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes) {
+  const NamedBound* worst = nullptr;
+  for (const NamedBound& each : faces) {
+    if (each.fraction >= least_fraction && (worst == nullptr || each.degrees > worst->degrees)) worst = &each;
+  }
+  if (worst == nullptr || (worst->degrees < lost_shape && body_fraction(faces) <= much_of_body)) return {};
+  return fmt::format(
+      "elements turn by {}, most on '{}', for the smallest size ({:.3g}) wins over {:.3g} degrees per "
+      "element "
+      "on {:.3g} % of the body. Remedy: a smaller sizing.minimum (in the unit of the model), a larger "
+      "sizing.target_tetrahedra where it is chosen, or a larger sizing.curvature_angle",
+      degrees_text(worst->degrees), worst->face, sizes.minimum, sizes.curvature_angle,
+      100 * body_fraction(faces));
 }
 
 }  // namespace aeroloom::domain

@@ -27,7 +27,8 @@ std::vector<NamedBound> report_bounded_faces(sizing::FieldFactory& factory,
 /// One line about the first few; empty if they cover little area.
 std::string describe(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes);
 
-/// Whether much of the body is bounded: then its shape is lost, or the curvature keys have little effect.
-bool is_much_of_body(const std::vector<NamedBound>& faces);
+/// One sentence where the shape is lost: elements turn by a right angle or more, or much of the body is
+/// bounded. Empty elsewhere.
+std::string warning_of(const std::vector<NamedBound>& faces, const sizing::SizingOptions& sizes);
 
 }  // namespace aeroloom::domain

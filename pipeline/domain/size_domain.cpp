@@ -85,9 +85,11 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
   const auto weight = [](const sizing::BoundCost& cost) { return std::abs(std::log(cost.ratio)); };
   std::stable_sort(costs.begin(), costs.end(),
                    [&](const auto& a, const auto& b) { return weight(a) > weight(b); });
+  constexpr std::size_t shown = 2;  // a warning is one sentence
+  std::size_t named = 0;
   std::string text;
   for (const sizing::BoundCost& cost : costs) {
-    if (weight(cost) < least_named_cost) break;
+    if (weight(cost) < least_named_cost || named++ == shown) break;
     text += (text.empty() ? "" : ", ") + text_of_cost(cost);
   }
   return text.empty() ? describe_all(costs) : text;

@@ -12,7 +12,6 @@
 namespace aeroloom::domain {
 namespace {
 
-constexpr std::size_t shown_regions = 5;  // in a line of the log; the report has all
 /// Triangles that are longer than wide by less have angles above the 28 degrees that improvement aims at.
 constexpr double least_listed_aspect = 1.9;
 
@@ -47,26 +46,13 @@ std::string describe_added(const FeatureReport& report) {
 
 std::string describe(const FeatureReport& report) {
   if (report.regions.empty()) return {};
-  const std::string longer = report.resolution.aspect == sizing::no_aspect
-                                 ? fmt::format("{:.3g} long", report.resolution.minimum)
-                                 : fmt::format("{:.2g} times as long as wide", report.resolution.aspect);
-  std::string text = fmt::format(
-      "{} face(s) have narrow regions that {:.3g} tetrahedra do not resolve: triangles along them are {}; "
-      "resolved, "
-      "they would take about {:.2g}:",
-      report.regions.size(), report.tetrahedra, longer, report.wanted_tetrahedra());
-  for (std::size_t i = 0; i < std::min(shown_regions, report.regions.size()); ++i) {
-    const UnresolvedRegion& region = report.regions[i];
-    text += fmt::format(" '{}' is {:.3g} wide at {}, angles from about {:.2g} degrees;", region.face,
-                        region.width, geometry::place_text(region.place), region.surface_degrees);
-  }
-  if (report.regions.size() > shown_regions)
-    text += fmt::format(" and {} more;", report.regions.size() - shown_regions);
-  return text +
-         " remedies: geometry.trailing_edges: sharpen, where they are blunt trailing edges; a larger "
-         "sizing.feature_budget; a larger sizing.target_tetrahedra; or edges that are sharp, or thicker, in "
-         "the "
-         "CAD";
+  const UnresolvedRegion& narrowest = report.regions.front();
+  return fmt::format(
+      "{} face(s) have narrow regions that {:.3g} tetrahedra do not resolve, the narrowest '{}', {:.3g} wide "
+      "at {}, with angles from about {:.2g} degrees. Remedy: a larger sizing.feature_budget (about {:.2g} "
+      "tetrahedra resolve all), or geometry.trailing_edges: sharpen",
+      report.regions.size(), report.tetrahedra, narrowest.face, narrowest.width,
+      geometry::place_text(narrowest.place), narrowest.surface_degrees, report.wanted_tetrahedra());
 }
 
 }  // namespace aeroloom::domain

@@ -40,15 +40,10 @@ WallFindings report_walls(const cad::Model& model, const std::vector<sizing::Coi
 
 std::string describe(const std::vector<UnseenWalls>& unseen) {
   if (unseen.empty()) return {};
-  std::string text = fmt::format(
-      "the search for gaps ended early, for the work it would have been, on {} face(s): narrow ones may have "
-      "been missed",
-      unseen.size());
-  for (std::size_t i = 0; i < std::min(shown_walls, unseen.size()); ++i) {
-    text += fmt::format("{} on '{}' near {}, for {:.3g} around", i == 0 ? ":" : ";", unseen[i].face,
-                        geometry::place_text(unseen[i].place), unseen[i].size);
-  }
-  return text + and_more(unseen.size()) + ". Remedy: smaller sizes there (sizing.surface_maximum)";
+  return fmt::format(
+      "the search for gaps ended early on {} face(s), as on '{}' near {} for {:.3g} around: narrow gaps may "
+      "have been missed. Remedy: smaller sizes there (sizing.surface_maximum)",
+      unseen.size(), unseen.front().face, geometry::place_text(unseen.front().place), unseen.front().size);
 }
 
 std::string describe(const std::vector<FacesOnOneAnother>& coincident) {

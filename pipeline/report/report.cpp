@@ -6,6 +6,7 @@
 #include "pipeline/report/task_table.hpp"
 #include "pipeline/report/text_file.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -27,6 +28,18 @@ std::string page_of(const std::string& json, const RunRecord& record) {
     parallel::log_warning(fmt::format("report.html cannot be made: {}", error.what()));
     return {};
   }
+}
+
+/// What remains to be acted on, where a long log may have hidden it.
+std::string summary_of(const parallel::Warnings& warnings) {
+  constexpr std::size_t most_shown = 10;  // lines; the report has all
+  if (warnings.kept.empty()) return {};
+  std::string text =
+      fmt::format("warnings: {}\n", static_cast<std::int64_t>(warnings.kept.size()) + warnings.left_out);
+  for (std::size_t i = 0; i < std::min(most_shown, warnings.kept.size()); ++i)
+    text += fmt::format("  {}\n", warnings.kept[i].message);
+  if (warnings.kept.size() > most_shown) text += "  and more, see report.html\n";
+  return text;
 }
 
 }  // namespace
@@ -52,7 +65,8 @@ std::string write_report(const parallel::Communicator& communicator, const cases
     else
       write_text(folder + "/report.html", page);
   });
-  return communicator.is_root() ? report_table(record, facts.stages, communicator.size()) : "";
+  if (!communicator.is_root()) return {};
+  return report_table(record, facts.stages, communicator.size()) + summary_of(facts.warnings);
 }
 
 void write_last_report(const cases::Case& input, const RunOutcome& outcome, const ReportSubject& subject,

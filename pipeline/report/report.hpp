@@ -11,7 +11,8 @@
 namespace aeroloom::report {
 
 /// Writes report.json, report.html and, if the case asks for it, tasks.csv to the output directory. An
-/// incomplete file never replaces an old one. Returns the table for the terminal on rank 0. Collective;
+/// incomplete file never replaces an old one. Returns the table and the warnings for the terminal on rank 0.
+/// Collective;
 /// throws CollectiveError if a file cannot be written.
 std::string write_report(const parallel::Communicator& communicator, const cases::Case& input,
                          const RunRecord& record, const RunOutcome& outcome, const ReportSubject& subject);

@@ -62,6 +62,19 @@ TEST_F(StageLog, WarnsOfLengthsThatAreNoMetresWhereSolversExpectThem) {
   EXPECT_EQ(said_by([&] { warn_of_units("", 1, output); }).warnings, "");
 }
 
+// What a user should act on: two elements around an edge, or much of the body. Else it is a fact.
+TEST_F(StageLog, WarnsOfShapesThatAreLost) {
+  sizing::SizingOptions sizes;
+  sizes.minimum = 0.06, sizes.curvature_angle = 12;
+  EXPECT_EQ(domain::warning_of({{"wing", 0.04, 40, 0.01}}, sizes), "");
+  EXPECT_EQ(domain::warning_of({{"wing", 0.001, 180, 0.0001}}, sizes), "");
+  EXPECT_NE(domain::warning_of({{"wing", 0.9, 30, 0.5}}, sizes), "");
+  const std::string text = domain::warning_of({{"tail", 0.1, 95, 0.01}, {"wing", 0.04, 180, 0.01}}, sizes);
+  EXPECT_EQ(text.find("elements turn by 180 degrees and more, most on 'wing'"), 0u) << text;
+  EXPECT_TRUE(has(text, "2 % of the body. Remedy: a smaller sizing.minimum")) << text;
+  EXPECT_LT(text.size(), 400u);
+}
+
 TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {
   surface::SurfaceReport report;
   const std::vector<report::FaceRow> faces{{.name = "wing"}, {.name = "body"}};
@@ -78,12 +91,14 @@ TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {
   const Said said = said_by([&] { log_needles(report, faces); });
   EXPECT_TRUE(has(said.facts, "3 triangles below 10 degrees")) << said.facts;
   EXPECT_TRUE(has(said.facts, "in 1 places, from 2.5 degrees")) << said.facts;
-  EXPECT_TRUE(has(said.warnings,
-                  "4 triangles are below 10 degrees that the CAD does not force; 4 on 'body', 7 degrees"))
+  EXPECT_TRUE(
+      has(said.warnings,
+          "4 triangles in 1 place(s) are below 10 degrees that the CAD does not force, the least 7 on "
+          "'body' at (0, 0, 0). Remedy"))
       << said.warnings;
   report.needles.assign(7, own);
   const Said many = said_by([&] { log_needles(report, faces); });
-  EXPECT_TRUE(has(many.warnings, "28 triangles") && has(many.warnings, "and more, see surface.needles[]"))
+  EXPECT_TRUE(has(many.warnings, "28 triangles in 7 place(s)") && has(many.warnings, "surface.needles[]"))
       << many.warnings;
 }
 

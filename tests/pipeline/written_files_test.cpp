@@ -69,6 +69,7 @@ TEST_F(WrittenFilesLocal, BoundsThatWinOverCurvatureAreTold) {
   const CommandResult ended =
       expect(0, "run case.yaml --set sizing.curvature_angle=2", {"wins over 2 degrees per element: on "});
   EXPECT_NE(ended.err.find("% of the body. Remedy"), std::string::npos) << ended;
+  EXPECT_NE(ended.out.find("\n  sizing: elements turn by"), std::string::npos) << ended;
   const Json report = read_json("out/report.json"), bounded = report["sizing"]["bounded_by_minimum"];
   ASSERT_FALSE(bounded.empty());
   double share = 0;
