@@ -7,7 +7,9 @@
 #include "pipeline/case/layer_gate.hpp"
 #include "pipeline/stage_log.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -33,6 +35,13 @@ std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& vol
 /// Measures that compare neighbours and edges. Collective.
 mesh::MixedQuality measure_cells(const mesh::NumberedMesh& volume) {
   return mesh::measure_quality(volume, mesh::link_faces(volume));
+}
+
+/// Collective.
+bool has_layers(const mesh::DistributedMesh& volume, const mesh::MeshCounts& counts) {
+  const bool here = std::any_of(volume.pieces.begin(), volume.pieces.end(),
+                                [](const mesh::Piece& piece) { return !piece.layers.empty(); });
+  return volume.communicator.maximum(std::int64_t{here}) > 0 || counts.prisms + counts.pyramids > 0;
 }
 
 }  // namespace
@@ -72,7 +81,7 @@ report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, con
   mesh::CellsOutside suspects;
   if (options.enabled) suspects.limits = attribution::suspect_angles(options.target_angle);
   figures.quality = mesh::summarise_quality(volume, &suspects);
-  if (gate.asks_for_cells()) figures.cells = measure_cells(volume);
+  if (has_layers(volume, figures.counts) || gate.asks_for_cells()) figures.cells = measure_cells(volume);
   if (options.enabled) {
     figures.pinned =
         attribution::find_pinned(volume, options.target_angle, suspects, options.boundary_may_change);

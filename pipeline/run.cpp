@@ -337,6 +337,7 @@ private:
   }
 
   void warn(const JudgedMesh& judged) const {
+    warn_of_flaws(judged.volume);
     if (const std::string coarse = coarse_region(_input.gate, judged); !coarse.empty())
       parallel::log_warning("quality gate: " + coarse);
   }

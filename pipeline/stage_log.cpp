@@ -5,6 +5,7 @@
 #include "parallel/observation/log.hpp"
 #include "pipeline/case/layer_gate.hpp"
 #include "pipeline/case/option_keys.hpp"
+#include "pipeline/report/places_json.hpp"
 #include "pipeline/shown_changes.hpp"
 
 #include <algorithm>
@@ -183,6 +184,19 @@ void log_volume(const volume::VolumeReport& report) {
 void log_improve(const improve::ImproveReport& report) {
   log_info(fmt::format("improve: smallest dihedral angle {:.3g} -> {:.3g} degrees, {} -> {} below target",
                        report.min_angle_before, report.min_angle_after, report.bad_before, report.bad_after));
+}
+
+void warn_of_flaws(const report::VolumeFigures& figures) {
+  for (const mesh::FlawedCell& place : report::worst_flaws(figures)) {
+    if (mesh::verdict_of(place.severity) != mesh::Verdict::poor) continue;
+    const char* const remedy = place.flaw == mesh::Flaw::small_angle
+                                   ? "smaller sizes there, or other CAD where its angles force it"
+                               : place.flaw == mesh::Flaw::bad_shape
+                                   ? "fewer or lower layers there (layers.patches), or smaller sizes"
+                                   : "smaller sizes there, or more layers (layers.count, layers.total)";
+    parallel::log_warning(
+        fmt::format("quality: the mesh has {}. Remedy: {}", report::text_of_place(place), remedy));
+  }
 }
 
 void log_pinned(const attribution::PinnedReport& report) {

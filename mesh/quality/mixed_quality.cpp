@@ -46,9 +46,12 @@ public:
   std::vector<SumsOfShapes> sums;  ///< per piece
   std::array<std::vector<WorstCellOfShape>, measure_count> worst;
   std::vector<AmountOfPiece> region_volumes, patch_areas;
+  PlaceSearch places;
 
-  void add_piece(const Piece& piece, GlobalIndex first_cell, const std::vector<double>& volumes,
-                 const std::vector<double>& ratios) {
+  /// `p`: of the piece among those of this rank.
+  void add_piece(const Piece& piece, GlobalIndex first_cell, const NeighbourVolumes& neighbours,
+                 std::size_t p) {
+    const std::vector<double>&volumes = neighbours.volumes[p], &ratios = neighbours.ratios[p];
     SumsOfShapes sum{};
     std::array<Vec3, 6> points;
     for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) {
@@ -60,6 +63,12 @@ public:
       for (int k = 0; k < count; ++k) center += points[static_cast<std::size_t>(k)];
       add_cell(cell.shape, values, {0, first_cell + c, cell.shape, center / count},
                sum[static_cast<std::size_t>(cell.shape)]);
+      const double shape_value = cell.shape == CellShape::tetrahedron
+                                     ? corner_shape(cell.shape, points.data())
+                                     : values[static_cast<std::size_t>(Measure::scaled_jacobian)];
+      places.add({cell.shape, first_cell + c, center / count, !piece.layers.empty(),
+                  values[static_cast<std::size_t>(Measure::smallest_dihedral)], shape_value,
+                  neighbours.jumps[p][static_cast<std::size_t>(c)]});
     }
     sums.push_back(sum);
     add_volumes(piece, volumes);
@@ -163,6 +172,20 @@ std::vector<WorstCellOfShape> worst_of_all(const parallel::Communicator& communi
   return all;
 }
 
+/// Whether the mesh seems to have layers and no piece knows them, as in files. Collective.
+bool layers_are_unknown(const NumberedMesh& mesh, const MeshCounts& counts, const MixedQuality& quality) {
+  constexpr double flat_deg = 1;  // of a twentieth of the tetrahedra; chosen, not measured
+  constexpr std::size_t twentieth = 2;
+  static_assert(percentiles_per_mille[twentieth] == 50);
+  const bool known = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
+                                 [](const Piece& piece) { return !piece.layers.empty(); });
+  if (mesh.communicator.maximum(std::int64_t{known}) > 0) return false;
+  const MeasureDistribution& angles =
+      quality.distribution(CellShape::tetrahedron, Measure::smallest_dihedral);
+  return counts.prisms + counts.pyramids > 0 ||
+         (angles.cells > 0 && angles.percentiles[twentieth] < flat_deg);
+}
+
 }  // namespace
 
 double MeasureHistogram::edge(std::size_t bin) const {
@@ -181,8 +204,7 @@ MixedQuality measure_quality(const NumberedMesh& mesh, const FaceLinks& links) {
   {
     const NeighbourVolumes neighbours = compare_volumes(mesh, links);
     for (std::size_t i = 0; i < mesh.pieces.size(); ++i)
-      local.add_piece(mesh.pieces[i], mesh.numbering.first_cell[i], neighbours.volumes[i],
-                      neighbours.ratios[i]);
+      local.add_piece(mesh.pieces[i], mesh.numbering.first_cell[i], neighbours, i);
   }
   SumsOfShapes sums{};
   for (const SumsOfShapes& piece : gather_by_piece(mesh, local.sums)) {
@@ -203,6 +225,7 @@ MixedQuality measure_quality(const NumberedMesh& mesh, const FaceLinks& links) {
   }
   for (std::size_t m = 0; m < measure_count; ++m)
     result.worst[m] = worst_of_all(communicator, all_measures[m], local.worst[m]);
+  result.places = local.places.find(communicator, layers_are_unknown(mesh, counts, result));
   result.region_volumes =
       add_amounts(communicator, local.region_volumes, static_cast<std::size_t>(mesh.region_count()));
   result.patch_areas = add_amounts(communicator, local.patch_areas, mesh.patches.size());

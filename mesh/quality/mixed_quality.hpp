@@ -3,6 +3,7 @@
 
 #include "mesh/quality/cell_measures.hpp"
 #include "mesh/quality/face_links.hpp"
+#include "mesh/quality/worst_places.hpp"
 
 #include <array>
 #include <cstdint>
@@ -45,6 +46,9 @@ struct MixedQuality {
   std::array<std::array<MeasureDistribution, measure_count>, cell_shape_count> of;  ///< by shape and Measure
   /// The ten worst of all shapes by Measure, worst first, ties by number.
   std::array<std::vector<WorstCellOfShape>, measure_count> worst;
+  /// Ten each, and ten of all. Cells of layers are those of pieces that know their layers. Where none does
+  /// but the mesh has prisms, pyramids, or many flat tetrahedra, any tetrahedron may be of a layer.
+  WorstPlaces places;
   double volume = 0;                   ///< of the mesh
   std::vector<double> region_volumes;  ///< by region
   std::vector<double> patch_areas;     ///< by patch

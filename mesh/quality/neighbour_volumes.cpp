@@ -29,10 +29,14 @@ NeighbourVolumes compare_volumes(const DistributedMesh& mesh, const FaceLinks& l
   for (const Piece& piece : mesh.pieces) {
     result.volumes.push_back(volumes_of(piece));
     result.ratios.emplace_back(result.volumes.back().size(), 0.0);
+    result.jumps.emplace_back(result.volumes.back().size(), 0.0);
   }
   const auto meet = [&](std::size_t piece, LocalIndex cell, double other) {
-    double& ratio = result.ratios[piece][static_cast<std::size_t>(cell)];
-    ratio = std::max(ratio, volume_ratio(result.volumes[piece][static_cast<std::size_t>(cell)], other));
+    const auto c = static_cast<std::size_t>(cell);
+    double &ratio = result.ratios[piece][c], &jump = result.jumps[piece][c];
+    const double own = result.volumes[piece][c], to_other = volume_ratio(own, other);
+    ratio = std::max(ratio, to_other);
+    if (other > own) jump = std::max(jump, to_other);
   };
   std::vector<Told<double>> volumes;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {

@@ -12,6 +12,8 @@ struct NeighbourVolumes {
   std::vector<std::vector<double>> volumes;
   /// The largest ratio to a neighbour at a face, larger over smaller; 0 where there is no neighbour.
   std::vector<std::vector<double>> ratios;
+  /// The volume of the largest neighbour over that of the cell; 0 where no neighbour is larger.
+  std::vector<std::vector<double>> jumps;
 };
 
 /// Collective.

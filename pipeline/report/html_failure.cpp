@@ -84,15 +84,33 @@ std::string tile(const std::string& words, const std::string& value) {
   return fmt::format("<div class=\"tile\"><span>{}</span><b>{}</b></div>\n", words, value);
 }
 
+/// Of cells of layers and of neighbours, where these were measured.
+std::string tiles_of_flaws(const Json& report) {
+  std::string all;
+  for (const Json& flaw : find(report, "/quality/flaws")) {
+    const std::string kind = text(find(flaw, "/flaw"));
+    const std::string value = quantity(find(flaw, "/value"));
+    if (kind == "shape") all += tile("worst shape in layers", value);
+    if (kind == "size_jump") all += tile("largest neighbour over a cell", value);
+  }
+  return all;
+}
+
 std::string tiles(const Json& report) {
   std::string all;
   if (!text(find(report, "/mesh/hash")).empty()) {
     const std::string unit = text(find(report, "/geometry/unit"));
-    all += tile("tetrahedra", count(find(report, "/mesh/tetrahedra"))) +
-           tile("points", count(find(report, "/mesh/points"))) +
+    const Json &prisms = find(report, "/mesh/prisms"), &pyramids = find(report, "/mesh/pyramids");
+    const bool has_layers = !find(report, "/layers").is_null();
+    all += tile("tetrahedra", count(find(report, "/mesh/tetrahedra")));
+    if (number(prisms) + number(pyramids) > 0)
+      all += tile("prisms", count(prisms)) + tile("pyramids", count(pyramids));
+    all += tiles_of_flaws(report);
+    const std::string where = has_layers ? " off layers" : "";
+    all += tile("points", count(find(report, "/mesh/points"))) +
            tile("boundary triangles", count(find(report, "/mesh/boundary_triangles"))) +
-           tile("smallest dihedral angle", degrees(find(report, "/quality/min_dihedral_deg"))) +
-           tile("largest dihedral angle", degrees(find(report, "/quality/max_dihedral_deg"))) +
+           tile("smallest dihedral angle" + where, degrees(find(report, "/quality/min_dihedral_deg"))) +
+           tile("largest dihedral angle" + where, degrees(find(report, "/quality/max_dihedral_deg"))) +
            tile("mean ratio on average", ratio(find(report, "/quality/mean_mean_ratio"))) +
            tile("volume", fmt::format("{}{}{}", quantity(find(report, "/mesh/volume")),
                                       unit.empty() ? "" : " ", unit.empty() ? "" : escaped(unit) + "³"));

@@ -11,12 +11,20 @@ namespace {
 /// Characters of a cell of a table, whose row is to stay one; report.json has all.
 constexpr std::size_t longest_change = 1000, longest_retry = 500;
 
-std::string worst_table(const Json& worst) {
-  Table table({{"cell", Align::right}, {"smallest dihedral angle", Align::right}, {"centre"}});
-  for (const Json& cell : worst)
-    table.add(
-        {count(find(cell, "/cell")), degrees(find(cell, "/min_dihedral_deg")), place(find(cell, "/center"))});
-  return part("The worst tetrahedra", table.html());
+std::string worst_table(const Json& places) {
+  Table table(
+      {{"flaw"}, {"value", Align::right}, {"verdict"}, {"shape"}, {"cell", Align::right}, {"centre"}});
+  for (const Json& place : places) {
+    const std::string flaw = text(find(place, "/flaw")), verdict = text(find(place, "/verdict"));
+    const Json& value = find(place, "/value");
+    table.add({flaw == "smallest_angle" ? "smallest dihedral angle"
+               : flaw == "size_jump"    ? "largest neighbour over the cell"
+                                        : "shape",
+               flaw == "smallest_angle" ? degrees(value) : quantity(value), badge(verdict, verdict),
+               escaped(text(find(place, "/shape"))), count(find(place, "/cell")),
+               html::place(find(place, "/center"))});
+  }
+  return part("The worst places, of all cells", table.html());
 }
 
 std::string names(const Json& list) {
@@ -195,7 +203,7 @@ std::string domain_facts(const Json& report) {
 
 std::string places_section(const Json& report) {
   return section("places", "Places to look at",
-                 worst_table(find(report, "/quality/worst")) + pinned_table(find(report, "/pinned")) +
+                 worst_table(find(report, "/quality/places")) + pinned_table(find(report, "/pinned")) +
                      unresolved_table(find(report, "/unresolved_features")));
 }
 

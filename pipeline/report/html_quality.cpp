@@ -55,6 +55,24 @@ std::string judgement_of_shape(const Json& report) {
       badge(kind, kind), ratio(mean), ratio(least), worst);
 }
 
+/// What was looked for in cells of layers and beside them.
+std::string judgement_of_layers(const Json& report) {
+  std::string items;
+  for (const Json& flaw : find(report, "/quality/flaws")) {
+    const std::string kind = text(find(flaw, "/flaw")), verdict = text(find(flaw, "/verdict"));
+    const std::string at = escaped(text(find(flaw, "/shape"))) + ", at " + place(find(flaw, "/center"));
+    if (kind == "shape")
+      items += fmt::format(
+          "<li>{} Cells of layers: shape {} at least ({}). Flat along the wall is no flaw; 1 is straight, 0 "
+          "twisted or without volume.</li>\n",
+          badge(verdict, verdict), quantity(find(flaw, "/value")), at);
+    if (kind == "size_jump")
+      items += fmt::format("<li>{} Neighbours of a cell are up to {} times as large ({}).</li>\n",
+                           badge(verdict, verdict), quantity(find(flaw, "/value")), at);
+  }
+  return items;
+}
+
 std::string below_target(const Json& report) {
   const auto tetrahedra = [&](const char* kind) {
     return number(find(report, fmt::format("/improve/below_target/{}/tetrahedra", kind)));
@@ -188,16 +206,15 @@ std::string verdict_section(const Json& report) {
   if (find(report, "/quality").is_null()) return {};
   const Json& gate = find(report, "/quality/gate");
   const std::string valid = "<li>" + badge("good", "valid") +
-                            " Checked over all ranks: positive volumes, every face between two tetrahedra or "
-                            "on the boundary, a closed "
-                            "boundary, and the volume that it encloses.</li>\n";
+                            " Checked over all ranks: positive volumes, every face between two cells or "
+                            "on the boundary, a closed boundary, and the volume that it encloses.</li>\n";
   return section(
       "verdict", "Is this mesh good?",
       "<ul class=\"verdict\">\n" +
           gate_sentence(gate,
                         number(find(report, "/exit_code")) == static_cast<int>(ExitCode::quality_gate)) +
-          valid + judgement_of(report) + judgement_of_shape(report) + below_target(report) + "</ul>\n" +
-          gate_table(gate) +
+          valid + judgement_of(report) + judgement_of_shape(report) + judgement_of_layers(report) +
+          below_target(report) + "</ul>\n" + gate_table(gate) +
           paragraph(
               find(report, "/layers").is_null()
                   ? "<span class=\"quiet\">Isotropic tetrahedra without boundary layers: for inviscid flow, "
@@ -205,7 +222,8 @@ std::string verdict_section(const Json& report) {
                     "thumb."
                     "</span>"
                   : "<span class=\"quiet\">The words on angles are rules of thumb for the tetrahedra off the "
-                    "boundary layers, whose cells are flat on purpose.</span>"));
+                    "boundary layers. Cells of layers are flat on purpose: their shape and the sizes of "
+                    "neighbours count.</span>"));
 }
 
 std::string histograms_section(const Json& report) {

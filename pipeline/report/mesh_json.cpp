@@ -3,6 +3,7 @@
 #include "pipeline/report/change_json.hpp"
 #include "pipeline/report/mixed_quality_json.hpp"
 #include "pipeline/report/parts_json.hpp"
+#include "pipeline/report/places_json.hpp"
 
 #include <cstdint>
 #include <set>
@@ -86,7 +87,11 @@ Json quality_json(const cases::Case& input, const RunRecord& record) {
     json["worst"].push_back(
         {{"min_dihedral_deg", cell.value}, {"cell", cell.cell}, {"center", to_json(cell.center)}});
   }
-  if (record.cells) json["cells"] = to_json(*record.cells);
+  json["flaws"] = to_json(worst_flaws(record));
+  json["places"] = to_json(worst_places(record));
+  if (!record.cells) return json;
+  json["cells"] = to_json(*record.cells);
+  json["cells"].erase("places");
   return json;
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/report/mixed_quality_json.hpp"
 
 #include "pipeline/report/change_json.hpp"
+#include "pipeline/report/places_json.hpp"
 
 #include <string>
 
@@ -48,6 +49,7 @@ Json to_json(const mesh::MixedQuality& quality) {
     const auto& worst = quality.worst[static_cast<std::size_t>(measure)];
     if (!worst.empty()) json["worst"][std::string(name_of(measure))] = worst_json(worst);
   }
+  json["places"] = to_json(quality.places.all);
   return json;
 }
 

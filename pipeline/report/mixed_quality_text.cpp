@@ -1,6 +1,7 @@
 #include "pipeline/report/mixed_quality_text.hpp"
 
 #include "geometry/place_text.hpp"
+#include "pipeline/report/places_json.hpp"
 
 #include <algorithm>
 #include <array>
@@ -89,8 +90,15 @@ std::string histogram_text(CellShape shape, Measure measure, const mesh::Measure
   return text;
 }
 
+std::string places_text(const mesh::MixedQuality& quality) {
+  std::string text = "\nworst places, of all cells\n";
+  for (const mesh::FlawedCell& place : quality.places.all)
+    text += fmt::format("{:<5} {}\n", mesh::name_of(mesh::verdict_of(place.severity)), text_of_place(place));
+  return text;
+}
+
 std::string worst_text(const mesh::MixedQuality& quality) {
-  std::string text = "\nworst cells, with their middles\n";
+  std::string text = places_text(quality) + "\nworst cells, with their middles\n";
   for (const Measure measure : mesh::all_measures) {
     const auto& worst = quality.worst[static_cast<std::size_t>(measure)];
     if (worst.empty()) continue;

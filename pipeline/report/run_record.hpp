@@ -70,7 +70,7 @@ struct VolumeFigures {
   double mesh_volume = 0;
   std::string hash;
   std::optional<mesh::QualitySummary> quality;
-  std::optional<mesh::MixedQuality> cells;  ///< if the gate has limits on further measures
+  std::optional<mesh::MixedQuality> cells;  ///< if the mesh has layers, or the gate limits their measures
   attribution::PinnedReport pinned;
   std::vector<RegionRow> regions_filled;
 };

@@ -1,5 +1,7 @@
 #include "pipeline/report/text_table.hpp"
 
+#include "pipeline/report/places_json.hpp"
+
 #include <fmt/format.h>
 
 namespace aeroloom::report {
@@ -29,6 +31,10 @@ std::string report_table(const RunRecord& record, const std::vector<parallel::St
       record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
       record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
       record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
+  for (const mesh::FlawedCell& place : worst_flaws(record))
+    if (place.flaw != mesh::Flaw::small_angle)
+      text += fmt::format("worst: {}, {}\n", text_of_place(place),
+                          mesh::name_of(mesh::verdict_of(place.severity)));
   text +=
       fmt::format("{:<28} {:<9} {:>10} {:>14} {:>14}\n", "patch", "type", "triangles", "area", "CAD area");
   for (const PatchRow& p : record.patches) {

@@ -105,6 +105,7 @@ void expect_qualities(const Json& quality) {
   for (const Json& count : prisms["volume"]["histogram"]["counts"]) cells += count.get<std::int64_t>();
   EXPECT_EQ(cells, 6);
   EXPECT_LE(prisms["volume"]["percentile_50"], 1);
+  EXPECT_FALSE(quality["places"].empty());
   const Json worst = quality["worst"]["edge_ratio"][0];
   EXPECT_EQ(worst["shape"], "prisms");
   EXPECT_EQ(worst["center"][2], 5);
@@ -120,9 +121,9 @@ TEST_F(QualityCommand, JsonHasTheNumbersWhateverTheRanks) {
 }
 
 TEST_F(QualityCommand, TextHasThemForPeopleAndTheFileForPrograms) {
-  expect(
-      0, "quality stack.mesh --output new/quality.json",
-      {"the wall", "scaled Jacobian of prisms", "#####", "defects: none", "worst cells", "3 cells turned"});
+  expect(0, "quality stack.mesh --output new/quality.json",
+         {"the wall", "scaled Jacobian of prisms", "#####", "defects: none", "worst places, of all cells",
+          "worst cells", "3 cells turned"});
   const Json report = read_json("new/quality.json");
   expect_counts(report);
   expect_qualities(report["quality"]);

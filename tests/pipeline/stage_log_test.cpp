@@ -75,6 +75,27 @@ TEST_F(StageLog, WarnsOfShapesThatAreLost) {
   EXPECT_LT(text.size(), 400u);
 }
 
+TEST_F(StageLog, WarnsOfPoorCells) {
+  report::VolumeFigures figures;
+  figures.quality.emplace();
+  figures.quality->worst = {{12, 7, {}}};
+  EXPECT_EQ(said_by([&] { warn_of_flaws(figures); }).warnings, "");
+  figures.quality->worst = {{0.5, 7, {1, 2, 3}}};
+  const Said thin = said_by([&] { warn_of_flaws(figures); });
+  EXPECT_TRUE(has(thin.warnings, "an angle of 0.5 degrees (cell 7 of the tetrahedra, at (1, 2, 3))"))
+      << thin.warnings;
+  mesh::MixedQuality& cells = figures.cells.emplace();
+  cells.places.of[2] = {{11120,
+                         mesh::severity_of(mesh::Flaw::size_jump, 11120),
+                         3,
+                         mesh::CellShape::prism,
+                         mesh::Flaw::size_jump,
+                         {}}};
+  const Said jump = said_by([&] { warn_of_flaws(figures); });
+  EXPECT_TRUE(has(jump.warnings, "a neighbour 11120 times as large (cell 3 of the prisms")) << jump.warnings;
+  EXPECT_FALSE(has(jump.warnings, "degrees")) << jump.warnings;
+}
+
 TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {
   surface::SurfaceReport report;
   const std::vector<report::FaceRow> faces{{.name = "wing"}, {.name = "body"}};

@@ -73,6 +73,32 @@ TEST(CellMeasuresLocal, ThinAndFoldedCells) {
     EXPECT_TRUE(std::isfinite(value(measure_cell(CellShape::prism, prism.data()), measure)));
 }
 
+// Flat along a wall is no flaw of a cell of layers; flat in another way is.
+TEST(FlawsLocal, ShapesDoNotDependOnStretching) {
+  for (const double height : {1.0, 1e-3, 1e-6}) {
+    const std::array<Vec3, 4> tet = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}}};
+    EXPECT_NEAR(corner_shape(CellShape::tetrahedron, tet.data()), 1, 1e-12);
+    const std::array<Vec3, 6> prism = {
+        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}, {1, 0, height}, {0, 1, height}}};
+    EXPECT_GT(corner_shape(CellShape::prism, prism.data()), 0.8);
+    const std::array<Vec3, 4> sliver = {{{0, 0, 0}, {1, 0, height}, {1, 1, 0}, {0, 1, height}}};
+    EXPECT_LT(std::abs(corner_shape(CellShape::tetrahedron, sliver.data())), 2 * height);
+  }
+  const std::array<Vec3, 4> point = {};
+  EXPECT_LE(corner_shape(CellShape::tetrahedron, point.data()), 0);
+}
+
+TEST(FlawsLocal, SeveritiesRunFromGoodToPoor) {
+  EXPECT_EQ(verdict_of(severity_of(Flaw::small_angle, 28)), Verdict::good);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::small_angle, 5)), Verdict::fair);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::small_angle, 0.0018)), Verdict::poor);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::bad_shape, 0.9)), Verdict::good);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::bad_shape, -1)), Verdict::poor);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::size_jump, 2)), Verdict::good);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::size_jump, 11120)), Verdict::poor);
+  EXPECT_EQ(verdict_of(severity_of(Flaw::size_jump, largest_ratio)), Verdict::poor);
+}
+
 TEST(CellMeasuresLocal, WarpedQuadrilateralsAddUp) {
   // Two prisms on both sides of a warped quadrilateral fill what one hexahedron of six warped faces does.
   const std::array<Vec3, 8> p = {
@@ -164,6 +190,12 @@ void expect_same(const MixedQuality& a, const MixedQuality& b) {
   EXPECT_EQ(a.volume, b.volume);
   EXPECT_EQ(a.region_volumes, b.region_volumes);
   EXPECT_EQ(a.patch_areas, b.patch_areas);
+  ASSERT_EQ(a.places.all.size(), b.places.all.size());
+  for (std::size_t i = 0; i < a.places.all.size(); ++i) {
+    EXPECT_EQ(a.places.all[i].cell, b.places.all[i].cell);
+    EXPECT_EQ(a.places.all[i].value, b.places.all[i].value);
+    EXPECT_EQ(a.places.all[i].flaw, b.places.all[i].flaw);
+  }
   for (const Measure measure : all_measures) {
     const auto m = static_cast<std::size_t>(measure);
     for (const CellShape shape : cell_shapes) {
@@ -187,6 +219,56 @@ TEST(MixedQuality, TheSameForAnyNumberOfRanks) {
   NEEDS_SEVERAL_RANKS();
   const Communicator world = Communicator::world(), self = Communicator::self();
   expect_same(quality_of(examples::mixed_mesh(world, 4, 5)), quality_of(examples::mixed_mesh(self, 4, 5)));
+}
+
+/// Prisms over a wall, the second layer `jump` times as high as the first: tetrahedra that know they are of
+/// layers where `known`. Each of them is flat.
+DistributedMesh thin_layers(const Communicator& world, double jump, bool known) {
+  Piece piece;
+  constexpr double first = 1e-5;
+  piece.coordinates = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, first, 0, 0, (1 + jump) * first};
+  piece.cells = {0, 1, 2, 3, 3, 1, 2, 4};
+  if (known) piece.layers = {1, 2};
+  DistributedMesh mesh(world);
+  mesh.piece_count = 1;
+  if (world.is_root()) mesh.pieces.push_back(std::move(piece));
+  return mesh;
+}
+
+// Cells of layers count, but not for being flat; neighbours of another size do, by the smaller cell.
+TEST(MixedQuality, PlacesAreOfAllCells) {
+  const Communicator world = Communicator::world();
+  const MixedQuality good = quality_of(thin_layers(world, 1.2, true));
+  ASSERT_EQ(good.places.all.size(), 2u);
+  EXPECT_EQ(verdict_of(good.places.all.front().severity), Verdict::good);
+  EXPECT_TRUE(good.places.of[static_cast<std::size_t>(Flaw::small_angle)].empty());
+  const MixedQuality jumping = quality_of(thin_layers(world, 11120, true));
+  const FlawedCell& worst = jumping.places.all.front();
+  EXPECT_EQ(worst.flaw, Flaw::size_jump);
+  EXPECT_EQ(worst.cell, 0);
+  EXPECT_NEAR(worst.value, 11120, 1e-6);
+  EXPECT_EQ(jumping.places.of[static_cast<std::size_t>(Flaw::size_jump)].size(), 1u) << "the smaller alone";
+  const MixedQuality unknown = quality_of(thin_layers(world, 1.2, false));
+  EXPECT_EQ(verdict_of(unknown.places.all.front().severity), Verdict::good) << "many are flat: of layers";
+}
+
+TEST(MixedQuality, PlacesGoByAngleWhereNothingSpeaksOfLayers) {
+  const Communicator world = Communicator::world();
+  Piece piece;
+  for (int i = 0; i < 100; ++i) {
+    const double x = 10.0 * i, height = i == 42 ? 1e-3 : 1;
+    piece.coordinates.insert(piece.coordinates.end(), {x, 0, 0, x + 1, 0, 0, x, 1, 0, x, 0, height});
+    for (int k = 0; k < 4; ++k) piece.cells.push_back(4 * i + k);
+  }
+  DistributedMesh mesh(world);
+  mesh.piece_count = 1;
+  if (world.is_root()) mesh.pieces.push_back(std::move(piece));
+  const WorstPlaces places = quality_of(mesh).places;
+  ASSERT_EQ(places.all.size(), 10u);
+  EXPECT_EQ(places.all.front().cell, 42);
+  EXPECT_EQ(places.all.front().flaw, Flaw::small_angle);
+  EXPECT_EQ(verdict_of(places.all.front().severity), Verdict::poor);
+  EXPECT_EQ(places.all[1].cell, 0) << "ties go by number";
 }
 
 TEST(MixedQuality, PercentilesOfKnownValues) {

@@ -1,0 +1,63 @@
+#include "pipeline/report/places_json.hpp"
+
+#include "geometry/place_text.hpp"
+#include "pipeline/report/change_json.hpp"
+
+#include <fmt/format.h>
+
+namespace aeroloom::report {
+
+std::vector<mesh::FlawedCell> worst_places(const VolumeFigures& figures) {
+  if (figures.cells) return figures.cells->places.all;
+  std::vector<mesh::FlawedCell> places;
+  if (!figures.quality) return places;
+  for (const mesh::WorstCell& cell : figures.quality->worst) {
+    places.push_back({cell.value, severity_of(mesh::Flaw::small_angle, cell.value), cell.cell,
+                      mesh::CellShape::tetrahedron, mesh::Flaw::small_angle, cell.center});
+  }
+  return places;
+}
+
+std::vector<mesh::FlawedCell> worst_flaws(const VolumeFigures& figures) {
+  std::vector<mesh::FlawedCell> worst;
+  if (!figures.cells) {
+    const std::vector<mesh::FlawedCell> places = worst_places(figures);
+    if (!places.empty()) worst.push_back(places.front());
+    return worst;
+  }
+  for (const std::vector<mesh::FlawedCell>& of : figures.cells->places.of)
+    if (!of.empty()) worst.push_back(of.front());
+  return worst;
+}
+
+std::string text_of_flaw(const mesh::FlawedCell& place) {
+  switch (place.flaw) {
+    case mesh::Flaw::small_angle:
+      return fmt::format("an angle of {:.3g} degrees", place.value);
+    case mesh::Flaw::bad_shape:
+      return fmt::format("a shape of {:.2g}", place.value);
+    case mesh::Flaw::size_jump:
+      break;
+  }
+  return fmt::format("a neighbour {:.0f} times as large", place.value);
+}
+
+std::string text_of_place(const mesh::FlawedCell& place) {
+  return fmt::format("{} (cell {} of the {}, at {})", text_of_flaw(place), place.cell,
+                     mesh::name_of(place.shape), geometry::place_text(place.center));
+}
+
+nlohmann::ordered_json to_json(const std::vector<mesh::FlawedCell>& places) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const mesh::FlawedCell& place : places) {
+    json.push_back({{"flaw", mesh::name_of(place.flaw)},
+                    {"value", place.value},
+                    {"verdict", mesh::name_of(mesh::verdict_of(place.severity))},
+                    {"shape", mesh::name_of(place.shape)},
+                    {"cell", place.cell},
+                    {"center", to_json(place.center)}});
+  }
+  return json;
+}
+
+}  // namespace aeroloom::report
