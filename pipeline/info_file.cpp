@@ -49,7 +49,8 @@ void show(const InfoRequest& request, const Json& facts, const std::string& text
 void show_mesh(const io::Assembled& file, const InfoRequest& request) {
   const parallel::Communicator& communicator = file.mesh.pieces->communicator;
   const io::ReadableFile format = io::readable_file(request.file);
-  MeshFileFacts facts{std::string(format.end->description), 0, bounds_of(file.mesh)};
+  MeshFileFacts facts{std::string(format.end->description), 0, bounds_of(file.mesh),
+                      io::find_doubled_nodes(file.mesh)};
   if (communicator.is_root() && format.row->named_parts != nullptr)
     facts.parts = format.row->named_parts(request.file);
   parallel::agree(communicator, [&] {

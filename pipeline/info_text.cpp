@@ -77,6 +77,14 @@ std::string faces_text(const std::vector<cad::FaceFacts>& faces) {
 
 }  // namespace
 
+Json doubled_nodes_json(const io::DoubledNodes& doubled) {
+  return {{"nodes", doubled.nodes},
+          {"faces", doubled.faces},
+          {"place", doubled.nodes > 0 ? Json{doubled.place.x, doubled.place.y, doubled.place.z} : Json()},
+          {"regions", doubled.regions},
+          {"patches", doubled.patches}};
+}
+
 Json info_json(const io::Assembled& file, const MeshFileFacts& facts) {
   const io::FileMesh& mesh = file.mesh;
   Json json = {{"kind", "mesh"},
@@ -104,6 +112,7 @@ Json info_json(const io::Assembled& file, const MeshFileFacts& facts) {
                      {"dropped_points", file.dropped_points},
                      {"unnamed_faces", file.unnamed_faces},
                      {"left_out_faces", file.left_out_faces}};
+  json["doubled_nodes"] = doubled_nodes_json(facts.doubled);
   return json;
 }
 
@@ -124,7 +133,8 @@ std::string info_text(const io::Assembled& file, const MeshFileFacts& facts) {
     text += fmt::format("patch {:<31} {:>12} faces, {}\n", mesh.patches[p].name, faces[0] + faces[1],
                         name_of(mesh.patches[p].type));
   }
-  return text + "reading it: " + io::describe(file) + "\n";
+  text += "reading it: " + io::describe(file) + "\n";
+  return facts.doubled.nodes == 0 ? text : text + io::describe(facts.doubled) + "\n";
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include "cad/read/cad_facts.hpp"
 #include "geometry/vec.hpp"
+#include "io/doubled_nodes.hpp"
 #include "io/raw_mesh.hpp"
 
 #include <string>
@@ -16,7 +17,10 @@ struct MeshFileFacts {
   std::string format;    ///< in words
   int parts = 0;         ///< 0: a format without parts
   geometry::Box bounds;  ///< of all points that cells use
+  io::DoubledNodes doubled;
 };
+
+nlohmann::ordered_json doubled_nodes_json(const io::DoubledNodes& doubled);
 
 nlohmann::ordered_json info_json(const io::Assembled& file, const MeshFileFacts& facts);
 std::string info_text(const io::Assembled& file, const MeshFileFacts& facts);

@@ -2,6 +2,7 @@
 
 #include "mesh/quality/mixed_quality.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "pipeline/info_text.hpp"
 #include "pipeline/report/mixed_quality_json.hpp"
 #include "pipeline/report/mixed_quality_text.hpp"
 #include "pipeline/report/text_file.hpp"
@@ -54,7 +55,7 @@ Json patches_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
 }
 
 Json report_json(const std::string& path, const io::Assembled& file, const mesh::MixedQuality& quality,
-                 const std::string& missed) {
+                 const io::DoubledNodes& doubled, const std::string& missed) {
   const mesh::LinkDefects& defects = quality.defects;
   return {{"schema_version", quality_schema_version},
           {"file", path},
@@ -71,6 +72,7 @@ Json report_json(const std::string& path, const io::Assembled& file, const mesh:
             {"stray_faces", defects.stray_faces},
             {"repeated_faces", defects.repeated_faces},
             {"open_faces", defects.open_faces}}},
+          {"doubled_nodes", doubled_nodes_json(doubled)},
           {"quality", report::to_json(quality)},
           {"gate", {{"passed", missed.empty()}, {"missed", missed}}}};
 }
@@ -86,14 +88,17 @@ std::string show_quality(const io::Assembled& file, const QualityRequest& reques
                          const cases::QualityGate& gate) {
   const mesh::NumberedMesh& pieces = *file.mesh.pieces;
   const mesh::MixedQuality quality = mesh::measure_quality(pieces, mesh::link_faces(pieces));
+  const io::DoubledNodes doubled = io::find_doubled_nodes(file.mesh);
   std::string missed = cases::missed_limits(gate, quality);
   parallel::on_root(pieces.communicator, [&] {
-    const std::string json = dump(report_json(request.file, file, quality, missed));
+    const std::string json = dump(report_json(request.file, file, quality, doubled, missed));
     if (!request.json_file.empty()) report::write_text(request.json_file, json);
     if (request.print_json) {
       fmt::print("{}", json);
     } else {
-      fmt::print("'{}': {}\n{}", request.file, io::describe(file), report::quality_text(file.mesh, quality));
+      fmt::print("'{}': {}\n{}{}", request.file, io::describe(file),
+                 doubled.nodes == 0 ? "" : io::describe(doubled) + "\n",
+                 report::quality_text(file.mesh, quality));
     }
     std::fflush(stdout);
   });

@@ -1,5 +1,6 @@
 #include "io/import/imported_mesh.hpp"
 
+#include "io/doubled_nodes.hpp"
 #include "io/read_mesh.hpp"
 #include "mesh/data/piece_faces.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
@@ -75,6 +76,9 @@ mesh::DistributedMesh import_mesh(const io::SharedPath& file, std::optional<std:
                                    read.mesh.cell_count(), read.mesh.vertex_count, read.mesh.regions.size(),
                                    read.mesh.patches.size(), io::describe(read)));
   }
+  const io::DoubledNodes doubled = io::find_doubled_nodes(read.mesh);
+  if (doubled.nodes > 0 && file.communicator.is_root())
+    parallel::log_warning(fmt::format("input: {}", io::describe(doubled)));
   return pieces_of(read.mesh, file.path, piece_tets);
 }
 

@@ -20,7 +20,7 @@ mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& pat
                                 std::optional<std::int64_t> piece_tets);
 
 /// Reads a file (io/read_mesh.hpp) and cuts it as above. Collective. Throws CollectiveError where the file
-/// cannot be read, or is no conforming mesh of tetrahedra.
+/// cannot be read, or is no conforming mesh of tetrahedra. Warns of doubled nodes (io/doubled_nodes.hpp).
 mesh::DistributedMesh import_mesh(const io::SharedPath& file, std::optional<std::int64_t> piece_tets);
 
 }  // namespace aeroloom::imported
