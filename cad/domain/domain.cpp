@@ -208,7 +208,13 @@ auto with_source(const DomainOptions& options, Action&& action) {
 
 Domain prepare_domain(const DomainOptions& options) {
   return with_source(options, [&] {
-    return has_facets(options) && options.parts.empty() ? prepare_faceted(options) : prepare(options);
+    if (has_facets(options) && options.parts.empty()) return prepare_faceted(options);
+    if (!options.voids.empty()) {
+      throw CadError(
+          "DomainOptions::voids names solids of a file of triangles without parts beside it; in CAD, "
+          "cut the void out of the solid");
+    }
+    return prepare(options);
   });
 }
 

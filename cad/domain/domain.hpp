@@ -72,6 +72,8 @@ struct DomainOptions {
   /// For faceted files. Two triangles belong to different faces if the surface turns by more than this
   /// between them. Degrees.
   double feature_angle = 40;
+  /// For faceted files: patterns for names of solids that are voids of those around them, with * and ?.
+  std::vector<std::string> voids = {};
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
   std::vector<FacetedBody> parts = {};  ///< united with bodies that they overlap
 };

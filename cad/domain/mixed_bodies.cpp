@@ -194,6 +194,9 @@ private:
 std::optional<FacetComplex> make_walls(FacetSoup facets, const DomainOptions& options, Changes& changes) {
   if (facets.triangles.empty()) return std::nullopt;
   facets.file = "bodies of triangles";
+  for (const FacetedBody& part : options.parts)
+    facets.file += fmt::format("{} '{}' of {}", &part == &options.parts.front() ? ", of part" : " and",
+                               part.name, part.file);
   const FacetComplex complex = make_facet_complex(std::move(facets), options.feature_angle * geometry::degree,
                                                   changes, CrossingFacets::unite);
   return outer_walls(complex, changes);

@@ -27,7 +27,6 @@ struct ChamberShell {
   Leaf best = -1;      ///< of the roundest triangle
   double best_width = -1;
   std::int32_t chamber = -1;
-  std::int32_t component = -1;
 };
 
 class ChamberFinder {
@@ -35,17 +34,17 @@ public:
   ChamberFinder(const FacetSoup& soup, Changes& changes)
       : _soup(soup), _changes(changes), _rays(soup), _leaves(2 * soup.triangles.size()) {}
 
-  Chambers find() {
+  Chambers find(const FacetSolids& solids, const NestingRules& rules) {
     pair_leaves();
     number_shells();
     measure_shells();
     place_shells();
-    mark_filled();
-    number_regions();
     for (std::size_t t = 0; t < _soup.triangles.size(); ++t) {
       const auto chamber = [&](std::size_t leaf) { return _shells[_shell_of[leaf]].chamber; };
       _result.beside.push_back({chamber(2 * t), chamber(2 * t + 1)});
     }
+    mark_filled(solids, rules);
+    number_regions();
     return std::move(_result);
   }
 
@@ -61,7 +60,6 @@ private:
   };
 
   void pair_leaves() {
-    geometry::DisjointSets<std::int32_t> components(_soup.triangles.size());
     std::vector<Blade> blades;
     for_each_side(sort_sides(_soup.triangles), [&](std::span<const FacetSide> passes) {
       blades.clear();
@@ -69,14 +67,11 @@ private:
         const std::int32_t t = facet_of(pass.half_edge);
         blades.push_back({side_apex(_soup.triangles, pass.half_edge), t,
                           side_begin(_soup.triangles, pass.half_edge) == pass.low});
-        components.unite(t, blades.front().triangle);
       }
       if (blades.size() > 2) sort_blades(point(passes.front().low), point(passes.front().high), blades);
       for (std::size_t i = 0; i < blades.size(); ++i)
         _leaves.unite(blades[i].ahead(), blades[(i + 1) % blades.size()].behind());
     });
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(components.size()); ++t)
-      _component.push_back(components.root(t));
   }
 
   /// By the angle from the first blade, counter-clockwise about the side from low to high.
@@ -106,7 +101,6 @@ private:
       const std::int32_t t = leaf / 2;
       const auto& [a, b, c] = _soup.triangles[t];
       ChamberShell& shell = _shells[_shell_of[leaf]];
-      if (shell.best < 0) shell.component = _component[t];
       const double around =
           distance(point(a), point(b)) + distance(point(b), point(c)) + distance(point(c), point(a));
       const double width = norm(cross(point(b) - point(a), point(c) - point(a))) / around;
@@ -152,40 +146,27 @@ private:
     for (ChamberShell& shell : _shells) {
       if (shell.volume6 <= 0) continue;
       shell.chamber = static_cast<std::int32_t>(_result.chambers.size());
-      Chamber& chamber = _result.chambers.emplace_back();
-      chamber.component = shell.component;
+      _result.chambers.emplace_back();
     }
     // A single body needs no look at what is around it.
     const bool single = _shells.size() == 2;
     for (ChamberShell& shell : _shells) {
       if (shell.volume6 > 0) continue;
       shell.chamber = single ? 0 : chamber_around(middle_of(_soup, shell.best / 2), shell.best);
-      _around.emplace_back(shell.component, shell.chamber);
     }
-    std::sort(_around.begin(), _around.end());
   }
 
-  /// The chamber in which the triangles that bound another one lie.
-  std::int32_t chamber_beyond(std::int32_t chamber) const {
-    const std::int32_t component = _result.chambers[chamber].component;
-    const auto found = std::lower_bound(_around.begin(), _around.end(), std::pair(component, 0));
-    return found != _around.end() && found->first == component ? found->second : 0;
-  }
-
-  void mark_filled() {
+  void mark_filled(const FacetSolids& solids, const NestingRules& rules) {
     std::vector<Chamber>& chambers = _result.chambers;
-    // Walks outwards from each chamber until one is known or outside.
-    std::vector<int> depth(chambers.size(), -1);
-    depth[0] = 0;
-    std::vector<std::int32_t> way;
-    for (std::int32_t c = 1; c < static_cast<std::int32_t>(chambers.size()); ++c) {
-      std::int32_t at = c;
-      for (way.clear(); depth[at] < 0 && way.size() <= chambers.size(); at = chamber_beyond(at))
-        way.push_back(at);
-      for (int d = std::max(depth[at], 0); !way.empty(); way.pop_back()) depth[way.back()] = ++d;
+    if (_soup.filling == Filling::all) {
+      for (std::size_t c = 1; c < chambers.size(); ++c) chambers[c].filled = true;
+    } else {
+      const SolidNesting nesting =
+          nest_solids(_soup, solids, _result.beside, chambers.size(), rules, _changes);
+      for (std::size_t c = 0; c < chambers.size(); ++c)
+        chambers[c].filled = nesting.filled[c] != 0, chambers[c].solid = nesting.filler[c];
+      _result.nested = nesting.nested;
     }
-    for (std::size_t c = 1; c < chambers.size(); ++c)
-      chambers[c].filled = _soup.filling == Filling::all || depth[c] % 2 != 0;
     for (const Vec3 hole : _soup.holes) {
       const std::int32_t c = chamber_around(hole, -1);
       if (c == 0) _changes.push_back({"a hole point outside all facets has no effect", hole});
@@ -214,17 +195,16 @@ private:
   Changes& _changes;
   FacetRays _rays;
   geometry::DisjointSets<Leaf> _leaves;
-  std::vector<std::int32_t> _component;  // of each triangle, over sides
-  std::vector<std::int32_t> _shell_of;   // of each leaf
+  std::vector<std::int32_t> _shell_of;  // of each leaf
   std::vector<ChamberShell> _shells;
-  std::vector<std::pair<std::int32_t, std::int32_t>> _around;  // component, the chamber around it
   Chambers _result;
 };
 
 }  // namespace
 
-Chambers find_chambers(const FacetSoup& soup, Changes& changes) {
-  return ChamberFinder(soup, changes).find();
+Chambers find_chambers(const FacetSoup& soup, const FacetSolids& solids, const NestingRules& rules,
+                       Changes& changes) {
+  return ChamberFinder(soup, changes).find(solids, rules);
 }
 
 }  // namespace aeroloom::cad

@@ -32,6 +32,9 @@ void replace_points(FacetSoup& soup, const std::vector<std::int32_t>& representa
 /// Whether three points are collinear. Exact.
 bool on_one_line(Vec3 a, Vec3 b, Vec3 c);
 
+/// Drops triangles whose corners are collinear or equal.
+void drop_flat_triangles(FacetSoup& soup, Changes& changes);
+
 /// Drops void triangles, whose corners are collinear or equal, and all but the first of triangles with the
 /// same corners. This may leave open sides.
 void drop_void_triangles(FacetSoup& soup, Changes& changes);

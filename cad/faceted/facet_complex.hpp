@@ -37,6 +37,8 @@ struct FacetComplex {
   std::vector<std::int32_t> vertices;  ///< numbers of points, ascending
   std::vector<std::string> regions;    ///< names of regions
   bool united = false;                 ///< components that crossed were united
+  bool imprinted = false;              ///< solids that touch were cut along each other
+  std::int32_t nested = 0;             ///< number of solids within others that are regions
 };
 
 }  // namespace aeroloom::cad

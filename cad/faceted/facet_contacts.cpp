@@ -234,15 +234,6 @@ std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup) {
   return contacts;
 }
 
-FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components) {
-  const std::vector<FacetContact> all = list_facet_contacts(soup);
-  if (all.empty()) return {};
-  const auto apart = std::ranges::find_if(
-      all, [&](const FacetContact& pair) { return components.of[pair.first] != components.of[pair.second]; });
-  const FacetContact& shown = apart == all.end() ? all.front() : *apart;
-  return {all.size(), shown.first, shown.second};
-}
-
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle) {
   const FacetSoup::Group& group = soup.groups[soup.group_of[triangle]];
   const std::string& name = group.part.empty() ? group.name : group.part;

@@ -18,12 +18,6 @@ struct FacetComponents {
 };
 FacetComponents find_components(const FacetSoup& soup);
 
-struct FacetContacts {
-  std::size_t pairs = 0;
-  /// The first pair from two different components if there is one, else the first pair; -1 without.
-  std::int32_t first = -1, second = -1;
-};
-
 /// Two triangles, the lower number first.
 struct FacetContact {
   std::int32_t first, second;
@@ -35,8 +29,5 @@ std::vector<FacetContact> list_facet_contacts(const FacetSoup& soup);
 
 /// The name of a triangle's component, for messages.
 std::string component_name(const FacetSoup& soup, const FacetComponents& components, std::int32_t triangle);
-
-/// The number of pairs, and one of them. Conditions as for list_facet_contacts.
-FacetContacts find_facet_contacts(const FacetSoup& soup, const FacetComponents& components);
 
 }  // namespace aeroloom::cad

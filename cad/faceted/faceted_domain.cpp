@@ -18,6 +18,16 @@
 namespace aeroloom::cad {
 namespace {
 
+/// By the names of both regions, or by their numbers.
+std::string interface_name(const FacetComplex& complex, const FacetRegions& face) {
+  const auto name = [&](RegionId region) {
+    const std::string& given = complex.regions[region];
+    return given.empty() || given == fmt::format("region_{}", region) ? std::to_string(region) : given;
+  };
+  return fmt::format("interface_{}_{}", name(std::min(face.front, face.back)),
+                     name(std::max(face.front, face.back)));
+}
+
 /// Patches of faces without a name go by part, then by the side of the domain they lie on.
 std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullComparison* hull) {
   const Box all = box_of_points(complex.points);
@@ -33,9 +43,7 @@ std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullCompariso
     tag.part = face.part, tag.layer = face.layer, tag.colour = face.colour;
     tag.number = static_cast<std::int32_t>(f);
     if (!face.patch.empty()) tag.patch = face.patch, tag.number = face.number;
-    if (tag.patch.empty() && face.back != no_entity)
-      tag.patch =
-          fmt::format("interface_{}_{}", std::min(face.front, face.back), std::max(face.front, face.back));
+    if (tag.patch.empty() && face.back != no_entity) tag.patch = interface_name(complex, face);
     if (tag.patch.empty() && !hull) tag.patch = face.part;
     if (tag.patch.empty() && hull) tag.patch = side_of_box(boxes[f], all);
     if (tag.patch.empty() && hull && f < hull->on_hull.size() && hull->on_hull[f]) tag.patch = "outer";
@@ -87,10 +95,18 @@ Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options
   return model;
 }
 
-KindDecision choose_faceted_kind(const DomainOptions& options, const std::optional<HullComparison>& hull) {
+KindDecision choose_faceted_kind(const DomainOptions& options, const FacetComplex& complex,
+                                 const std::optional<HullComparison>& hull) {
   if (options.kind != DomainKind::automatic)
     return {options.kind, options.kind == DomainKind::fluid ? "fluid, as requested" : "bodies, as requested"};
   if (options.far_field) return {DomainKind::body, "taken as a body: a far field is asked for"};
+  if (complex.nested > 0) {
+    return {
+        DomainKind::fluid,
+        fmt::format("taken as the regions to mesh: {} of its {} solids lie in others and would not meet a "
+                    "fluid around them",
+                    complex.nested, complex.regions.size())};
+  }
   return decide_kind(*hull);
 }
 
@@ -131,7 +147,7 @@ Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& com
     const Model alone = fluid_model(*faceted, nullptr);
     hull = compare_with_hull(alone, volume_of_regions(alone));
   }
-  const KindDecision decision = choose_faceted_kind(options, hull);
+  const KindDecision decision = choose_faceted_kind(options, complex, hull);
   report.kind = decision.kind, report.reason = decision.reason;
   Model model =
       decision.kind == DomainKind::fluid

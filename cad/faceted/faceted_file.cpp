@@ -15,19 +15,34 @@ namespace aeroloom::cad {
 
 namespace {
 
-Domain prepare_triangles(const DomainOptions& options, CrossingFacets crossing) {
+struct PreparedTriangles {
+  Domain domain;
+  bool united = false, imprinted = false;
+};
+
+PreparedTriangles prepare_triangles(const DomainOptions& options, CrossingFacets crossing) {
   Changes changes;
   report_step("reading the triangles");
   FacetSoup soup = read_facets(options.file);
   report_step("repairing the triangles");
-  const FacetComplex complex =
-      make_facet_complex(std::move(soup), options.feature_angle * geometry::degree, changes, crossing);
+  const FacetComplex complex = make_facet_complex(std::move(soup), options.feature_angle * geometry::degree,
+                                                  changes, crossing, options.voids);
   report_step("making faces of the triangles");
-  Domain domain = make_faceted_domain(options, complex, std::move(changes));
-  // What crosses is united as bodies; a fluid is what is left between them, and is for the user to make.
-  if (complex.united && domain.report.kind == DomainKind::fluid)
-    return prepare_triangles(options, CrossingFacets::refuse);
-  return domain;
+  return {make_faceted_domain(options, complex, std::move(changes)), complex.united, complex.imprinted};
+}
+
+/// As regions, where solids touch at most and are the fluid; else as bodies, which are united. What crosses
+/// and is taken as the fluid is for the user to unite or to part.
+Domain prepare_undecided(const DomainOptions& options) {
+  try {
+    PreparedTriangles joined = prepare_triangles(options, CrossingFacets::join);
+    if (joined.domain.report.kind == DomainKind::fluid || !joined.imprinted) return std::move(joined.domain);
+  } catch (const CadError& refusal) {
+    PreparedTriangles united = prepare_triangles(options, CrossingFacets::unite);
+    if (united.domain.report.kind == DomainKind::fluid) throw CadError(refusal.what());
+    return std::move(united.domain);
+  }
+  return prepare_triangles(options, CrossingFacets::unite).domain;
 }
 
 /// The triangles of outer walls as those of bodies.
@@ -44,8 +59,10 @@ FacetSoup soup_of(const FacetComplex& walls, const std::string& file) {
 }  // namespace
 
 Domain prepare_faceted(const DomainOptions& options) {
-  return prepare_triangles(
-      options, options.kind == DomainKind::fluid ? CrossingFacets::refuse : CrossingFacets::unite);
+  if (options.kind == DomainKind::automatic && !options.far_field) return prepare_undecided(options);
+  return prepare_triangles(options,
+                           options.kind == DomainKind::fluid ? CrossingFacets::join : CrossingFacets::unite)
+      .domain;
 }
 
 FacetSoup read_bodies(const std::string& file, double scale, double feature_angle, Changes& changes) {

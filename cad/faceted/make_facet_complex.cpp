@@ -2,13 +2,15 @@
 
 #include "cad/faceted/chambers.hpp"
 #include "cad/faceted/close_facets.hpp"
-#include "cad/faceted/facet_contacts.hpp"
+#include "cad/faceted/facet_sides.hpp"
+#include "cad/faceted/facet_solids.hpp"
 #include "cad/faceted/features.hpp"
 #include "cad/faceted/unite_components.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -16,25 +18,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-void refuse_contacts(const FacetSoup& soup) {
-  const FacetComponents components = find_components(soup);
-  const FacetContacts contacts = find_facet_contacts(soup, components);
-  if (contacts.pairs == 0) return;
-  const std::string place = geometry::place_text(middle_of(soup, contacts.first));
-  if (components.of[contacts.first] != components.of[contacts.second]) {
-    throw CadError(
-        fmt::format("{}: {} and {} overlap or touch at {} ({} pairs of triangles in all); unite them in the "
-                    "CAD program, or "
-                    "move them apart",
-                    soup.file, component_name(soup, components, contacts.first),
-                    component_name(soup, components, contacts.second), place, contacts.pairs));
-  }
-  throw CadError(
-      fmt::format("{}: the surface crosses or touches itself at {}, in {} pairs of triangles; repair it "
-                  "there and export it again",
-                  soup.file, place, contacts.pairs));
-}
 
 /// Chambers that are no material and from which no way leads outside, over triangles between two of them.
 std::vector<char> enclosed_voids(const Chambers& chambers) {
@@ -50,8 +33,9 @@ std::vector<char> enclosed_voids(const Chambers& chambers) {
 }
 
 /// Leaves out triangles between two spaces that are no material, and turns the others so that their normals
-/// point out of `front`.
-std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chambers, Changes& changes) {
+/// point out of `front`. `owners` stay those of the triangles.
+std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chambers,
+                                        std::vector<FacetOwners>& owners, Changes& changes) {
   std::vector<FacetRegions> regions;
   const std::vector<char> enclosed = enclosed_voids(chambers);
   std::size_t count = 0, dropped = 0, turned = 0;
@@ -79,10 +63,11 @@ std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chamber
     if (turn) std::swap(corners[1], corners[2]);
     turned += turn;
     soup.triangles[count] = corners;
+    owners[count] = owners[t];
     soup.group_of[count++] = soup.group_of[t];
     regions.push_back(sides);
   }
-  soup.triangles.resize(count), soup.group_of.resize(count);
+  soup.triangles.resize(count), soup.group_of.resize(count), owners.resize(count);
   if (dropped > 0)
     changes.push_back(
         {fmt::format("{} triangles between two empty spaces are left out", dropped), dropped_at});
@@ -90,40 +75,105 @@ std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chamber
   return regions;
 }
 
-std::vector<std::string> name_regions(const Chambers& chambers) {
+/// Regions have the names of region points, and several regions those of their solids.
+std::vector<std::string> name_regions(const Chambers& chambers, const FacetSolids& solids) {
   std::vector<std::string> names;
+  std::vector<std::int32_t> solid_of;
   for (const Chamber& chamber : chambers.chambers) {
     if (chamber.region < 0) continue;
-    names.resize(std::max(names.size(), static_cast<std::size_t>(chamber.region) + 1));
-    names[chamber.region] = chamber.name;
+    const std::size_t count = std::max(names.size(), static_cast<std::size_t>(chamber.region) + 1);
+    names.resize(count), solid_of.resize(count, -1);
+    names[chamber.region] = chamber.name, solid_of[chamber.region] = chamber.solid;
+  }
+  if (names.size() < 2) return names;
+  std::map<std::string, int> uses;
+  for (std::size_t r = 0; r < names.size(); ++r) {
+    if (!names[r].empty() || solid_of[r] < 0) continue;
+    const std::string& name = solids.solids[solid_of[r]].name;
+    if (name.empty()) continue;
+    const int use = ++uses[name];
+    names[r] = use == 1 ? name : fmt::format("{}_{}", name, use);
   }
   return names;
+}
+
+/// Faces between regions do not have the name of one of their solids.
+void name_interfaces(FacetSoup& soup, const std::vector<FacetRegions>& regions, const FacetSolids& solids) {
+  std::vector<std::int32_t> nameless(soup.groups.size(), -1);
+  for (std::size_t t = 0; t < regions.size(); ++t) {
+    const std::int32_t owner = solids.of[t][0];
+    if (regions[t].back == no_entity || !solids.solids[owner].is_group) continue;
+    const std::int32_t group = soup.group_of[t];
+    if (soup.groups[group].name.empty() || !soup.groups[group].patch.empty()) continue;
+    if (nameless[group] < 0) {
+      nameless[group] = static_cast<std::int32_t>(soup.groups.size());
+      FacetSoup::Group between = soup.groups[group];
+      between.part = solids.solids[owner].name, between.name.clear();
+      soup.groups.push_back(std::move(between));
+    }
+    soup.group_of[t] = nameless[group];
+  }
+}
+
+/// Welds, drops and closes; the solids are those of the file where it is closed.
+FacetSolids close_soup(FacetSoup& soup, Changes& changes) {
+  weld_equal_points(soup);
+  drop_flat_triangles(soup, changes);
+  if (open_sides(soup.triangles).empty()) {
+    FacetSolids solids = find_solids(soup);
+    merge_repeated_triangles(soup, solids, changes);
+    if (open_sides(soup.triangles).empty()) return solids;
+  } else {
+    drop_void_triangles(soup, changes);
+  }
+  close_facets(soup, changes);
+  refuse_open_sides(soup);
+  return find_solids(soup);
+}
+
+/// Unites what crosses; what cannot be united is joined if it touches. Whether anything was united.
+bool unite_solids(FacetSoup& soup, FacetSolids& solids, bool& imprinted, Changes& changes) {
+  FacetSoup united = soup;
+  Changes made;
+  try {
+    if (!unite_components(united, made)) return false;
+    FacetSolids found = close_soup(united, made);
+    soup = std::move(united), solids = std::move(found);
+    changes.insert(changes.end(), made.begin(), made.end());
+    return true;
+  } catch (const CadError& error) {
+    const std::string why = error.what();
+    try {
+      imprinted = imprint_solids(soup, solids, TouchingSolids::in_faces, changes);
+    } catch (const CadError& fault) {
+      throw CadError(fmt::format("{}; nor can they be united: {}", fault.what(), why));
+    }
+    if (!imprinted) throw;
+    return false;
+  }
 }
 
 }  // namespace
 
 FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
-                                CrossingFacets crossing) {
-  const auto close = [&] {
-    weld_equal_points(soup);
-    drop_void_triangles(soup, changes);
-    close_facets(soup, changes);
-    refuse_open_sides(soup);
-  };
-  close();
-  const bool united = crossing == CrossingFacets::unite && unite_components(soup, changes);
-  if (united) close();
-  refuse_contacts(soup);
-  const Chambers chambers = find_chambers(soup, changes);
-  const std::vector<FacetRegions> regions = orient_facets(soup, chambers, changes);
+                                CrossingFacets crossing, const std::vector<std::string>& voids) {
+  FacetSolids solids = close_soup(soup, changes);
+  bool imprinted = false;
+  const bool united = crossing == CrossingFacets::unite && unite_solids(soup, solids, imprinted, changes);
+  if (!imprinted) imprinted = imprint_solids(soup, solids, TouchingSolids::anyhow, changes);
+  const NestingRules rules{
+      voids, crossing == CrossingFacets::join ? OverlappingSolids::refuse : OverlappingSolids::fill};
+  const Chambers chambers = find_chambers(soup, solids, rules, changes);
+  const std::vector<FacetRegions> regions = orient_facets(soup, chambers, solids.of, changes);
   if (regions.empty())
     throw CadError(fmt::format("{} encloses no volume; export a closed surface", soup.file));
   std::vector<std::int32_t> same(soup.points.size());
   std::iota(same.begin(), same.end(), 0);
   replace_points(soup, same);  // those of triangles left out go
+  name_interfaces(soup, regions, solids);
   FacetComplex complex = split_facets(soup, regions, feature_angle);
-  complex.regions = name_regions(chambers);
-  complex.united = united;
+  complex.regions = name_regions(chambers, solids);
+  complex.united = united, complex.imprinted = imprinted, complex.nested = chambers.nested;
   return complex;
 }
 

@@ -1,7 +1,7 @@
 #include "cad/faceted/unite_components.hpp"
 
 #include "cad/faceted/facet_contacts.hpp"
-#include "cad/faceted/facet_sides.hpp"
+#include "cad/faceted/facet_solids.hpp"
 #include "cad/model/model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/tolerances.hpp"
@@ -50,37 +50,6 @@ std::vector<std::vector<std::int32_t>> groups_of(const Meetings& meetings, std::
     }
   }
   return groups;
-}
-
-/// Turns the triangles of each component alike, over sides of two.
-void turn_alike(FacetSoup& soup) {
-  const auto count = static_cast<std::int32_t>(soup.triangles.size());
-  std::vector<geometry::HalfEdge> twin(3 * soup.triangles.size(), -1);
-  for_each_side(sort_sides(soup.triangles), [&](std::span<const FacetSide> passes) {
-    if (passes.size() != 2) return;
-    twin[passes[0].half_edge] = passes[1].half_edge, twin[passes[1].half_edge] = passes[0].half_edge;
-  });
-  std::vector<char> turned(soup.triangles.size(), 0), seen(soup.triangles.size(), 0);
-  for (std::int32_t seed = 0; seed < count; ++seed) {
-    if (seen[seed] != 0) continue;
-    std::vector<std::int32_t> waiting{seed};
-    seen[seed] = 1;
-    while (!waiting.empty()) {
-      const std::int32_t t = waiting.back();
-      waiting.pop_back();
-      for (geometry::HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-        const std::int32_t other = twin[h] < 0 ? -1 : facet_of(twin[h]);
-        if (other < 0 || seen[other] != 0) continue;
-        const bool against = side_begin(soup.triangles, h) == side_begin(soup.triangles, twin[h]);
-        turned[other] = static_cast<char>((turned[t] != 0) != against);
-        seen[other] = 1;
-        waiting.push_back(other);
-      }
-    }
-  }
-  for (std::int32_t t = 0; t < count; ++t) {
-    if (turned[t] != 0) std::swap(soup.triangles[t][1], soup.triangles[t][2]);
-  }
 }
 
 double enclosed_by(const ClosedSurface& surface) {

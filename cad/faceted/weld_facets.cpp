@@ -86,6 +86,20 @@ bool on_one_line(Vec3 a, Vec3 b, Vec3 c) {
   return flat(0, 1) && flat(1, 2) && flat(2, 0);
 }
 
+void drop_flat_triangles(FacetSoup& soup, Changes& changes) {
+  std::vector<char> kept;
+  std::size_t flat = 0;
+  Vec3 flat_at;
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const auto [a, b, c] = corners_of(soup, t);
+    kept.push_back(on_one_line(a, b, c) ? 0 : 1);
+    if (kept.back() == 0 && flat++ == 0) flat_at = middle_of(soup, t);
+  }
+  if (flat == 0) return;
+  keep_triangles(soup, kept);
+  changes.push_back({fmt::format("{} triangles without area are left out", flat), flat_at});
+}
+
 void drop_void_triangles(FacetSoup& soup, Changes& changes) {
   std::vector<char> kept = first_of_equals(soup);
   std::size_t repeated = 0, thin = 0;

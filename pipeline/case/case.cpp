@@ -93,6 +93,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   check_groups(keys, draft.groups, draft.patches);
   for (const PatchRule& rule : draft.patches)
     check_patterns(keys, "patches." + rule.name + ".faces", rule.faces);
+  check_patterns(keys, "geometry.voids", draft.result.domain.voids);
   check_patterns(keys, "geometry.sharpen_faces", draft.result.domain.trailing_edges.faces);
   for (const SourceDraft& source : draft.sources) {
     for (const auto& [key, patterns] : source.patterns)

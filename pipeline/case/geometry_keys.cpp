@@ -123,6 +123,13 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
       "feature_angle", draft.result.domain.feature_angle, Range::between(5, 180, "degrees"),
       sets("DomainOptions::feature_angle", {"For files of triangles: a side becomes an edge of the mesh if "
                                             "the surface turns by more than this angle there."}));
+  keys.texts(
+      "voids", draft.result.domain.voids,
+      sets("DomainOptions::voids",
+           {"For files of triangles: patterns for names of solids that are voids of the solid around "
+            "them, whichever way they are turned ([Regions of triangles](faceted.md#regions)). "
+            "Patterns as in `sharpen_faces`; without names, solids are `solid_0`, `solid_1` and so on.",
+            "none", "[cavity, 'hole*']"}));
   declare_trailing_edges(keys, draft);
   declare_parts(keys, draft);
   declare_dimensions(

@@ -140,9 +140,9 @@ TEST(FacetComplexes, NormalsOfTheFileDoNotMatter) {
   EXPECT_NEAR(region_volumes(make(inwards))[0], 1, 1e-12);
 }
 
-TEST(FacetComplexes, EverySecondNestedBoxIsEmpty) {
+TEST(FacetComplexes, ABoxTurnedInwardIsEmptyAndOneWithinItIsNot) {
   FacetSoup soup = box_soup({0, 0, 0}, {6, 6, 6});
-  add_box(soup, {1, 1, 1}, {5, 5, 5});
+  add_box(soup, {1, 1, 1}, {5, 5, 5}, true);
   add_box(soup, {2, 2, 2}, {3, 3, 3}, true);
   add_box(soup, {9, 0, 0}, {10, 1, 1});
   const FacetComplex complex = make(soup);
@@ -282,8 +282,7 @@ TEST(FacetComplexes, WhatCrossesOrOverlapsIsRefused) {
   soup.groups = {{"fuselage", {}}, {"wing", {}}};
   add_box(soup, {0.5, 0.2, 0.2}, {2, 0.7, 0.7});
   const std::string message = refusal_of(soup);
-  EXPECT_NE(message.find("component 0 ('fuselage') and component 1 ('wing') overlap"), std::string::npos)
-      << message;
+  EXPECT_NE(message.find("'fuselage' and 'wing' overlap"), std::string::npos) << message;
   FacetSoup folded = box_soup({0, 0, 0}, {1, 1, 1});
   folded.points[7] = {-1, -1, 0.5};
   EXPECT_NE(refusal_of(folded).find("crosses or touches itself"), std::string::npos);
