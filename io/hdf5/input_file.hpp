@@ -47,7 +47,7 @@ public:
   explicit InputFile(std::string path);
 
   /// Throws for an array that claims more than the file can hold (if compressed, 1,100 times the stored
-  /// bytes), lies in another file, or has more than two dimensions.
+  /// bytes), lies in another file or behind a link to one, or has more than two dimensions.
   Survey survey(const SurveyRequest& request) const;
 
   /// Rows begin ... begin + count - 1, row by row.

@@ -35,10 +35,37 @@ Handle open_file(const std::string& path) {
   return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "cannot be opened as HDF5"};
 }
 
-/// -1: there is none.
+/// What a link leads to outside of the file; empty until one was met.
+struct OtherFile {
+  std::string name;
+};
+
+/// The library calls it before it follows a link to another file: no file but the one that was given is read.
+herr_t refuse_link(const char*, const char*, const char* file, const char*, unsigned*, hid_t, void* context) {
+  static_cast<OtherFile*>(context)->name = file;
+  return -1;
+}
+
+/// Throws std::runtime_error where the path leads to another file, by whatever link. -1: there is none.
 Handle open_object(hid_t file, const std::string& path) {
-  const hid_t id = H5Oopen(file, path.c_str(), H5P_DEFAULT);
+  OtherFile other;
+  const Handle access(H5Pcreate(H5P_LINK_ACCESS), H5Pclose, "access properties");
+  require(H5Pset_elink_cb(access, refuse_link, &other), "links");
+  const hid_t id = H5Oopen(file, path.c_str(), access);
+  if (!other.name.empty()) {
+    throw std::runtime_error(
+        fmt::format("{} is a link to another file, '{}'; copy what it leads to into "
+                    "this one (h5copy -f ext)",
+                    path, other.name));
+  }
   return id < 0 ? Handle() : Handle(id, H5Oclose, path);
+}
+
+Handle open_array(hid_t file, const std::string& name) {
+  Handle array = open_object(file, name);
+  if (array < 0 || H5Iget_type(array) != H5I_DATASET)
+    throw std::runtime_error("array " + name + " is not there");
+  return array;
 }
 
 std::vector<std::int64_t> dimensions_of(hid_t space, const std::string& name) {
@@ -131,6 +158,7 @@ std::string attribute_of(hid_t object, const std::string& name) {
 struct MarkSearch {
   AttributeName mark;
   std::string found;
+  std::string problem;  ///< with a member
 };
 
 herr_t look_for_mark(hid_t group, const char* name, const H5L_info_t*, void* context) {
@@ -138,7 +166,8 @@ herr_t look_for_mark(hid_t group, const char* name, const H5L_info_t*, void* con
   try {
     const Handle object = open_object(group, name);
     if (object >= 0 && attribute_of(object, search.mark.attribute) == search.mark.object) search.found = name;
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    search.problem = error.what();
     return -1;
   }
   return search.found.empty() ? 0 : 1;
@@ -152,11 +181,13 @@ Bytes survey(const std::string& path, hid_t file, const SurveyRequest& request) 
     const Handle object = open_object(file, name.object);
     survey.attributes.push_back(object < 0 ? "" : attribute_of(object, name.attribute));
   }
-  MarkSearch search{request.mark, ""};
+  MarkSearch search{request.mark, "", ""};
   const Handle group = open_object(file, request.group);
   if (group >= 0 && H5Iget_type(group) == H5I_GROUP) {
-    require(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, look_for_mark, &search),
-            "members of " + request.group);
+    const herr_t looked = H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, look_for_mark, &search);
+    if (!search.problem.empty())
+      throw std::runtime_error("members of " + request.group + ": " + search.problem);
+    require(looked, "members of " + request.group);
   }
   survey.marked = search.found;
   return parallel::to_wire(survey);
@@ -165,7 +196,7 @@ Bytes survey(const std::string& path, hid_t file, const SurveyRequest& request) 
 template <class T>
 Bytes rows(hid_t file, const RowRange& range, hid_t type) {
   const auto& [name, begin, count] = range;
-  const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "array " + name);
+  const Handle array = open_array(file, name);
   const Handle space(H5Dget_space(array), H5Sclose, name);
   const std::vector<std::int64_t> dimensions = dimensions_of(space, name);
   if (dimensions.empty() || begin < 0 || count < 0 || begin > dimensions[0] - count)
@@ -195,7 +226,7 @@ struct TextTable {
 };
 
 Bytes texts(hid_t file, const std::string& name) {
-  const Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, "array " + name);
+  const Handle array = open_array(file, name);
   const Handle type(H5Dget_type(array), H5Tclose, name);
   const Handle space(H5Dget_space(array), H5Sclose, name);
   const std::vector<std::int64_t> dimensions = dimensions_of(space, name);

@@ -14,6 +14,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -121,6 +122,48 @@ TEST_F(Vtkhdf, SaysWhatItCannotRead) {
       EXPECT_NE(std::string(error.what()).find(folder / missing), std::string::npos) << error.what();
     }
   }
+}
+
+/// A link by its name in a file of the test, and what it leads to.
+void put_link(const std::string& path, const char* name, const char* file, const char* object) {
+  const hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(opened, name, H5P_DEFAULT);
+  if (file == nullptr) {
+    EXPECT_GE(H5Lcreate_soft(object, opened, name, H5P_DEFAULT, H5P_DEFAULT), 0);
+  } else {
+    EXPECT_GE(H5Lcreate_external(file, object, opened, name, H5P_DEFAULT, H5P_DEFAULT), 0);
+  }
+  H5Fclose(opened);
+}
+
+TEST_F(Vtkhdf, LinksToOtherFilesAreNotFollowed) {
+  write_vtkhdf(examples::mixed_mesh(world), folder / "other.vtkhdf");
+  struct Link {
+    const char *name, *object;
+  };
+  for (const Link& link :
+       {Link{"/VTKHDF/Types", "/VTKHDF/Types"}, Link{"/VTKHDF", "/VTKHDF"},
+        Link{"/VTKHDF/PointData", "/VTKHDF/PointData"}, Link{"/Boundary/PatchNames", "/Boundary/PatchNames"},
+        Link{"/Boundary", "/Boundary"}}) {
+    write_vtkhdf(examples::mixed_mesh(world), folder / "linked.vtkhdf");
+    world.barrier();
+    if (world.is_root()) put_link(folder / "linked.vtkhdf", link.name, "other.vtkhdf", link.object);
+    world.barrier();
+    const std::string message = message_of_reading(folder / "linked.vtkhdf");
+    EXPECT_NE(message.find("is a link to another file, 'other.vtkhdf'"), std::string::npos)
+        << link.name << ": " << message;
+    world.barrier();
+  }
+  // A link within the file is one of its own.
+  write_vtkhdf(examples::mixed_mesh(world), folder / "soft.vtkhdf");
+  if (world.is_root()) {
+    const hid_t file = H5Fopen((folder / "soft.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Lmove(file, "/VTKHDF/Types", file, "/kinds", H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(file);
+    put_link(folder / "soft.vtkhdf", "/VTKHDF/Types", nullptr, "/kinds");
+  }
+  world.barrier();
+  EXPECT_EQ(assemble(read_vtkhdf({world, folder / "soft.vtkhdf"}), 1).turned_cells, 0);
 }
 
 TEST_F(Vtkhdf, SurvivesDamagedFiles) {
