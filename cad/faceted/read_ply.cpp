@@ -109,6 +109,12 @@ public:
     return value;
   }
 
+  /// A binary file ends with its last value.
+  void require_end() const {
+    if (_encoding == PlyEncoding::text || _at == _file.bytes.size()) return;
+    fail(fmt::format("the elements of the file end here, but {} bytes follow", _file.bytes.size() - _at));
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     refuse_facets(_file.name,
                   _encoding == PlyEncoding::text ? fmt::format("line {}", _head_lines + _text.line())
@@ -264,6 +270,7 @@ FacetSoup read_ply(const FacetFile& file) {
       }
     }
   }
+  values.require_end();
   return soup;
 }
 

@@ -35,6 +35,11 @@ FacetSoup read_binary_stl(const FacetFile& file) {
     refuse_facets(file.name, fmt::format("byte {}", file.bytes.size()),
                   fmt::format("the file ends within its {} triangles", count));
   }
+  if (const std::size_t rest = file.bytes.size() - stl_head - count * stl_record; rest > 0) {
+    refuse_facets(
+        file.name, fmt::format("byte {}", file.bytes.size() - rest),
+        fmt::format("the file says that it has {} triangles, but {} bytes follow them", count, rest));
+  }
   soup.points.reserve(3 * count);
   for (std::size_t t = 0; t < count; ++t) {
     const std::size_t place = stl_head + t * stl_record + 12;

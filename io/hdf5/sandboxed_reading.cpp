@@ -32,7 +32,17 @@ Handle open_file(const std::string& path) {
 #endif
   const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
   if (is_hdf5 == 0) throw std::runtime_error("no HDF5 file: its first bytes are others");
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "cannot be opened as HDF5"};
+  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "cannot be opened as HDF5");
+  haddr_t end = 0;
+  require(H5Fget_eoa(file, &end), "end of the file");
+  const auto bytes = std::filesystem::file_size(path);
+  if (bytes > end) {
+    throw std::runtime_error(
+        fmt::format("the file says that it ends at byte {}, but {} bytes follow; it is "
+                    "damaged (h5repack writes a sound file anew)",
+                    end, bytes - end));
+  }
+  return file;
 }
 
 /// What a link leads to outside of the file; empty until one was met.

@@ -71,20 +71,41 @@ private:
     const std::int64_t next = position(12), value_at = 12 + widths.position();
     const std::int64_t dimension = integer(value_at, 4);
     if (dimension != 3) _file.fail(value_at, fmt::format("the mesh has {} dimensions, not 3", dimension));
-    return after(8, value_at + 4, next);
+    return right_after(8, value_at + 4, next);
   }
 
   std::int64_t position(std::int64_t at) { return integer(at, widths.position()); }
 
   /// `next` where it is a place after `end`; a section at `begin` may not lead back, nor into itself.
   std::int64_t after(std::int64_t begin, std::int64_t end, std::int64_t next) const {
-    if (next == 0) return 0;
+    if (next == 0) {
+      require_end(end);
+      return 0;
+    }
     if (next < end || next > _file.size() - 4) {
       _file.fail(begin, fmt::format("the section that begins here is followed by one at byte {}, but it ends "
                                     "at byte {} and the file at byte {}",
                                     next, end, _file.size()));
     }
     return next;
+  }
+
+  /// As after() for a section whose length is known: the next one begins where it ends.
+  std::int64_t right_after(std::int64_t begin, std::int64_t end, std::int64_t next) const {
+    if (next > end && next <= _file.size() - 4) {
+      _file.fail(begin, fmt::format("the section that begins here ends at byte {} by its count, but the next "
+                                    "one begins at byte {}; the file is damaged",
+                                    end, next));
+    }
+    return after(begin, end, next);
+  }
+
+  /// Whether the file has no more than a section needs that ends here.
+  void require_end(std::int64_t end) const {
+    if (_file.bytes_from(end) > 0) {
+      _file.fail(end, fmt::format("the last section ends here, but {} bytes follow; the file is damaged",
+                                  _file.bytes_from(end)));
+    }
   }
 
   std::int64_t line_bytes(std::int64_t keyword) const {
@@ -97,7 +118,11 @@ private:
   /// Returns where the next one begins, 0: nowhere.
   std::int64_t read_section(std::int64_t at) {
     const std::int64_t keyword = integer(at, 4);
-    if (keyword == static_cast<std::int32_t>(MeditKeyword::end)) return 0;
+    if (keyword == static_cast<std::int32_t>(MeditKeyword::end)) {
+      // Some programs leave out the position of what does not follow.
+      if (_file.bytes_from(at + 4) > 0) require_end(at + 4 + widths.position());
+      return 0;
+    }
     if (keyword <= 0) _file.fail(at, fmt::format("there is no keyword {}", keyword));
     const std::int64_t next = position(at + 4), count_at = at + 4 + widths.position();
     const std::string unreadable = medit_unreadable(static_cast<std::int32_t>(keyword));
@@ -119,7 +144,7 @@ private:
         _file.fail(at, fmt::format("{} come twice", name_of(static_cast<MeditKeyword>(keyword))));
     }
     sections.push_back({static_cast<std::int32_t>(keyword), lines, count});
-    return after(at, lines + count * bytes, next);
+    return right_after(at, lines + count * bytes, next);
   }
 
   RangeReader& _file;

@@ -121,6 +121,10 @@ private:
       markers.push_back({faces, found->second});
       total += faces.count;
     }
+    if (at != _file.size()) {
+      _file.fail(at, fmt::format("the counts of the file end here, but {} bytes follow; it is damaged",
+                                 _file.bytes_from(at)));
+    }
     // One range of all faces: the ranges of the ranks, one after another, have the order of the file.
     const LocalRange range = raw.file.local_range(total);
     std::int64_t before = 0;

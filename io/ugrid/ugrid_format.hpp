@@ -3,7 +3,8 @@
 /// The layout follows the UG_IO documentation (SimCenter, Mississippi State University: `3D grid file type
 /// UGRID`, `3D input/output grids`) and the High Lift Prediction Workshops (AFLR3, stream access). A file has
 /// seven counts, coordinates, triangles, quadrilaterals, their patch ids, tetrahedra, pyramids, prisms and
-/// hexahedra. There are no record marks, and numbers begin at 1.
+/// hexahedra. There are no record marks, and numbers begin at 1. Optional integers follow: the number of
+/// tetrahedra in boundary layers, an id of each cell, two flags of each face.
 #pragma once
 
 #include "io/file_mesh.hpp"

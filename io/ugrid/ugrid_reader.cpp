@@ -81,6 +81,27 @@ private:
                  fmt::format("{} hexahedra; only tetrahedra, pyramids and prisms are supported", counts[6]));
     _counts = {counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}};
     _layout = ugrid_layout(_counts, static_cast<int>(width));
+    require_known_rest();
+  }
+
+  /// After its cells a file may have the number of tetrahedra of boundary layers with an id of each cell,
+  /// then one flag, then another, of each face; these are not read. Anything else means that bytes were
+  /// inserted.
+  void require_known_rest() {
+    const std::int64_t rest = _file.bytes_from(_layout.end);
+    if (rest == 0) return;
+    std::int64_t cells = 0, faces = 0;
+    for (const GlobalIndex count : _counts.cells) cells += count;
+    for (const GlobalIndex count : _counts.faces) faces += count;
+    for (int flags = 0; flags <= 2 && cells > 0; ++flags) {
+      if (rest != width * (1 + cells + flags * faces)) continue;
+      const auto in_layers = static_cast<std::int64_t>(_file.value<Integer>(_layout.end));
+      if (in_layers >= 0 && in_layers <= _counts.cells[0]) return;
+    }
+    _file.fail(_layout.end,
+               fmt::format("the counts of the file end here, but {} bytes follow; it is damaged, "
+                           "or of another kind than its name says",
+                           rest));
   }
 
   void read_points() {

@@ -60,6 +60,18 @@ TEST(FacetReaders, AllFormatsGiveTheSameBox) {
   }
 }
 
+TEST(FacetReaders, BinaryFilesEndWhereTheirCountsSay) {
+  for (const std::size_t from_end : {0, 7}) {
+    std::string stl = faceted::binary_stl(box), ply = faceted::ply_bytes(box, false);
+    stl.insert(stl.size() - from_end, 1, '\0');
+    ply.insert(ply.size() - from_end, 1, '\0');
+    EXPECT_NE(refusal("a.stl", stl).find("12 triangles, but 1 bytes follow"), std::string::npos);
+    EXPECT_NE(refusal("b.ply", ply), "read");
+  }
+  EXPECT_NE(refusal("c.ply", faceted::ply_bytes(box, true) + "x").find("but 1 bytes follow"),
+            std::string::npos);
+}
+
 TEST(FacetReaders, WhatIsNoFacetedFileIsTold) {
   const TemporaryFile step("model.step", "ISO-10303-21;");
   EXPECT_FALSE(is_faceted_file(step.path()));

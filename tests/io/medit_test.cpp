@@ -232,6 +232,22 @@ TEST_F(Medit, RefusesWithThePlace) {
   EXPECT_NE(refusal("empty.meshb", ""), "");
 }
 
+TEST_F(Medit, MoreThanTheCountsSayIsRefused) {
+  for (const int version : {1, 3, 4}) {
+    const std::string good = ImportedFile(version, false).bytes;
+    const std::size_t end_section = version < 3 ? 8 : 12;
+    for (const std::size_t from_end : {std::size_t{0}, end_section, end_section + 2}) {
+      std::string bytes = good;
+      bytes.insert(bytes.size() - from_end, 1, '\0');
+      EXPECT_NE(refusal("long.meshb", bytes).find("1 bytes follow"), std::string::npos) << from_end;
+    }
+    // Some programs end with the keyword alone.
+    examples::put_bytes(world, path("short.meshb"), good.substr(0, good.size() - end_section + 4));
+    EXPECT_EQ(assemble(read_medit({world, path("short.meshb")}), 1).mesh.cell_count(), 1);
+    world.barrier();
+  }
+}
+
 TEST_F(Medit, WhatCannotBeWrittenOrOpened) {
   const FileMesh mesh = examples::mixed_mesh(world);
   examples::put_bytes(world, path("no_folder"), "a file");

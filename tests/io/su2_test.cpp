@@ -240,6 +240,22 @@ TEST_F(Su2, BinaryFilesOfEitherOrderAndWidthAreRead) {
   examples::expect_same(examples::contents_of(read.mesh), expected(mesh));
 }
 
+TEST_F(Su2, BinaryFilesWithMoreThanTheirCountsSayAreRefused) {
+  write_su2b(examples::mixed_mesh(world, 2, 2), path("long.su2b"));
+  const std::string good = bytes_of(path("long.su2b"));
+  for (const std::size_t from_end : {0, 1, 2}) {
+    std::string bytes = good;
+    bytes.insert(bytes.size() - from_end, 1, '\0');
+    examples::put_bytes(world, path("long.su2b"), bytes);
+    try {
+      read_su2b({world, path("long.su2b")});
+      ADD_FAILURE() << from_end;
+    } catch (const CollectiveError& error) {
+      EXPECT_NE(std::string(error.what()).find("but 1 bytes follow"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST_F(Su2, TextOfOthersIsRead) {
   const std::string text =
       "% one tetrahedron\r\nNZONE= 1\r\nIZONE= 1\r\nAOA= 3.0\r\nNDIME = 3\r\nNELEM= 2\r\n10 0 1 2 3 0\r\n3 0 "

@@ -214,6 +214,31 @@ TEST_F(Ugrid, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_NE(error_of(path("mesh.ugrid")).find(".lb8.ugrid"), std::string::npos);
 }
 
+TEST_F(Ugrid, MoreThanTheCountsSayIsRefused) {
+  const FileMesh mesh = examples::mixed_mesh(world, 2, 2);
+  const std::string file = path("long.lb8.ugrid");
+  write_ugrid(mesh, file);
+  const std::string good = bytes_of(file);
+  // A byte before the end moves the last integers of the last prism; some numbers stay valid.
+  for (const std::size_t from_end : {0, 1, 2, 30}) {
+    std::string bytes = good;
+    bytes.insert(bytes.size() - from_end, 1, '\0');
+    examples::put_bytes(world, file, bytes);
+    EXPECT_NE(error_of(file).find("counts of the file end here, but 1 bytes follow"), std::string::npos);
+  }
+  // What may follow: tetrahedra in boundary layers, an id of each cell, two flags of each face.
+  std::array<std::int32_t, 7> counts{};
+  std::memcpy(counts.data(), good.data(), sizeof counts);
+  const auto cells = static_cast<std::size_t>(counts[3] + counts[4] + counts[5]),
+             faces = static_cast<std::size_t>(counts[1] + counts[2]);
+  for (const std::size_t integers : {1 + cells, 1 + cells + faces, 1 + cells + 2 * faces}) {
+    examples::put_bytes(world, file, good + std::string(4 * integers, '\0'));
+    EXPECT_EQ(read_ugrid({world, file}).patches.size(), 3U);
+    examples::put_bytes(world, file, good + std::string(4 * integers, '\x7f'));
+    EXPECT_NE(error_of(file).find("end here"), std::string::npos);
+  }
+}
+
 TEST_F(Ugrid, DamagedFilesAreErrorsOrMeshes) {
   const auto read = [&](const std::string& file) { assemble(read_ugrid({world, file}), 2); };
   for (const char* suffix : {"lb8.ugrid", "b8l.ugrid"}) {

@@ -166,6 +166,14 @@ TEST_F(Vtkhdf, LinksToOtherFilesAreNotFollowed) {
   EXPECT_EQ(assemble(read_vtkhdf({world, folder / "soft.vtkhdf"}), 1).turned_cells, 0);
 }
 
+TEST_F(Vtkhdf, MoreThanTheFileSaysIsRefused) {
+  write_vtkhdf(examples::mixed_mesh(world), folder / "long.vtkhdf");
+  world.barrier();
+  if (world.is_root()) std::ofstream(folder / "long.vtkhdf", std::ios::binary | std::ios::app) << 'x';
+  world.barrier();
+  EXPECT_NE(message_of_reading(folder / "long.vtkhdf").find("but 1 bytes follow"), std::string::npos);
+}
+
 TEST_F(Vtkhdf, SurvivesDamagedFiles) {
   write_vtkhdf(examples::mixed_mesh(world, 1, 2), folder / "good");
   const std::string good = examples::bytes_of(folder / "good");
