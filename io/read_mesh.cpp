@@ -1,9 +1,9 @@
 #include "io/read_mesh.hpp"
 
+#include "files/input_file.hpp"
 #include "io/file_formats.hpp"
 #include "parallel/communication/collective_error.hpp"
 
-#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -21,9 +21,7 @@ Assembled read_mesh(const SharedPath& file, std::int32_t parts) {
                     fmt::join(readable_extensions(), ", ")));
   }
   parallel::on_root(file.communicator, [&] {
-    if (path.find('*') == std::string::npos && !std::filesystem::exists(path))
-      throw std::filesystem::filesystem_error("cannot read", path,
-                                              std::make_error_code(std::errc::no_such_file_or_directory));
+    if (path.find('*') == std::string::npos) files::require_readable(path);
   });
   return assemble(found.row->read(file), parts);
 }

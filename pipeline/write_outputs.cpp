@@ -1,5 +1,6 @@
 #include "pipeline/write_outputs.hpp"
 
+#include "files/input_file.hpp"
 #include "io/file_formats.hpp"
 #include "io/staged_files.hpp"
 #include "io/write_mesh.hpp"
@@ -8,7 +9,6 @@
 #include "parallel/observation/timers.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -34,8 +34,9 @@ EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
     const fs::file_time_type written = fs::last_write_time(place, ignored);
     if (!ignored) _files.emplace_back(place, written);
   }
-  std::ifstream report(output.directory + "/report.json");
-  const auto earlier = nlohmann::json::parse(report, nullptr, false);
+  const std::string report = output.directory + "/report.json";
+  if (files::refusal_of(report)) return;
+  const auto earlier = nlohmann::json::parse(files::read_whole(report), nullptr, false);
   if (!earlier.is_object() || !earlier.contains("mesh") || !earlier["mesh"].is_object()) return;
   _hash = earlier["mesh"].value("hash", "");
   for (const auto& name : earlier.value("older_files", nlohmann::json::array()))

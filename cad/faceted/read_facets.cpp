@@ -2,6 +2,7 @@
 #include "cad/faceted/facet_text.hpp"
 #include "cad/faceted/plane_graph.hpp"
 #include "cad/model/model.hpp"
+#include "files/input_file.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -54,9 +55,7 @@ std::vector<geometry::TriangleCorners> cut_polygon(std::span<const geometry::Vec
 }  // namespace
 
 FacetFile load_facet_file(const std::string& name) {
-  std::ifstream stream(name, std::ios::binary);
-  if (!stream) throw std::ios_base::failure(fmt::format("cannot open {}", name));
-  return {name, {std::istreambuf_iterator<char>(stream), {}}};
+  return {name, files::read_whole(name)};
 }
 
 std::int32_t find_group(FacetSoup& soup, const FacetSoup::Group& group) {
@@ -89,9 +88,9 @@ void add_polygon(FacetSoup& soup, std::span<const std::int64_t> corners, std::in
 
 bool is_faceted_file(const std::string& file) {
   const FacetFormat* format = format_of(file);
-  if (format == nullptr) return false;
+  if (format == nullptr || files::refusal_of(file)) return false;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || format->read != read_stl) return static_cast<bool>(stream);
+  if (format->read != read_stl) return true;
   std::string head(1024, '\0');
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));

@@ -3,11 +3,11 @@
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
+#include "files/input_file.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <vector>
@@ -31,14 +31,7 @@ Ends read_ends(const std::string& file) {
   constexpr std::streamoff window = 4096;  // bytes; chosen, not measured
   std::ifstream stream;
   stream.exceptions(std::ios::failbit | std::ios::badbit);
-  std::error_code ignored;  // what cannot be looked at cannot be opened either
-  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
-      !std::filesystem::is_directory(status)) {
-    throw std::ios_base::failure(
-        fmt::format("cannot read '{}': a device or a pipe, which cannot be read twice", file),
-        std::make_error_code(std::errc::invalid_argument));
-  }
+  files::require_readable(file);
   errno = 0;
   try {
     stream.open(file, std::ios::binary | std::ios::ate);

@@ -1,15 +1,12 @@
 #include "io/hdf5/input_file.hpp"
 
+#include "files/input_file.hpp"
 #include "io/hdf5/sandboxed_reading.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -65,13 +62,7 @@ std::vector<T> read_rows(const std::string& path, Operation operation, const std
 }  // namespace
 
 InputFile::InputFile(std::string path) : _path(std::move(path)) {
-  const bool is_folder = std::filesystem::is_directory(_path);
-  errno = 0;
-  const std::ifstream file(_path, std::ios::binary);
-  if (file && !is_folder) return;
-  const int reason = is_folder ? EISDIR : errno != 0 ? errno : EIO;
-  throw std::filesystem::filesystem_error("cannot read", _path,
-                                          std::error_code(reason, std::generic_category()));
+  files::require_readable(_path);
 }
 
 Survey InputFile::survey(const SurveyRequest& request) const {

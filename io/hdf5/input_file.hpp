@@ -41,7 +41,7 @@ struct Survey {
 };
 
 /// An HDF5 file to read. The functions throw std::runtime_error with the file and the object. The constructor
-/// throws std::filesystem::filesystem_error where the file cannot be opened. Not collective.
+/// throws std::ios_base::failure where the file cannot be opened. Not collective.
 class InputFile {
 public:
   explicit InputFile(std::string path);

@@ -65,7 +65,7 @@ std::vector<std::int32_t> ids_of(const MeditItems& items, const std::vector<std:
 
 std::string read_names_file(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) return {};
+  if (!std::filesystem::exists(path, none)) return {};
   RangeReader file(path);
   if (file.size() > largest_names_file) throw std::runtime_error(fmt::format("'{}' is too large", path));
   std::string text(static_cast<std::size_t>(file.size()), '\0');

@@ -1,14 +1,12 @@
 #include "io/vtk/vtk_content.hpp"
 
+#include "files/input_file.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -72,14 +70,8 @@ parallel::Bytes run_reader(const parallel::NamedTask& task, const std::string& p
 
 std::int64_t readable_bytes(const std::string& path) {
   namespace fs = std::filesystem;
-  if (!fs::is_regular_file(path))
-    throw fs::filesystem_error("cannot open", path,
-                               std::make_error_code(std::errc::no_such_file_or_directory));
-  errno = 0;
-  if (!std::ifstream(path, std::ios::binary))
-    throw fs::filesystem_error("cannot open", path,
-                               std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
-  return static_cast<std::int64_t>(fs::file_size(path));
+  files::require_readable(path);
+  return fs::is_regular_file(path) ? static_cast<std::int64_t>(fs::file_size(path)) : 0;
 }
 
 VtkContent read_vtk_content(const std::string& path) {

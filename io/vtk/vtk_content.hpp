@@ -32,14 +32,14 @@ struct VtkContent {
 };
 
 /// Reads a .vtu or legacy .vtk file. All corners exist as points; only boundary faces from field arrays may
-/// use ids of other files. Throws std::filesystem::filesystem_error where the file cannot be opened,
+/// use ids of other files. Throws std::ios_base::failure where the file cannot be opened,
 /// otherwise std::runtime_error with the file, the place and the reason. Not collective.
 VtkContent read_vtk_content(const std::string& path);
 
 /// The file names in a .pvtu index, absolute or relative to it. Throws as read_vtk_content. Not collective.
 std::vector<std::string> read_vtk_sources(const std::string& path);
 
-/// The size of a file in bytes. Throws std::filesystem::filesystem_error where it cannot be opened.
+/// The size of a file in bytes. Throws std::ios_base::failure where it cannot be opened.
 std::int64_t readable_bytes(const std::string& path);
 
 /// Run in the child process; only io/vtk/vtk_content.cpp calls them. Their exceptions do not name the file.

@@ -44,7 +44,7 @@ template <class Work>
 auto with_index(const std::string& path, const std::string& file, const Work& work) {
   try {
     return work();
-  } catch (const fs::filesystem_error& error) {
+  } catch (const std::system_error& error) {
     if (file == path) throw;
     throw fs::filesystem_error(fmt::format("a part of '{}' cannot be read", path), file, error.code());
   } catch (const std::runtime_error& error) {

@@ -20,7 +20,7 @@ struct FileFacts {
   std::size_t partition_count() const { return before.size() - 1; }
 };
 
-/// Throws std::runtime_error for damage, and std::filesystem::filesystem_error where the file cannot be
+/// Throws std::runtime_error for damage, and std::ios_base::failure where the file cannot be
 /// opened. Not collective.
 FileFacts survey_file(const std::string& path);
 

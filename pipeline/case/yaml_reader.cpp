@@ -1,15 +1,12 @@
 #include "pipeline/case/yaml_reader.hpp"
 
+#include "files/input_file.hpp"
 #include "pipeline/case/nearest_name.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
@@ -197,18 +194,13 @@ KeyTable::KeyEntry& KeyTable::make_named(const std::string& name) {
 }
 
 void KeyTable::read_file(const std::string& file) {
-  std::error_code ignored;
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  const std::error_code reason(stream ? EISDIR : errno, std::generic_category());
-  if (!stream || std::filesystem::is_directory(file, ignored)) {
+  if (const auto refusal = files::refusal_of(file)) {
     throw CaseError(
         fmt::format("{}: the case cannot be opened: {}; it must be a YAML file (`aeroloom init` writes one)",
-                    file, reason.message()));
+                    file, refusal->what));
   }
   require_no_geometry(file);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  read_text(text, file);
+  read_text(files::read_whole(file), file);
 }
 
 void KeyTable::read_text(const std::string& text, const std::string& name) {

@@ -1,11 +1,12 @@
 #include "pipeline/report/text_file.hpp"
 
+#include "files/input_file.hpp"
+
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <ios>
-#include <iterator>
 #include <system_error>
 
 namespace aeroloom::report {
@@ -20,13 +21,7 @@ std::error_code last_reason() {
 }  // namespace
 
 std::string read_text(const std::string& file) {
-  if (std::filesystem::is_directory(file))
-    throw std::ios_base::failure("cannot read '" + file + "': it is a folder");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw std::ios_base::failure("cannot read '" + file + "'", last_reason());
-  return text;
+  return files::read_whole(file);
 }
 
 void write_text(const std::string& file, const std::string& text) {

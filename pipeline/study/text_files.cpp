@@ -1,9 +1,10 @@
 #include "pipeline/study/text_files.hpp"
 
+#include "files/input_file.hpp"
+
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,12 +13,9 @@
 namespace aeroloom::study {
 
 std::string read_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream) text << stream.rdbuf();
-  if (!stream)
-    throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
-  return text.str();
+  if (const auto refusal = files::refusal_of(file.string()))
+    throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), refusal->what));
+  return files::read_whole(file.string());
 }
 
 void refuse_json(const std::filesystem::path& file, const std::string& what, const std::exception& error) {

@@ -80,6 +80,29 @@ TEST_F(Refusals, OfPipesAndDevices) {
       expect(7, command + " case.yaml --set geometry.file=" + file, {"a device or a pipe"});
 }
 
+TEST_F(Refusals, OfPipesWhereverAFileIsRead) {
+  write("case.yaml", coarse_wing());
+  const std::string poly = write("cube.poly", "0 3 0 0\n1 0\n1\n3 1 2 3\n0\n");
+  at_root([&] {
+    for (const char* name : {"pipe.yaml", "pipe.stl", "pipe.brep", "cube.node", "pipe.vtkhdf", "pipe.vtu",
+                             "pipe.msh", "pipe.su2", "pipe.meshb", "pipe.lb8.ugrid", "pipe.json"})
+      EXPECT_EQ(mkfifo(path(name).c_str(), 0600), 0);
+  });
+  const std::string why = "a device or a pipe, which cannot be read twice. Remedy";
+  for (const std::string command : {"check", "run"}) {
+    expect(2, command + " pipe.yaml", {"pipe.yaml", why});
+    expect(2, command + " /dev/zero", {"/dev/zero", why});
+    for (const std::string& file : {path("pipe.stl"), path("pipe.brep")})
+      expect(7, command + " case.yaml --set geometry.file=" + file, {file, why});
+    expect(7, command + " case.yaml --set geometry.file=" + poly, {"cube.node", why});
+  }
+  for (const std::string end : {"vtkhdf", "vtu", "msh", "su2", "meshb", "lb8.ugrid"}) {
+    expect(7, "info " + path("pipe." + end), {"pipe." + end, why});
+    expect(7, "quality " + path("pipe." + end), {"pipe." + end, why});
+  }
+  expect(7, "scaling out --predict 8 --network pipe.json", {"pipe.json", why});
+}
+
 TEST_F(Refusals, OfKeysAndSizesThatCannotBe) {
   write("case.yaml", coarse_wing() + "sizng: {minimum: 1}\n");
   expect_failure(2, "run case.yaml", {"sizng", "sizing", "case.yaml:6:"});
