@@ -1,5 +1,6 @@
 #include "pipeline/run_identity.hpp"
 
+#include "cad/read/input_files.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/report/library_versions.hpp"
 
@@ -32,14 +33,6 @@ bool is_readable(const std::string& path) {
   return std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).is_open();
 }
 
-/// The geometry of a case comes from these, in this order.
-std::vector<std::string> files_of(const cad::DomainOptions& domain) {
-  std::vector<std::string> files;
-  if (!domain.file.empty()) files.push_back(domain.file);
-  for (const cad::FacetedBody& part : domain.parts) files.push_back(part.file);
-  return files;
-}
-
 /// Of one file its own digest, of several that of theirs.
 parallel::Digest digest_of_files(const std::vector<std::string>& files, std::int64_t* bytes = nullptr) {
   if (files.size() == 1) return digest_of_file(files.front(), bytes);
@@ -60,7 +53,7 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
   std::vector<std::int64_t> bytes{0};
   if (communicator.is_root()) {
     digests[0] = digest_of_file("/proc/self/exe");
-    const std::vector<std::string> files = files_of(input.domain);
+    const std::vector<std::string> files = cad::input_files_of(input.domain);
     known[0] = std::all_of(files.begin(), files.end(), is_readable) ? 1 : 0;
     if (known[0] != 0 && !files.empty()) digests[1] = digest_of_files(files, &bytes[0]);
   }
@@ -87,7 +80,7 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
 }
 
 void require_same_file(const RunIdentity& identity, const cases::Case& input) {
-  const std::vector<std::string> files = files_of(input.domain);
+  const std::vector<std::string> files = cad::input_files_of(input.domain);
   if (files.empty() || !identity.is_known) return;
   if (std::all_of(files.begin(), files.end(), is_readable) && digest_of_files(files) == identity.files)
     return;

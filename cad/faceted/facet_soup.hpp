@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,10 @@ inline geometry::Vec3 farthest_axis(geometry::Vec3 direction) {
 /// Whether read_facets can read the file. The extension decides, for .stl the content too: many programs
 /// write "solid" at the head of binary files. False if the file cannot be opened.
 bool is_faceted_file(const std::string& file);
+
+/// The file of points that a file of triangles refers to instead of having its own: NAME.node beside a .poly
+/// or .smesh whose number of points is 0. Nothing for all others, and for files that cannot be read.
+std::optional<std::string> points_beside(const std::string& file);
 
 /// Throws CadError with line or byte for files that are damaged, empty or of another format, and
 /// std::ios_base::failure if the file cannot be opened.

@@ -2,8 +2,11 @@
 #include "cad/faceted/facet_text.hpp"
 #include "cad/faceted/plane_graph.hpp"
 #include "cad/model/model.hpp"
+#include "files/input_file.hpp"
 
 #include <filesystem>
+#include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,10 @@ using geometry::Vec2;
 using geometry::Vec3;
 
 enum class PolyKind { poly, smesh };
+
+std::string node_file_of(const std::string& file) {
+  return std::filesystem::path(file).replace_extension(".node").string();
+}
 
 /// One facet of .poly: polygons and segments of one plane, and points in its holes.
 struct PolyFacet {
@@ -52,10 +59,10 @@ private:
     need_line(text, "the number of points");
     const std::int64_t count = text.count(text.word(), "the number of points", 8);
     if (count == 0 && &text == &_text) {
-      const auto beside = std::filesystem::path(_file.name).replace_extension(".node");
+      const std::string beside = node_file_of(_file.name);
       if (!std::filesystem::exists(beside))
-        text.fail(fmt::format("there are no points, here or in {}", beside.string()));
-      const FacetFile nodes = load_facet_file(beside.string());
+        text.fail(fmt::format("there are no points, here or in {}", beside));
+      const FacetFile nodes = load_facet_file(beside);
       FacetText other(nodes.name, nodes.bytes);
       read_nodes(other);
       return;
@@ -180,6 +187,20 @@ private:
 };
 
 }  // namespace
+
+std::optional<std::string> points_beside(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (!same_word(extension, ".poly") && !same_word(extension, ".smesh")) return std::nullopt;
+  if (files::refusal_of(file)) return std::nullopt;
+  // Comments may stand before the number. What is longer has points of its own, or says so too late.
+  std::string head(std::size_t{1} << 16, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  FacetText text(file, head);
+  if (text.next_line() && text.word() != "0") return std::nullopt;
+  return node_file_of(file);
+}
 
 FacetSoup read_poly(const FacetFile& file) {
   return PolyText(file, PolyKind::poly).read();

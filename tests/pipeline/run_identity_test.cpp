@@ -48,6 +48,27 @@ TEST_F(RunIdentityTest, CountsEveryPart) {
   EXPECT_NE(identify_run(world, input).digest, both.digest);
 }
 
+TEST_F(RunIdentityTest, CountsPointsInAFileBesideTheGeometry) {
+  const std::string poly = write("cube.poly", "# points stand beside\n0 3 0 0\n1 0\n1\n3 1 2 3\n0\n");
+  EXPECT_FALSE(of_file(poly).is_known);
+  write("cube.node", "3 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n");
+  const RunIdentity one = of_file(poly);
+  EXPECT_TRUE(one.is_known);
+  write("cube.node", "3 3 0 0\n1 0 0 0\n2 2 0 0\n3 0 1 0\n");
+  EXPECT_NE(of_file(poly).digest, one.digest);
+  cases::Case input;
+  input.domain.transport.emplace();
+  input.domain.parts.push_back({});
+  input.domain.parts.back().file = poly;
+  const RunIdentity part = identify_run(world, input);
+  write("cube.node", "3 3 0 0\n1 0 0 0\n2 4 0 0\n3 0 1 0\n");
+  EXPECT_NE(identify_run(world, input).digest, part.digest);
+  // A file with points of its own has no other.
+  const RunIdentity whole = of_file(write("whole.poly", "1 3 0 0\n1 0 0 0\n0 0\n0\n"));
+  write("whole.node", "1 3 0 0\n1 0 0 0\n");
+  EXPECT_EQ(of_file(path("whole.poly")).digest, whole.digest);
+}
+
 TEST_F(RunIdentityTest, IsUnknownWithoutTheFile) {
   EXPECT_FALSE(of_file(path("absent.step")).is_known);
   EXPECT_FALSE(of_file(folder.string()).is_known);

@@ -1,0 +1,40 @@
+// Runs on files that no program should write, but some do.
+#include "tests/pipeline/command_line.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace aeroloom::pipeline {
+namespace {
+
+class OddFiles : public CommandLine {
+protected:
+  std::string fluid_case(const std::string& file) const {
+    return "geometry: {file: '" + file + "', domain: fluid}\nsizing: {target_tetrahedra: 500}\n" +
+           "output: {pictures: false}\n";
+  }
+};
+
+// A mesh that was kept is not that of other points, though the file that the case names is the same.
+TEST_F(OddFiles, PointsBesideTheFileAreInTheHashOfTheInput) {
+  const std::string facets =
+      "0 3 0 0\n6 0\n1\n4 1 4 3 2\n1\n4 5 6 7 8\n1\n4 1 2 6 5\n1\n4 2 3 7 6\n1\n4 3 4 8 7\n1\n4 4 1 5 "
+      "8\n0\n0\n";
+  const auto points = [](const std::string& a) {
+    return "8 3 0 0\n1 0 0 0\n2 " + a + " 0 0\n3 " + a + " " + a + " 0\n4 0 " + a + " 0\n5 0 0 " + a +
+           "\n6 " + a + " 0 " + a + "\n7 " + a + " " + a + " " + a + "\n8 0 " + a + " " + a + "\n";
+  };
+  write("case.yaml", fluid_case(write("cube.poly", facets)));
+  write("cube.node", points("1"));
+  expect(0, "run case.yaml --checkpoints");
+  EXPECT_NEAR(read_json("out/report.json")["mesh"]["volume"].get<double>(), 1, 1e-12);
+  write("cube.node", points("2"));
+  expect(2, "run case.yaml --resume", {"Remedy"});
+  expect(0, "run case.yaml");
+  EXPECT_NEAR(read_json("out/report.json")["mesh"]["volume"].get<double>(), 8, 1e-12);
+}
+
+}  // namespace
+}  // namespace aeroloom::pipeline
