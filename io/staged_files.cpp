@@ -34,7 +34,16 @@ void keep_other_files(const fs::path& older, const fs::path& newer) {
   }
 }
 
+/// Before anything is moved: all files appear, or none.
+void require_places(const fs::path& staging, const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(staging)) {
+    require_replaceable((folder / entry.path().filename()).string(),
+                        entry.is_directory() ? Arrival::folder : Arrival::file);
+  }
+}
+
 void publish(const fs::path& staging, const fs::path& folder) {
+  require_places(staging, folder);
   std::vector<fs::path> files, folders;
   for (const fs::directory_entry& entry : fs::directory_iterator(staging))
     (entry.is_directory() ? folders : files).push_back(entry.path().filename());
@@ -45,6 +54,8 @@ void publish(const fs::path& staging, const fs::path& folder) {
     if (fs::is_directory(fs::symlink_status(folder / name))) {
       fs::rename(folder / name, older / name);
       kept.push_back(name);
+    } else if (fs::is_symlink(fs::symlink_status(folder / name))) {
+      fs::rename(folder / name, older / name);  // the link goes, what it leads to stays
     }
     fs::rename(staging / name, folder / name);
   }
@@ -54,6 +65,19 @@ void publish(const fs::path& staging, const fs::path& folder) {
 }
 
 }  // namespace
+
+void require_replaceable(const std::string& path, Arrival arrival) {
+  const fs::file_status found = fs::symlink_status(path);
+  if (!fs::exists(found) || fs::is_symlink(found)) return;
+  if (arrival == Arrival::folder ? fs::is_directory(found) : fs::is_regular_file(found)) return;
+  const bool is_folder = fs::is_directory(found);
+  const char* const what = is_folder                    ? "a folder is in the way of a file"
+                           : arrival == Arrival::folder ? "a file is in the way of a folder"
+                                                        : "a device or a pipe is in the way of a file";
+  throw fs::filesystem_error(
+      std::string(what) + ". Remedy: move it away, or write into another folder", path,
+      std::make_error_code(is_folder ? std::errc::is_a_directory : std::errc::file_exists));
+}
 
 void write_together(const parallel::Communicator& communicator, const std::string& folder,
                     const std::string& name, const std::function<void(const std::string& staging)>& work) {

@@ -280,8 +280,8 @@ Json record_json(const cases::Case& input, const CheckRecord& record) {
 }
 
 void write_record(const cases::Case& input, const CheckRecord& record) {
-  report::write_text(input.output.directory + "/check.json",
-                     record_json(input, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  report::replace_text(input.output.directory + "/check.json",
+                       record_json(input, record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void print_record(const cases::Case& input, const CheckRecord& record, int ranks) {

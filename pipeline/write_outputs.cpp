@@ -25,6 +25,48 @@ std::string path_of(const cases::OutputOptions& output, io::FileFormat format) {
                      row.ends.front());
 }
 
+namespace {
+
+/// What a format writes beside the file of the mesh.
+std::vector<std::string> companions_of(io::FileFormat format) {
+  switch (format) {
+    case io::FileFormat::vtu:
+      return {"surface.pvtp", "interfaces.pvtp"};
+    case io::FileFormat::vtkhdf:
+      return {"mesh_surface.vtkhdf"};
+    case io::FileFormat::ugrid:
+    case io::FileFormat::ugrid64:
+      return {"mesh.mapbc"};
+    case io::FileFormat::su2:
+    case io::FileFormat::su2b:
+      return {"mesh_markers.cfg"};
+    case io::FileFormat::meshb:
+      return {"mesh.names"};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+void require_free_places(const cases::OutputOptions& output) {
+  using io::Arrival, io::require_replaceable;
+  const std::string folder = output.directory + "/";
+  for (const char* const name : {"report.json", "report.html", "tasks.csv"})
+    require_replaceable(folder + name, Arrival::file);
+  for (const io::FileFormat format : output.formats) {
+    const std::string_view own = io::row_of(format).folder;
+    if (!own.empty()) require_replaceable(folder + std::string(own), Arrival::folder);
+    require_replaceable(path_of(output, format), Arrival::file);
+    for (const std::string& name : companions_of(format)) require_replaceable(folder + name, Arrival::file);
+  }
+  if (wants_vtk(output))
+    for (const char* const name : {"mesh", "surface", "interfaces"})
+      require_replaceable(folder + name, Arrival::folder);
+  if (output.checkpoints != cases::CheckpointUse::none)
+    require_replaceable(folder + "checkpoint", Arrival::folder);
+}
+
 EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
   namespace fs = std::filesystem;
   std::vector<fs::path> places{output.directory + "/surface.pvtp", output.directory + "/interfaces.pvtp"};

@@ -19,6 +19,10 @@ namespace aeroloom::pipeline {
 void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* surface,
                    const cases::OutputOptions& output);
 
+/// Throws std::filesystem::filesystem_error where something is in the way of what a run writes, before hours
+/// of work: a file named as a folder, a folder named as a file. Rank 0 calls it.
+void require_free_places(const cases::OutputOptions& output);
+
 /// Mesh files of any format in the output directory before the run. Used on rank 0.
 class EarlierFiles {
 public:

@@ -174,9 +174,9 @@ report::ExitCode write_study(const study::StudyRecord& record, const std::vector
   add_prediction(study, record, runs, network);
   const std::string json = study.dump(1, ' ', false, study::Json::error_handler_t::replace) + "\n";
   const fs::path& folder = record.options.directory;
-  report::write_text((folder / "scaling.json").string(), json);
-  report::write_text((folder / "scaling.csv").string(), study::study_csv(runs));
-  report::write_text((folder / "scaling.html").string(), study::study_page(json));
+  report::replace_text((folder / "scaling.json").string(), json);
+  report::replace_text((folder / "scaling.csv").string(), study::study_csv(runs));
+  report::replace_text((folder / "scaling.html").string(), study::study_page(json));
   report::print_text(study::study_text(rows));
   log_progress((folder / "scaling.html").string());
   report::ExitCode code = report::ExitCode::ok;

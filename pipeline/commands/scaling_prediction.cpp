@@ -103,8 +103,9 @@ report::ExitCode predict_run(const PredictionArguments& arguments, std::vector<i
   const fs::path folder = arguments.run;
   const study::Forecasts forecasts =
       study::forecast_ranks(study::read_costs(folder), arguments.run, ranks, network_of(arguments));
-  report::write_text((folder / "prediction.json").string(), study::prediction_json(forecasts).dump(1) + "\n");
-  report::write_text((folder / "prediction.csv").string(), study::prediction_csv(forecasts));
+  report::replace_text((folder / "prediction.json").string(),
+                       study::prediction_json(forecasts).dump(1) + "\n");
+  report::replace_text((folder / "prediction.csv").string(), study::prediction_csv(forecasts));
   report::print_text(study::prediction_text(forecasts));
   return report::ExitCode::ok;
 }

@@ -55,6 +55,7 @@ int run_stages(const Invocation& invocation, const cases::Case& input, const rep
   try {
     require_writable_folder(invocation, input.output.directory);
     lock.emplace(communicator, input.output.directory);
+    parallel::on_root(communicator, [&] { require_free_places(input.output); });
   } catch (const parallel::CollectiveError& error) {
     return fail(invocation, report::ExitCode::files, fmt::format("output.directory: {}", error.what()));
   }

@@ -54,16 +54,16 @@ std::string write_report(const parallel::Communicator& communicator, const cases
     const std::string& folder = input.output.directory;
     std::error_code ignored;  // what an earlier run has left and cannot go stays
     if (input.output.tasks)
-      write_text(folder + "/tasks.csv", facts.tasks);
+      replace_text(folder + "/tasks.csv", facts.tasks);
     else
       std::filesystem::remove(folder + "/tasks.csv", ignored);
     const std::string json = report_json(input, record, facts);
-    write_text(folder + "/report.json", json);
+    replace_text(folder + "/report.json", json);
     const std::string page = page_of(json, record);
     if (page.empty())
       std::filesystem::remove(folder + "/report.html", ignored);
     else
-      write_text(folder + "/report.html", page);
+      replace_text(folder + "/report.html", page);
   });
   if (!communicator.is_root()) return {};
   return report_table(record, facts.stages, communicator.size()) + summary_of(facts.warnings);
@@ -72,7 +72,7 @@ std::string write_report(const parallel::Communicator& communicator, const cases
 void write_last_report(const cases::Case& input, const RunOutcome& outcome, const ReportSubject& subject,
                        int ranks) {
   const std::string& folder = input.output.directory;
-  write_text(folder + "/report.json", report_json(input, {}, {outcome, subject, ranks, {}, {}, utc_now()}));
+  replace_text(folder + "/report.json", report_json(input, {}, {outcome, subject, ranks, {}, {}, utc_now()}));
   std::error_code ignored;  // a page of an earlier run that cannot go stays
   std::filesystem::remove(folder + "/report.html", ignored);
 }

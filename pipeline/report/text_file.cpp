@@ -49,6 +49,13 @@ void write_text(const std::string& file, const std::string& text) {
   throw std::ios_base::failure("cannot write '" + file + "'", reason);
 }
 
+void replace_text(const std::string& file, const std::string& text) {
+  std::error_code ignored;  // what cannot be looked at cannot be written either, which is said then
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(file, ignored)))
+    std::filesystem::remove(file, ignored);
+  write_text(file, text);
+}
+
 void print_text(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw std::ios_base::failure("cannot write to standard output");

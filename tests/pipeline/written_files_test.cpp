@@ -64,6 +64,44 @@ TEST_F(WrittenFiles, LinksAreNotFollowed) {
   EXPECT_EQ(read("precious"), "precious");
 }
 
+// Reports replace links as mesh files do, and so do folders of parts; what links lead to stays as it is.
+TEST_F(WrittenFiles, LinksAreReplaced) {
+  const std::string precious = write("precious", "precious");
+  write("elsewhere/old", "old");
+  at_root([&] {
+    fs::create_directories(folder / "out");
+    for (const char* name : {"report.json", "report.html", "tasks.csv", "mesh.pvtu", "surface.pvtp"})
+      fs::create_symlink(precious, path(std::string("out/") + name));
+    fs::create_directory_symlink(path("elsewhere"), path("out/mesh"));
+  });
+  expect(0, "run case.yaml --set output.tasks=true");
+  EXPECT_EQ(read("precious"), "precious");
+  for (const char* name : {"report.json", "report.html", "tasks.csv", "mesh.pvtu", "surface.pvtp", "mesh"})
+    EXPECT_FALSE(fs::is_symlink(folder / "out" / name)) << name;
+  EXPECT_TRUE(fs::is_directory(folder / "out/mesh"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "elsewhere"), {}), 1);
+  at_root([&] { fs::create_symlink(precious, path("out/check.json")); });
+  expect(0, "check case.yaml");
+  EXPECT_EQ(read("precious"), "precious");
+}
+
+TEST_F(WrittenFiles, WhatIsInTheWayIsFoundBeforeTheWork) {
+  for (const std::string name : {"mesh", "surface", "openfoam"}) {
+    write("out/" + name, "a file");
+    const CommandResult ended = expect(7, "run case.yaml --set output.formats=[vtu,openfoam]",
+                                       {"a file is in the way of a folder. Remedy", "out/" + name});
+    EXPECT_FALSE(ended.has("stage surface")) << ended;
+    EXPECT_FALSE(exists("out/mesh.pvtu"));
+    at_root([&] { fs::remove(folder / "out" / name); });
+  }
+  for (const std::string name : {"report.json", "mesh.su2", "mesh_markers.cfg"}) {
+    at_root([&] { fs::create_directories(folder / "out" / name); });
+    const CommandResult ended = expect(7, "run case.yaml --set output.formats=[su2]",
+                                       {"a folder is in the way of a file. Remedy", "out/" + name});
+    at_root([&] { fs::remove(folder / "out" / name); });
+  }
+}
+
 TEST_F(WrittenFilesLocal, BoundsThatWinOverCurvatureAreTold) {
   write("case.yaml", coarse_wing());
   const CommandResult ended =
