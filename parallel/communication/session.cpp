@@ -7,6 +7,11 @@
 #include <stdexcept>
 #include <string>
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 namespace aeroloom::parallel::session {
 
 namespace {
@@ -39,6 +44,25 @@ bool is_on_one_machine() {
 void skip_networks() {
   constexpr int keep = 0;
   if (is_on_one_machine()) setenv("OMPI_MCA_pml", "ob1", keep);
+}
+
+/// Whether this process may keep something in the memory that processes of a machine share (/dev/shm).
+bool has_shared_memory() {
+  const std::string name = "/aeroloom." + std::to_string(getpid());
+  const int file = shm_open(name.c_str(), O_RDWR | O_CREAT | O_EXCL, S_IRUSR | S_IWUSR);
+  if (file < 0) return false;
+  constexpr off_t a_page = 4096;
+  const bool has_room = posix_fallocate(file, 0, a_page) == 0;
+  close(file);
+  shm_unlink(name.c_str());
+  return has_room;
+}
+
+/// Ranks that open a file together share a semaphore for a position in it, which nothing here uses. Where
+/// there is no place for it, Open MPI refuses to open the file; without it, files are opened as well.
+void open_files_without_shared_memory() {
+  constexpr int keep = 0;
+  if (!has_shared_memory()) setenv("OMPI_MCA_sharedfp", "^sm", keep);
 }
 
 /// Frees the group, unless the library has ended before.
@@ -78,6 +102,7 @@ void start(int& argc, char**& argv) {
   if (is_running()) throw std::logic_error("parallel::Environment is constructed a second time");
   if (!is_library_running()) {
     skip_networks();
+    open_files_without_shared_memory();
     int provided = MPI_THREAD_SINGLE;
     check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "starting");
     current().started_library = true;

@@ -1,6 +1,11 @@
 #!/usr/bin/env python3
 """VTK opens what was written, and finds in it what the report says. usage: open_files_test.py PROGRAM"""
+import os
+import pathlib
+import shlex
+import subprocess
 import sys
+import tempfile
 
 import vtk
 from program import shared_run
@@ -12,8 +17,24 @@ def read(reader, file):
     return reader.GetOutput()
 
 
+def without_shared_memory(program, mesh):
+    """A machine whose /dev/shm cannot be written: files are written all the same."""
+    isolated = ["unshare", "--user", "--map-root-user", "--mount"] if os.getuid() else ["unshare", "--mount"]
+    if subprocess.run([*isolated, "mount", "-t", "tmpfs", "-o", "ro", "tmpfs", "/dev/shm"], capture_output=True).returncode:
+        print("no /dev/shm of its own can be had here")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "mesh.lb8.ugrid"
+        command = f"mount -t tmpfs -o ro tmpfs /dev/shm && exec {shlex.quote(program)} convert {mesh} {file}"
+        done = subprocess.run([*isolated, "sh", "-c", command], capture_output=True, text=True,
+                              env={**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert file.stat().st_size > 0
+
+
 def main():
     run = shared_run(sys.argv[1])
+    without_shared_memory(sys.argv[1], run.output / "mesh.pvtu")
     mesh = read(vtk.vtkXMLPUnstructuredGridReader(), run.output / "mesh.pvtu")
     assert mesh.GetNumberOfCells() == run.report["mesh"]["tetrahedra"]
     assert {mesh.GetCellType(i) for i in range(0, mesh.GetNumberOfCells(), 97)} == {vtk.VTK_TETRA}
