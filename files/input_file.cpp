@@ -54,6 +54,11 @@ void require_readable(const std::string& path) {
                                refusal->code);
 }
 
+std::size_t mark_length(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? mark.size() : 0;
+}
+
 std::string read_whole(const std::string& path) {
   require_readable(path);
   errno = 0;

@@ -1,8 +1,10 @@
 /// Files that users give: whether a path can be read as one, and its text.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace aeroloom::files {
@@ -19,6 +21,10 @@ std::optional<Refusal> refusal_of(const std::string& path);
 
 /// Throws std::ios_base::failure: "cannot read 'PATH': WHAT".
 void require_readable(const std::string& path);
+
+/// The length of the mark of UTF-8 (a byte-order mark) that a text begins with, which some editors put there:
+/// 3 or 0.
+std::size_t mark_length(std::string_view text);
 
 /// All bytes of a file. Throws as require_readable().
 std::string read_whole(const std::string& path);

@@ -27,6 +27,8 @@ FacetSoup read_smesh(const FacetFile& file);  ///< TetGen's .smesh
 
 /// Whether the content of an .stl file is binary.
 bool is_binary_stl(std::string_view bytes);
+/// Whether it begins as text does: with `solid`, after blanks and a byte-order mark.
+bool begins_as_text_stl(std::string_view bytes);
 
 /// The number of the group, which is added if it does not exist.
 std::int32_t find_group(FacetSoup& soup, const FacetSoup::Group& group);

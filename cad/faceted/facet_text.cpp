@@ -1,6 +1,7 @@
 #include "cad/faceted/facet_text.hpp"
 
 #include "cad/model/model.hpp"
+#include "files/input_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -47,6 +48,9 @@ bool same_word(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](char x, char y) { return small_letter(x) == small_letter(y); });
 }
+
+FacetText::FacetText(std::string file, std::string_view text)
+    : _file(std::move(file)), _text(text.substr(files::mark_length(text))) {}
 
 void FacetText::fail(const std::string& what) const {
   refuse_facets(_file, fmt::format("line {}", _line_number), what);

@@ -15,7 +15,8 @@ namespace aeroloom::cad {
 /// Reads a text in memory. '#' begins a comment; blanks, tabs and CR separate words.
 class FacetText {
 public:
-  FacetText(std::string file, std::string_view text) : _file(std::move(file)), _text(text) {}
+  /// A byte-order mark at the beginning is no part of the text.
+  FacetText(std::string file, std::string_view text);
 
   /// Goes to the next line that has a word. False at the end of the text.
   bool next_line();

@@ -94,7 +94,7 @@ bool is_faceted_file(const std::string& file) {
   std::string head(1024, '\0');
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(stream.gcount()));
-  return is_binary_stl(head) || same_word(std::string_view(head).substr(0, 5), "solid");
+  return is_binary_stl(head) || begins_as_text_stl(head);
 }
 
 FacetSoup read_facets(const std::string& file) {

@@ -1,6 +1,8 @@
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_text.hpp"
+#include "files/input_file.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -110,15 +112,17 @@ private:
 
 }  // namespace
 
+bool begins_as_text_stl(std::string_view bytes) {
+  bytes.remove_prefix(files::mark_length(bytes));
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \n\r\t"), bytes.size()));
+  return same_word(bytes.substr(0, 5), "solid");
+}
+
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < stl_head) return false;
   const std::size_t count = little_word(bytes.data() + stl_head - 4);
   if (bytes.size() == stl_head + stl_record * count) return true;
-  std::size_t begin = 0;
-  while (begin < bytes.size() &&
-         (bytes[begin] == ' ' || bytes[begin] == '\n' || bytes[begin] == '\r' || bytes[begin] == '\t'))
-    ++begin;
-  if (!same_word(bytes.substr(begin, 5), "solid")) return true;
+  if (!begins_as_text_stl(bytes)) return true;
   // Zeros and other control characters stand in no text.
   for (const char c : bytes.substr(0, 1024)) {
     if (static_cast<unsigned char>(c) < ' ' && std::strchr("\n\r\t\v\f", c) == nullptr) return true;
@@ -129,7 +133,7 @@ bool is_binary_stl(std::string_view bytes) {
 
 FacetSoup read_stl(const FacetFile& file) {
   if (is_binary_stl(file.bytes)) return read_binary_stl(file);
-  if (file.bytes.size() < stl_head && !same_word(std::string_view(file.bytes).substr(0, 5), "solid")) {
+  if (file.bytes.size() < stl_head && !begins_as_text_stl(file.bytes)) {
     refuse_facets(file.name, fmt::format("byte {}", file.bytes.size()), "the file ends before its head does");
   }
   return StlText(file).read();

@@ -3,6 +3,7 @@
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/read/memory_file.hpp"
 #include "files/input_file.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include <BRepTools.hxx>
@@ -24,7 +26,8 @@ namespace {
 
 /// The first and last bytes of a file, enough to tell what it is and whether it is complete.
 struct Ends {
-  std::string head, tail;
+  std::string head, tail;  ///< the head without the byte-order mark
+  std::size_t mark = 0;    ///< length of the mark
 };
 
 Ends read_ends(const std::string& file) {
@@ -43,6 +46,8 @@ Ends read_ends(const std::string& file) {
     ends.tail.resize(std::min(size, window));
     stream.seekg(size - std::min(size, window));
     stream.read(ends.tail.data(), static_cast<std::streamsize>(ends.tail.size()));
+    ends.mark = files::mark_length(ends.head);
+    ends.head.erase(0, ends.mark);
     return ends;
   } catch (const std::ios_base::failure& failure) {
     const std::error_code reason(errno, std::generic_category());
@@ -189,6 +194,25 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
   refuse_format(file, ends);
 }
 
+/// What the CAD library has to read instead of the file; nothing where it can read the file.
+std::optional<std::string> readable_text(const std::string& file, const Ends& ends) {
+  if (ends.mark == 0) return std::nullopt;
+  return files::read_whole(file).substr(ends.mark);
+}
+
+/// Messages name the file that the user knows.
+NamedShape read_from_memory(const std::string& file, const std::string& text, const Ends& ends) {
+  const MemoryFile copy(text);
+  try {
+    return read_by_content(copy.path(), ends);
+  } catch (const CadError& error) {
+    std::string message = error.what();
+    const std::size_t at = message.find(copy.path());
+    if (at != std::string::npos) message.replace(at, copy.path().size(), file);
+    throw CadError(message);
+  }
+}
+
 /// In the order of the file, which no repair, cut or far field changes.
 void number_faces(NamedShape& named) {
   const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
@@ -220,7 +244,8 @@ NamedShape read_cad_file(const std::string& file) {
   require(!trimmed(ends.head).empty(), file, "the file is empty");
   report_step("reading the file");
   return guarded(fmt::format("reading '{}'", file), [&] {
-    NamedShape named = read_by_content(file, ends);
+    const std::optional<std::string> text = readable_text(file, ends);
+    NamedShape named = text ? read_from_memory(file, *text, ends) : read_by_content(file, ends);
     number_faces(named);
     return named;
   });

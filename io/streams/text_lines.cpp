@@ -1,5 +1,7 @@
 #include "io/streams/text_lines.hpp"
 
+#include "files/input_file.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cstring>
@@ -30,7 +32,10 @@ bool parse(std::string_view word, T& value) {
 }  // namespace
 
 TextLines::TextLines(const std::string& path, std::size_t longest)
-    : _file(path), _longest(longest), _buffer(buffer_bytes) {}
+    : _file(path), _longest(longest), _buffer(buffer_bytes) {
+  refill();
+  _begin = files::mark_length({_buffer.data(), _end});
+}
 
 bool TextLines::refill() {
   std::memmove(_buffer.data(), _buffer.data() + _begin, _end - _begin);

@@ -60,6 +60,23 @@ TEST(FacetReaders, AllFormatsGiveTheSameBox) {
   }
 }
 
+TEST(FacetReaders, BlanksAndAMarkMayStandBeforeTheText) {
+  const std::string mark = "\xEF\xBB\xBF", blanks = " \r\n\n\t\n", many(3000, '\n');
+  for (const std::string& before : {mark, blanks, mark + blanks, many}) {
+    for (const auto& [name, content] : {std::pair<std::string, std::string>{"a.stl", faceted::ascii_stl(box)},
+                                        {"b.off", faceted::off_text(box)},
+                                        {"c.obj", faceted::obj_text(box)}}) {
+      SCOPED_TRACE(name);
+      const TemporaryFile file(name, before + content);
+      EXPECT_TRUE(is_faceted_file(file.path()));
+      expect_box(read_facets(file.path()));
+    }
+  }
+  expect_box(read_text("d.ply", mark + faceted::ply_text(box)));
+  expect_box(read_text("e.ply", mark + faceted::ply_bytes(box, true)));
+  EXPECT_EQ(read_text("f.poly", mark + faceted::poly_text()).regions.size(), 2U);
+}
+
 TEST(FacetReaders, BinaryFilesEndWhereTheirCountsSay) {
   for (const std::size_t from_end : {0, 7}) {
     std::string stl = faceted::binary_stl(box), ply = faceted::ply_bytes(box, false);

@@ -17,6 +17,27 @@ protected:
   }
 };
 
+/// A cube of triangles; `zero` is what stands for a coordinate of one corner.
+std::string cube_stl(const std::string& name, const std::string& zero = "0") {
+  const std::string o = zero + " 0 0", x = "1 0 0", y = "0 1 0", z = "0 0 1", xy = "1 1 0", yz = "0 1 1",
+                    xz = "1 0 1", all = "1 1 1";
+  const auto triangle = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "facet normal 0 0 0\nouter loop\nvertex " + a + "\nvertex " + b + "\nvertex " + c +
+           "\nendloop\nendfacet\n";
+  };
+  return "solid " + name + "\n" + triangle(o, y, x) + triangle(y, xy, x) + triangle(z, xz, yz) +
+         triangle(xz, all, yz) + triangle(o, x, z) + triangle(x, xz, z) + triangle(y, yz, xy) +
+         triangle(yz, all, xy) + triangle(o, z, y) + triangle(z, yz, y) + triangle(x, xy, xz) +
+         triangle(xy, all, xz) + "endsolid\n";
+}
+
+TEST_F(OddFiles, AMarkOfUtf8StandsBeforeCaseAndTriangles) {
+  const std::string mark = "\xEF\xBB\xBF";
+  write("case.yaml", mark + fluid_case(write("marked.stl", mark + "\n\n" + cube_stl("box"))));
+  expect(0, "check case.yaml", {"a volume can be meshed"});
+  expect(0, "info " + path("marked.stl"), {"STL"});
+}
+
 // A mesh that was kept is not that of other points, though the file that the case names is the same.
 TEST_F(OddFiles, PointsBesideTheFileAreInTheHashOfTheInput) {
   const std::string facets =
