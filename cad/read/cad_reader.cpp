@@ -3,6 +3,7 @@
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/read/iges_columns.hpp"
 #include "cad/read/memory_file.hpp"
 #include "files/input_file.hpp"
 
@@ -196,8 +197,11 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
 
 /// What the CAD library has to read instead of the file; nothing where it can read the file.
 std::optional<std::string> readable_text(const std::string& file, const Ends& ends) {
-  if (ends.mark == 0) return std::nullopt;
-  return files::read_whole(file).substr(ends.mark);
+  const bool is_iges = recognise(ends) == Format::iges;
+  if (ends.mark == 0 && !is_iges) return std::nullopt;
+  const std::string text = files::read_whole(file).substr(ends.mark);
+  if (std::optional<std::string> right = is_iges ? with_right_columns(text) : std::nullopt) return right;
+  return ends.mark > 0 ? std::optional(text) : std::nullopt;
 }
 
 /// Messages name the file that the user knows.

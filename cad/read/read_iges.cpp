@@ -10,6 +10,9 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Standard_Failure.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopLoc_Location.hxx>
 #include <TransferBRep.hxx>
@@ -47,6 +50,43 @@ EntityNames names_in_iges(IGESControl_Reader& reader) {
   return names;
 }
 
+/// What the CAD library says of entities that it refuses, the first few: "entity 12 (type 126): ...".
+std::string refusals_in(IGESControl_Reader& reader) {
+  constexpr int most = 3;
+  const Handle(IGESData_IGESModel) model = reader.IGESModel();
+  std::string text;
+  int refused = 0;
+  const auto add = [&](int number, const Handle(Interface_Check) & check) {
+    if (check.IsNull() || !check->HasFailed() || ++refused > most) return;
+    const Handle(IGESData_IGESEntity) entity = model->Entity(number);
+    text += fmt::format("; entity {} (type {}): {}", number, entity.IsNull() ? 0 : entity->TypeNumber(),
+                        check->CFail(1));
+  };
+  for (int i = 1; i <= model->NbEntities(); ++i) add(i, model->Check(i, true));
+  if (refused == 0) {
+    Interface_CheckIterator checks = reader.WS()->TransferReader()->TransientProcess()->CheckList(true);
+    for (checks.Start(); checks.More(); checks.Next())
+      if (checks.Number() > 0) add(checks.Number(), checks.Value());
+  }
+  return refused > most ? fmt::format("{}; and {} more", text, refused - most) : text;
+}
+
+/// The document with the shapes of the file. Throws CadError with what the library says.
+Handle(TDocStd_Document) transfer_iges(IGESCAFControl_Reader& reader, const std::string& file) {
+  Handle(TDocStd_Document) document = make_document();
+  std::string why = "without shapes";
+  try {
+    if (reader.Transfer(document)) return document;
+  } catch (const Standard_Failure& failure) {
+    const char* const words = failure.GetMessageString();
+    why =
+        fmt::format("that the CAD library cannot read{}{}", words && *words ? ": " : "", words ? words : "");
+  }
+  throw CadError(
+      fmt::format("'{}': an IGES file {}{}. Remedy: export it again, as STEP where that is possible", file,
+                  why, refusals_in(reader)));
+}
+
 }  // namespace
 
 NamedShape read_iges(const std::string& file) {
@@ -61,8 +101,7 @@ NamedShape read_iges(const std::string& file) {
   const LengthUnit* declared = unit_of_section(reader.IGESModel()->GlobalSection());
   const LengthUnit& unit = declared ? *declared : millimetre();
   set_cad_library_unit(unit);
-  Handle(TDocStd_Document) document = make_document();
-  if (!reader.Transfer(document)) throw CadError(fmt::format("'{}': an IGES file without shapes", file));
+  const Handle(TDocStd_Document) document = transfer_iges(reader, file);
   NamedShape named = collect_parts(document, names_in_iges(reader));
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
