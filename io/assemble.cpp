@@ -1,3 +1,4 @@
+#include "files/names.hpp"
 #include "geometry/predicates.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
@@ -5,6 +6,7 @@
 #include "mesh/transfer/build_pieces.hpp"
 #include "mesh/transfer/id_table.hpp"
 #include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -250,11 +252,21 @@ void agree_on(const SharedPath& file, const Work& work) {
   });
 }
 
+/// All ranks have the same names.
+void bound_names(RawMesh& raw) {
+  std::size_t cut = 0;
+  for (mesh::Patch& patch : raw.patches) cut += files::cut_long_name(patch.name) ? 1 : 0;
+  for (std::string& region : raw.regions) cut += files::cut_long_name(region) ? 1 : 0;
+  if (cut > 0 && raw.file.communicator.is_root())
+    parallel::log_warning(fmt::format("'{}': {}", raw.file.path, files::long_names_text(cut)));
+}
+
 }  // namespace
 
 Assembled assemble(RawMesh raw, std::int32_t parts) {
   const parallel::Communicator& communicator = raw.file.communicator;
   agree_on(raw.file, [&] { require_sound(raw); });
+  bound_names(raw);
   const CellPlaces places = place_cells(raw);
   if (places.total == 0) refuse(raw.file, "there are no tetrahedra, pyramids or prisms in it");
   if (parts <= 0) parts = suitable_parts(places.total);

@@ -14,6 +14,7 @@
 #include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
+#include "files/names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +93,9 @@ FluidShape surround_bodies(NamedShape solids, const DomainOptions& options, cons
 
 FluidShape make_fluid(const DomainOptions& options, const std::string& distrust, Volumes& volumes,
                       Changes& changes) {
-  NamedShape solids = make_solids(read_source(options), options.smallest_size, volumes, changes);
+  NamedShape source = read_source(options);
+  if (source.cut_names > 0) changes.push_back({files::long_names_text(source.cut_names), {}, 0, true});
+  NamedShape solids = make_solids(std::move(source), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();

@@ -6,6 +6,7 @@
 #include "cad/faceted/facet_solids.hpp"
 #include "cad/faceted/features.hpp"
 #include "cad/faceted/unite_components.hpp"
+#include "files/names.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 
@@ -157,6 +158,7 @@ bool unite_solids(FacetSoup& soup, FacetSolids& solids, bool& imprinted, Changes
 
 FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
                                 CrossingFacets crossing, const std::vector<std::string>& voids) {
+  if (soup.cut_names > 0) changes.push_back({files::long_names_text(soup.cut_names), {}, 0, true});
   FacetSolids solids = close_soup(soup, changes);
   bool imprinted = false;
   const bool united = crossing == CrossingFacets::unite && unite_solids(soup, solids, imprinted, changes);

@@ -3,6 +3,7 @@
 #include "cad/faceted/plane_graph.hpp"
 #include "cad/model/model.hpp"
 #include "files/input_file.hpp"
+#include "files/names.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -50,6 +51,12 @@ std::vector<geometry::TriangleCorners> cut_polygon(std::span<const geometry::Vec
   std::vector<geometry::TriangleCorners> fan;
   for (std::int32_t i = 1; i + 1 < count; ++i) fan.push_back({0, i, i + 1});
   return fan;
+}
+
+void bound_names(FacetSoup& soup) {
+  const auto bound = [&](std::string& name) { soup.cut_names += files::cut_long_name(name) ? 1 : 0; };
+  for (FacetSoup::Group& group : soup.groups) bound(group.name), bound(group.part);
+  for (FacetSoup::RegionPoint& region : soup.regions) bound(region.name);
 }
 
 }  // namespace
@@ -105,6 +112,7 @@ FacetSoup read_facets(const std::string& file) {
   }
   FacetSoup soup = format->read(load_facet_file(file));
   soup.file = file;
+  bound_names(soup);
   if (soup.points.size() > most_items || soup.triangles.size() > most_items)
     throw CadError(fmt::format("{} has more than {} points or triangles; coarsen it", file, most_items));
   if (soup.triangles.empty())

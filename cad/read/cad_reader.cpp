@@ -6,6 +6,7 @@
 #include "cad/read/iges_columns.hpp"
 #include "cad/read/memory_file.hpp"
 #include "files/input_file.hpp"
+#include "files/names.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -222,7 +223,10 @@ void number_faces(NamedShape& named) {
   const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
   for (int i = 1; i <= faces.Extent(); ++i) {
     if (!named.labels.IsBound(faces(i))) named.labels.Bind(faces(i), FaceLabel{});
-    named.labels.ChangeFind(faces(i)).number = i - 1;
+    FaceLabel& label = named.labels.ChangeFind(faces(i));
+    label.number = i - 1;
+    for (std::string* name : {&label.name, &label.layer, &label.solid})
+      named.cut_names += files::cut_long_name(*name) ? 1 : 0;
   }
 }
 

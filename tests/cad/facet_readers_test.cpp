@@ -1,6 +1,7 @@
 // Faceted files of all formats, and damaged ones.
 #include "cad/faceted/facet_facts.hpp"
 #include "cad/faceted/facet_soup.hpp"
+#include "cad/faceted/make_facet_complex.hpp"
 #include "cad/model/model.hpp"
 #include "tests/cad/faceted_shapes.hpp"
 #include "tests/cad/real_files.hpp"
@@ -87,6 +88,26 @@ TEST(FacetReaders, BinaryFilesEndWhereTheirCountsSay) {
   }
   EXPECT_NE(refusal("c.ply", faceted::ply_bytes(box, true) + "x").find("but 1 bytes follow"),
             std::string::npos);
+}
+
+TEST(FacetReaders, LongNamesAreCutAndStayDifferent) {
+  const std::string same(200'000, 'n');
+  const FacetSoup soup =
+      read_text("long.stl", faceted::ascii_stl(box, same + "a") +
+                                faceted::ascii_stl(box_soup({5, 0, 0}, {6, 1, 1}), same + "b"));
+  ASSERT_EQ(soup.groups.size(), 2U);
+  EXPECT_EQ(soup.cut_names, 2U);
+  for (const FacetSoup::Group& group : soup.groups) EXPECT_LE(group.name.size(), 4096U);
+  EXPECT_NE(soup.groups[0].name, soup.groups[1].name);
+  Changes changes;
+  make_facet_complex(soup, 0.5, changes, CrossingFacets::refuse);
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.front().what, "2 names are longer than 4096 bytes: only their beginnings are read");
+  EXPECT_TRUE(changes.front().is_warning);
+  std::string letters;
+  for (int i = 0; i < 3000; ++i) letters += "\xC3\xBC";
+  const std::string cut = read_text("letters.stl", faceted::ascii_stl(box, letters)).groups[0].name;
+  EXPECT_EQ(cut.find('~') % 2, 0U) << "cut within a letter";
 }
 
 TEST(FacetReaders, WhatIsNoFacetedFileIsTold) {

@@ -1,6 +1,7 @@
 // Runs on files that no program should write, but some do.
 #include "tests/pipeline/command_line.hpp"
 
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,8 @@
 
 namespace aeroloom::pipeline {
 namespace {
+
+namespace fs = std::filesystem;
 
 class OddFiles : public CommandLine {
 protected:
@@ -29,6 +32,16 @@ std::string cube_stl(const std::string& name, const std::string& zero = "0") {
          triangle(xz, all, yz) + triangle(o, x, z) + triangle(x, xz, z) + triangle(y, yz, xy) +
          triangle(yz, all, xy) + triangle(o, z, y) + triangle(z, yz, y) + triangle(x, xy, xz) +
          triangle(xy, all, xz) + "endsolid\n";
+}
+
+TEST_F(OddFiles, NamesWithoutEndAreCutAndSaid) {
+  write("case.yaml", fluid_case(write("long.stl", cube_stl(std::string(2'000'000, 'n')))));
+  expect(0, "run case.yaml", {"1 names are longer than 4096 bytes"});
+  if (!world.is_root()) return;
+  std::uintmax_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "out"))
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  EXPECT_LT(bytes, 2'000'000U);
 }
 
 TEST_F(OddFiles, AMarkOfUtf8StandsBeforeCaseAndTriangles) {
