@@ -44,6 +44,7 @@ struct FacetSoup {
   std::vector<geometry::Vec3> holes;  ///< points in spaces that are not material
   std::vector<RegionPoint> regions;   ///< points in spaces with a name
   std::size_t cut_names = 0;          ///< names that were too long (files::longest_name)
+  std::size_t zeroed = 0;             ///< coordinates that bound_coordinates() has set to zero
 };
 
 inline geometry::Box box_of_points(const std::vector<geometry::Vec3>& points) {
@@ -78,6 +79,12 @@ bool is_faceted_file(const std::string& file);
 /// The file of points that a file of triangles refers to instead of having its own: NAME.node beside a .poly
 /// or .smesh whose number of points is 0. Nothing for all others, and for files that cannot be read.
 std::optional<std::string> points_beside(const std::string& file);
+
+/// Sets coordinates to zero that are smaller than 2^-120 of the largest one, or than 1e-45: no arithmetic on
+/// the body tells them apart, but products of them leave the range of numbers, and exact predicates are exact
+/// no more.
+/// Throws CadError where the largest coordinate is above 1e30 or, unless it is 0, below 1e-30.
+void bound_coordinates(FacetSoup& soup);
 
 /// Throws CadError with line or byte for files that are damaged, empty or of another format, and
 /// std::ios_base::failure if the file cannot be opened.

@@ -71,6 +71,7 @@ FacetSoup read_bodies(const std::string& file, double scale, double feature_angl
     for (Vec3& p : soup.points) p = scale * p;
     for (Vec3& p : soup.holes) p = scale * p;
     for (auto& region : soup.regions) region.point = scale * region.point;
+    bound_coordinates(soup);
   }
   const FacetComplex complex =
       make_facet_complex(std::move(soup), feature_angle * geometry::degree, changes, CrossingFacets::unite);

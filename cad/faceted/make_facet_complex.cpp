@@ -159,6 +159,10 @@ bool unite_solids(FacetSoup& soup, FacetSolids& solids, bool& imprinted, Changes
 FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
                                 CrossingFacets crossing, const std::vector<std::string>& voids) {
   if (soup.cut_names > 0) changes.push_back({files::long_names_text(soup.cut_names), {}, 0, true});
+  if (soup.zeroed > 0) {
+    changes.push_back({fmt::format(
+        "{} coordinates are so small beside the largest one that they count as zero", soup.zeroed)});
+  }
   FacetSolids solids = close_soup(soup, changes);
   bool imprinted = false;
   const bool united = crossing == CrossingFacets::unite && unite_solids(soup, solids, imprinted, changes);

@@ -113,6 +113,7 @@ FacetSoup read_facets(const std::string& file) {
   FacetSoup soup = format->read(load_facet_file(file));
   soup.file = file;
   bound_names(soup);
+  bound_coordinates(soup);
   if (soup.points.size() > most_items || soup.triangles.size() > most_items)
     throw CadError(fmt::format("{} has more than {} points or triangles; coarsen it", file, most_items));
   if (soup.triangles.empty())

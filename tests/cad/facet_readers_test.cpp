@@ -110,6 +110,26 @@ TEST(FacetReaders, LongNamesAreCutAndStayDifferent) {
   EXPECT_EQ(cut.find('~') % 2, 0U) << "cut within a letter";
 }
 
+TEST(FacetReaders, CoordinatesBeyondArithmeticAreZeroOrRefused) {
+  std::string text = faceted::off_text(box);
+  const auto with = [&](const std::string& value) {
+    std::string changed = text;
+    const std::size_t at = changed.find(" 0 ");
+    return at == std::string::npos ? changed : changed.replace(at + 1, 1, value);
+  };
+  ASSERT_NE(with("1e-320"), text);
+  for (const char* tiny : {"1e-320", "-4e-310", "1e-40"}) {
+    const FacetSoup soup = read_text("tiny.off", with(tiny));
+    EXPECT_EQ(soup.zeroed, 1U) << tiny;
+    expect_box(soup);
+  }
+  EXPECT_EQ(read_text("noise.off", with("1e-17")).zeroed, 0U);
+  EXPECT_NE(refusal("huge.off", with("1e35")).find("the largest coordinate is 1e+35"), std::string::npos);
+  EXPECT_NE(refusal("dust.off", "OFF\n3 1 0\n0 0 0\n1e-35 0 0\n0 1e-35 0\n3 0 1 2\n")
+                .find("the largest coordinate is 1e-35"),
+            std::string::npos);
+}
+
 TEST(FacetReaders, WhatIsNoFacetedFileIsTold) {
   const TemporaryFile step("model.step", "ISO-10303-21;");
   EXPECT_FALSE(is_faceted_file(step.path()));

@@ -34,6 +34,12 @@ std::string cube_stl(const std::string& name, const std::string& zero = "0") {
          triangle(xy, all, xz) + "endsolid\n";
 }
 
+TEST_F(OddFiles, ADenormalCoordinateIsZero) {
+  write("case.yaml", fluid_case(write("tiny.stl", cube_stl("box", "1e-320"))));
+  expect(0, "run case.yaml", {"1 coordinates are so small"});
+  EXPECT_NEAR(read_json("out/report.json")["mesh"]["volume"].get<double>(), 1, 1e-12);
+}
+
 TEST_F(OddFiles, NamesWithoutEndAreCutAndSaid) {
   write("case.yaml", fluid_case(write("long.stl", cube_stl(std::string(2'000'000, 'n')))));
   expect(0, "run case.yaml", {"1 names are longer than 4096 bytes"});
