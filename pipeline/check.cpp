@@ -53,9 +53,10 @@ study::WorthwhileRanks worthwhile_ranks(const parallel::Communicator& communicat
   return predicted_ranks(study::costs_of(measured, tasks), forecast.findings.counts, forecast.layers, input);
 }
 
-/// The clock has the stage `geometry`.
-RunForecast forecast_run(const parallel::Communicator& communicator, const cases::TypedPatches& patches,
-                         const cases::Case& input, parallel::StageClock& clock) {
+/// The clock has the stage `geometry`. `scales`: of the family.
+RunForecast forecast_run(const cases::TypedPatches& patches, const cases::Case& input,
+                         const std::vector<double>& scales, parallel::StageClock& clock,
+                         const parallel::Communicator& communicator) {
   RunForecast forecast;
   const double begin = parallel::cpu_seconds();
   clock.begin("sizing");
@@ -74,7 +75,9 @@ RunForecast forecast_run(const parallel::Communicator& communicator, const cases
   forecast.seconds = predicted_seconds(forecast.findings.counts);
   forecast.bytes = predicted_bytes(forecast.findings.counts, communicator.size());
   parallel::agree(communicator, [&] {
-    if (!communicator.is_root() || !input.layers.given) return;
+    if (!communicator.is_root()) return;
+    forecast.family = forecast_family(scales, sized, patches.types, input, communicator.size());
+    if (!input.layers.given) return;
     forecast.layers = forecast_layers(sized.model, patches.types, input, sized.field);
     forecast.seconds += forecast.layers->seconds();
     forecast.bytes += forecast.layers->bytes();
@@ -175,13 +178,14 @@ std::string describe_forecast(const RunForecast& forecast, int ranks) {
              "       {} rank(s) work with 80 % efficiency ({} where geometry does not count), {:.2g} s, "
              "{:.2g} GiB on the largest\n"
              "       pieces that suit {} rank(s): surface.piece_triangles {}, volume.piece_tets {}\n"
-             "{}{}\n",
+             "{}{}{}\n",
              forecast.sizes.minimum, forecast.sizes.maximum, forecast.sizes.curvature_angle,
              forecast.layers ? describe(*forecast.layers) : "", findings.counts.triangles,
              findings.counts.tetrahedra, forecast.seconds, forecast.bytes / parallel::gibibyte,
              forecast.worthwhile.ranks, forecast.worthwhile.ranks_without_geometry,
              forecast.worthwhile.seconds, forecast.worthwhile.bytes_per_rank / parallel::gibibyte, ranks,
              forecast.piece_triangles, forecast.piece_tets, describe(forecast.levels),
+             describe(forecast.family),
              coincident.empty() ? "a volume can be meshed" : "no volume can be meshed: " + coincident);
 }
 
@@ -248,6 +252,7 @@ Json forecast_json(const RunForecast& forecast) {
           {"bytes", forecast.bytes},
           {"layers", forecast.layers ? to_json(*forecast.layers) : Json()},
           {"levels", to_json(forecast.levels)},
+          {"family", to_json(forecast.family)},
           {"level", forecast.found ? to_json(*forecast.found) : Json()},
           {"scaling", study::to_json(forecast.worthwhile, {})},
           {"piece_triangles", forecast.piece_triangles},
@@ -298,7 +303,9 @@ void print_record(const cases::Case& input, const CheckRecord& record, int ranks
 
 }  // namespace
 
-report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input) {
+report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input,
+                            const FamilyRequest& family) {
+  const std::vector<double> scales = scales_of(family, input);
   CheckRecord record;
   parallel::StageClock clock;
   clock.begin("geometry");
@@ -321,7 +328,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
-    record.forecast = forecast_run(communicator, patches, input, clock);
+    record.forecast = forecast_run(patches, input, scales, clock, communicator);
     parallel::on_root(communicator, [&] {
       record.contacts = find_face_contacts(model, shown_contacts, record.contact_count);
     });

@@ -6,6 +6,7 @@
 #include "pipeline/case/case.hpp"
 #include "pipeline/domain/level_findings.hpp"
 #include "pipeline/domain/sizing_findings.hpp"
+#include "pipeline/family_forecast.hpp"
 #include "pipeline/layer_forecast.hpp"
 #include "pipeline/level_forecast.hpp"
 #include "pipeline/report/exit_code.hpp"
@@ -34,6 +35,7 @@ struct RunForecast {
   double bytes = 0;                                  ///< of memory, all ranks together, layers included
   std::vector<LevelForecast> levels;                 ///< all levels of the same kind; empty without a level
   std::optional<domain::LevelFindings> found;        ///< by the level
+  std::vector<FamilyLevel> family;                   ///< the levels asked for; on rank 0
   study::WorthwhileRanks worthwhile;                 ///< useful number of ranks
   std::int64_t piece_triangles = 0, piece_tets = 0;  ///< so that each rank gets several pieces
 };
@@ -51,7 +53,8 @@ std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t
 
 /// Diagnoses the geometry, prints the result on rank 0 and writes check.json (a warning if that fails).
 /// Returns ok if a volume can be meshed, else cad. Collective. Throws CollectiveError if the geometry cannot
-/// be read, std::invalid_argument for a patch rule that matches no face.
-report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input);
+/// be read, std::invalid_argument for a patch rule that matches no face and for an impossible family.
+report::ExitCode check_case(const parallel::Communicator& communicator, const cases::Case& input,
+                            const FamilyRequest& family = {});
 
 }  // namespace aeroloom::pipeline

@@ -4,6 +4,7 @@
 #include "pipeline/case/group_keys.hpp"
 #include "pipeline/case/layer_keys.hpp"
 #include "pipeline/case/level_keys.hpp"
+#include "pipeline/case/scale_keys.hpp"
 #include "pipeline/case/source_keys.hpp"
 #include "pipeline/case/wall_keys.hpp"
 
@@ -89,6 +90,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   check_expression(keys, draft.result.sizing.expression);
   check_levels(keys, draft.result.sizing);
   check_layers(keys, draft);
+  check_scale(keys, draft);
   check_sources(keys, draft.sources);
   check_groups(keys, draft.groups, draft.patches);
   for (const PatchRule& rule : draft.patches)

@@ -65,6 +65,8 @@ struct SizingRequest : sizing::GivenSizes {
   std::optional<double> target_tetrahedra;
   /// Chosen sizes may resolve features finer than `minimum` up to this factor times the target count.
   double feature_budget = sizing::default_feature_budget;
+  /// Factor on all sizes, chosen ones included, after they were chosen. In (0, inf).
+  double scale = 1;
   /// Length of the case's unit for sizes and places, in the model's unit; left out: 1.
   std::optional<double> reference_length;
   std::string expression;              ///< size as a formula of the place; empty: none

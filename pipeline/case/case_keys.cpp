@@ -2,6 +2,7 @@
 
 #include "pipeline/case/layer_keys.hpp"
 #include "pipeline/case/level_keys.hpp"
+#include "pipeline/case/scale_keys.hpp"
 #include "pipeline/case/wall_keys.hpp"
 #include "sizing/field/size_field.hpp"
 
@@ -63,6 +64,7 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
       "Features finer than the minimum, then gaps between walls, come on top of the target, up to "
       "this many times it in all. Beyond it, narrow regions get long triangles; the log, the report and "
       "`check` name them and what they would take.");
+  declare_scale(keys, sizing);
   declare_levels(keys, sizing);
   declare_expression(keys, sizing.expression);
   declare_sources(keys, draft.sources);

@@ -1,5 +1,6 @@
 #include "pipeline/case/layer_rules.hpp"
 
+#include "layers/column_heights.hpp"
 #include "pipeline/case/case.hpp"
 #include "pipeline/case/nearest_name.hpp"
 
@@ -40,6 +41,22 @@ layers::WallLayers layers_of_patch(const LayerRule& rule, layers::WallLayers wan
   return wanted;
 }
 
+/// The number of layers that take the place of `count` layers which are as many times higher.
+std::int32_t count_at_scale(std::int32_t count, double scale) {
+  const double scaled = std::round(count / scale);
+  return static_cast<std::int32_t>(std::clamp<double>(scaled, 1, std::max(count, layers::most_layers)));
+}
+
+/// The layers of a mesh whose sizes are `scale` times as large: as high together, of as many fewer layers.
+layers::WallLayers at_scale(layers::WallLayers wanted, double scale) {
+  if (scale == 1 || wanted.first <= 0) return wanted;
+  wanted.first *= scale;
+  wanted.growth = std::pow(wanted.growth, scale);
+  wanted.constant = count_at_scale(wanted.constant, scale);
+  if (wanted.count > 0) wanted.count = count_at_scale(wanted.count, scale);
+  return wanted;
+}
+
 std::size_t patch_of_rule(const LayerRule& rule, const std::vector<std::string>& patches,
                           const std::vector<mesh::PatchType>& types) {
   const auto found = std::find(patches.begin(), patches.end(), rule.name);
@@ -74,7 +91,7 @@ double y_plus_of(double first, double reynolds, double length) {
 layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
                                  const LayerRule* rule) {
   const layers::WallLayers of_walls = layers_of_walls(request, sizing);
-  return rule != nullptr ? layers_of_patch(*rule, of_walls) : of_walls;
+  return at_scale(rule != nullptr ? layers_of_patch(*rule, of_walls) : of_walls, sizing.scale);
 }
 
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,

@@ -58,7 +58,8 @@ double y_plus_of(double first, double reynolds, double length);
 
 struct SizingRequest;
 
-/// The layers that the case asks for on a wall; by `rule` where the patch has one, else as on all walls.
+/// The layers that the case asks for on a wall, at the scale of the sizes; by `rule` where the patch has one,
+/// else as on all walls.
 layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
                                  const LayerRule* rule = nullptr);
 

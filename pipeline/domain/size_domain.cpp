@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -219,11 +220,31 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   SizedDomain sized = closed ? size_domain_near(communicator, *closed, request,
                                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, aim)
                              : finish(*factory, request, trial, std::move(what), aim.purpose);
-  if (!closed) sized.findings.walls = report_walls(model, coincident, *factory, sized.field);
+  if (!closed)
+    sized.findings.walls = report_walls(model, coincident, *factory, sized.field.scaled(asked.scale));
   judge_again(report, sized.sizes);
   sized.findings.edges = std::move(report);
   if (of_level) sized.level = of_level->level, sized.found = std::move(of_level->found);
   return sized;
+}
+
+/// All sizes times the factor, and what was found about them. The model stays: which faces are narrow and
+/// which edges are closed is the same for all factors, so that meshes of a family have one geometry.
+void scale_sizes(SizedDomain& sized, double factor) {
+  sized.sizes = sizing::at_scale(sized.sizes, factor);
+  sized.field = sized.field.scaled(factor);
+  SizingFindings& findings = sized.findings;
+  findings.counts = sizing::at_scale(findings.counts, factor);
+  for (NamedBound& bound : findings.bounded) bound.degrees = std::min(180.0, factor * bound.degrees);
+  if (!findings.features) return;
+  FeatureReport& features = *findings.features;
+  features.tetrahedra = findings.counts.tetrahedra;
+  for (double* length : {&features.resolution.aspect, &features.resolution.floor,
+                         &features.resolution.minimum, &features.resolution.gap_floor})
+    *length *= factor;
+  for (UnresolvedRegion& region : features.regions)
+    region.surface_degrees = std::atan(std::tan(region.surface_degrees * std::numbers::pi / 180) / factor) *
+                             180 / std::numbers::pi;
 }
 
 }  // namespace
@@ -238,7 +259,12 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
                         sizing::FieldFor purpose) {
   const cases::SizingRequest request = cases::in_model_units(given);
   sizing::require_faces(model, requests_of(request));
-  return size_domain_near(communicator, model, request, simplification, {purpose, {}});
+  SizedDomain sized = size_domain_near(communicator, model, request, simplification, {purpose, {}});
+  if (request.scale == 1) return sized;
+  scale_sizes(sized, request.scale);
+  if (communicator.is_root())
+    parallel::log_info(fmt::format("sizing: all sizes times {:.6g} (sizing.scale)", request.scale));
+  return sized;
 }
 
 }  // namespace aeroloom::domain

@@ -35,8 +35,9 @@ struct SizedDomain {
 
 /// Chooses all sizes that the user left open, within the bounds that the user gave. Closes blunt trailing
 /// edges that trial sizes do not resolve if that moves little, joins narrow faces, and builds the size field.
-/// Field and counts may be approximate for a forecast. Equal on every rank. Collective. Throws
-/// std::invalid_argument for contradicting requests.
+/// All of this is as at scale 1; then sizes, field and counts are those of the request's scale. Field and
+/// counts may be approximate for a forecast. Equal on every rank. Collective. Throws std::invalid_argument
+/// for contradicting requests.
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const cases::SizingRequest& request, const Simplification& simplification,
                         sizing::FieldFor purpose = sizing::FieldFor::mesh);

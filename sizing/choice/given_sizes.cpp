@@ -1,6 +1,7 @@
 #include "sizing/choice/given_sizes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -33,6 +34,23 @@ SizingOptions with_given(const SizingOptions& options, const GivenSizes& given) 
   }
   if (given.feature_minimum) sizes.feature_minimum = *given.feature_minimum, sizes.narrow_minimum = 0;
   return sizes;
+}
+
+SizingOptions at_scale(const SizingOptions& options, double factor) {
+  SizingOptions sizes = options;
+  for (double* size : {&sizes.minimum, &sizes.maximum, &sizes.surface_maximum, &sizes.feature_minimum,
+                       &sizes.narrow_minimum, &sizes.gap_minimum, &sizes.curvature_angle})
+    *size *= factor;
+  sizes.feature_aspect = std::max(1.0, sizes.feature_aspect * factor);
+  sizes.chordal_deviation *= factor * factor;
+  sizes.growth = std::pow(sizes.growth, factor);
+  sizes.proximity /= factor;
+  if (sizes.gap_proximity > 0) sizes.gap_proximity /= factor;
+  return sizes;
+}
+
+PredictedCounts at_scale(const PredictedCounts& counts, double factor) {
+  return {counts.triangles / (factor * factor), counts.tetrahedra / (factor * factor * factor)};
 }
 
 }  // namespace aeroloom::sizing

@@ -28,6 +28,13 @@ struct GivenSizes {
 /// bounds contradict each other.
 SizingOptions with_given(const SizingOptions& options, const GivenSizes& given);
 
+/// The options of the field whose sizes are `factor` times as large everywhere (SizeField::scaled()):
+/// lengths, the angle and the aspect times the factor, the deviation times its square, growth to its power,
+/// elements across gaps divided by it.
+SizingOptions at_scale(const SizingOptions& options, double factor);
+/// The counts of that field.
+PredictedCounts at_scale(const PredictedCounts& counts, double factor);
+
 /// What a field is for: a mesh, or a forecast of the size of that mesh.
 enum class FieldFor : bool { mesh, forecast };
 

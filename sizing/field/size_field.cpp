@@ -69,6 +69,8 @@ double SizeField::interpolate(double dx, double dy, double dz) const {
 SizeField SizeField::scaled(double factor) const {
   SizeField result = *this;
   for (double SizingOptions::*length : lengths) result._options.*length *= factor;
+  // Sizes grow by as much more for each length.
+  result._options.growth = std::pow(_options.growth, factor);
   result._factor *= factor;
   return result;
 }

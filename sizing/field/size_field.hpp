@@ -117,7 +117,7 @@ public:
   static SizeField unpack(const parallel::Communicator& communicator, std::span<const std::byte> bytes);
   /// Fields with equal digests have equal sizes everywhere.
   parallel::Digest digest() const;
-  /// The field with all sizes and lengths `factor` times as large. It shares the memory of this one.
+  /// The field with all sizes and lengths `factor` times as large, growth to its power. It shares memory.
   SizeField scaled(double factor) const;
 
 private:

@@ -153,6 +153,44 @@ TEST_F(CheckCommandLocal, TellsOfLayersAndOfRoomForThem) {
   EXPECT_GT(cells, 1000);
 }
 
+// Layers too: half as high at first, twice as many, as high together.
+TEST_F(CheckCommandLocal, TellsOfAFamilyWhatEachOfItsCasesSays) {
+  const std::string layered = coarse_duct() + "layers: {first: 0.004, growth: 1.44, count: 4}\n";
+  const Json record = check(0, layered);
+  EXPECT_TRUE(record["forecast"]["family"].empty());
+  const CommandResult table =
+      expect(0, "check case.yaml --levels 3 --ratio 2", {"family: sizing.scale", " 0.25 "});
+  const Json family = read_json("out/check.json")["forecast"]["family"];
+  ASSERT_EQ(family.size(), 3u) << table;
+  EXPECT_EQ(family[0]["scale"], 1);
+  EXPECT_EQ(family[0]["tetrahedra"], record["forecast"]["tetrahedra"]);
+  for (const auto& [level, scale] : {std::pair(1, "0.5"), std::pair(2, "0.25")}) {
+    expect(0, std::string("check case.yaml --set sizing.scale=") + scale,
+           {std::string("all sizes times ") + scale});
+    const Json forecast = read_json("out/check.json")["forecast"];
+    for (const char* const number : {"tetrahedra", "triangles", "minimum", "maximum", "bytes"})
+      EXPECT_NEAR(family[level][number].get<double>() / forecast[number].get<double>(), 1, 1e-9) << number;
+    EXPECT_NEAR(family[level]["layer_cells"].get<double>() / forecast["layers"]["cells"].get<double>(), 1,
+                1e-9);
+    EXPECT_NEAR(family[level]["layer_first"].get<double>() * (1 << level), 0.004, 1e-12);
+    EXPECT_NEAR(family[level]["layer_total"].get<double>() / family[0]["layer_total"].get<double>(), 1, 0.25);
+  }
+  expect(2, "check case.yaml --levels 3 --ratio 1", {"--ratio is 1", "Remedy"});
+  expect(2, "check case.yaml --levels 10 --ratio 3", {"fewer levels"});
+  expect(2, "check case.yaml --levels 3 --ratio 0.4", {"'layers.growth'", "to that power"});
+  expect(2, "check case.yaml --ratio 2", {"--levels"});
+}
+
+TEST_F(CheckCommandLocal, ARunHasTheScaleOfItsCase) {
+  write("case.yaml", coarse_duct());
+  std::map<std::string, double> cells;
+  for (const std::string scale : {"1", "1.5"}) {
+    expect(0, "run case.yaml --set sizing.scale=" + scale + " --set output.directory=out_" + scale);
+    cells[scale] = read_json("out_" + scale + "/report.json")["mesh"]["tetrahedra"];
+  }
+  EXPECT_LT(cells["1.5"], 0.6 * cells["1"]);
+}
+
 TEST_F(CheckCommand, PointsToWhatIsOpen) {
   const Json record =
       check(3, fmt::format("geometry: {{file: '{}/tests/data/open_shell.step'}}\n", source_tree().string()),

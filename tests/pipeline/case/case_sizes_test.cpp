@@ -91,5 +91,23 @@ TEST_F(CaseTest, WallsWakesAndEdgesHaveWhatTheyNeed) {
   EXPECT_NE(refused(wake + "[1, 0, 0], behind: b, radius: 1}}").find("has no 'radius'"), std::string::npos);
 }
 
+TEST_F(CaseTest, AScaleComesBackAndIsNotOneThatGrowthForbids) {
+  EXPECT_EQ(read(transport).sizing.scale, 1);
+  const Case input = read(transport + "sizing: {scale: 0.75}\n");
+  EXPECT_EQ(case_of_resolved(resolved_yaml(input)).sizing.scale, 0.75);
+  const auto refused = [&](const std::string& text) { return error_of(transport + text); };
+  const std::string sizes = refused("sizing:\n  growth: 2\n  scale: 2\n");
+  EXPECT_NE(sizes.find("case.yaml:4"), std::string::npos) << sizes;
+  EXPECT_NE(sizes.find("'sizing.growth', 2, to that power is 4"), std::string::npos) << sizes;
+  EXPECT_NE(sizes.find("a scale of at most 1.58"), std::string::npos) << sizes;
+  EXPECT_EQ(refused("sizing: {growth: 2, scale: 1.5}\n"), "no error");
+  EXPECT_NE(refused("sizing: {scale: 3}\nlayers: {first: 1e-3, growth: 1.3}\n").find("'layers.growth', 1.3"),
+            std::string::npos);
+  EXPECT_NE(refused("sizing: {scale: 3}\nlayers: {first: 1e-3, patches: {wing: {growth: 1.3}}}\n")
+                .find("'layers.patches.wing.growth'"),
+            std::string::npos);
+  EXPECT_NE(refused("sizing: {scale: 0}\n").find("sizing.scale"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace aeroloom::cases

@@ -1,3 +1,4 @@
+#include "layers/column_heights.hpp"
 #include "pipeline/case/layer_rules.hpp"
 #include "tests/pipeline/case/case_fixture.hpp"
 
@@ -97,6 +98,35 @@ TEST_F(LayerKeys, PatchesMustBeWallsOfThisModel) {
             std::string::npos);
   EXPECT_NE(message("farfield: {count: 3}").find("is of type farfield"), std::string::npos);
   EXPECT_EQ(message("farfield: {count: 0}"), "");
+}
+
+// Sums of heights stay about the same, so that a family of meshes resolves the same part of the flow.
+TEST_F(LayerKeys, TakeTheScaleOfTheSizes) {
+  const std::string asked =
+      "first: 1e-3, growth: 1.21, constant: 4, count: 12, total: 0.5, patches: {fan: {growth: 1.21, count: "
+      "1}}";
+  const layers::LayerOptions fine = options_of(with_layers(asked, "sizing: {scale: 0.5}\n"));
+  EXPECT_EQ(fine.patches[0].first, 0.5e-3);
+  EXPECT_NEAR(fine.patches[0].growth, 1.1, 1e-12);
+  EXPECT_EQ(fine.patches[0].constant, 8);
+  EXPECT_EQ(fine.patches[0].count, 24);
+  EXPECT_EQ(fine.patches[0].total, 0.5);
+  EXPECT_NEAR(fine.patches[1].growth, 1.1, 1e-12);
+  EXPECT_EQ(fine.patches[1].count, 2);
+  EXPECT_EQ(fine.patches[2].first, 0) << "no wall";
+  const layers::LayerOptions coarse = options_of(with_layers(asked, "sizing: {scale: 2}\n"));
+  EXPECT_EQ(coarse.patches[0].constant, 2);
+  EXPECT_EQ(coarse.patches[0].count, 6);
+  EXPECT_EQ(coarse.patches[1].count, 1) << "at least one";
+  const layers::WallLayers until =
+      options_of(with_layers("first: 1e-3", "sizing: {scale: 0.5}\n")).patches[0];
+  EXPECT_EQ(until.count, 0) << "as many as it takes";
+  const auto height = [](const layers::WallLayers& wall) {
+    return layers::Heights{wall.first, wall.growth, wall.constant}.total(wall.count);
+  };
+  const double as_asked = height(options_of(with_layers(asked)).patches[0]);
+  EXPECT_NEAR(height(fine.patches[0]) / as_asked, 1, 0.1);
+  EXPECT_NEAR(height(coarse.patches[0]) / as_asked, 1, 0.1);
 }
 
 /// The workshops' tables: HLPW-3 medium and DPW-8's at 5 and 30 million, within 3 %.

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,41 @@ TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
 TEST(SizeDomain, LeavesFacesAsWideAsElements) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
   EXPECT_TRUE(size(model, 0.01, cases::NarrowFaces::join).findings.joined.changes.empty());
+}
+
+// Chosen sizes, given ones and those of regions alike; what is done to the model does not depend on the
+// scale.
+TEST(SizeDomain, AScaleMultipliesTheWholeField) {
+  const Model model = cad::shapes::split_cylinder(0.5, 1.5);
+  const auto world = parallel::Communicator::world();
+  const auto sized_at = [&](double scale, std::optional<double> target) {
+    cases::SizingRequest request;
+    if (target)
+      request.target_tetrahedra = *target;
+    else
+      request.minimum = 0.1, request.maximum = 1, request.chordal_deviation = 0.01;
+    request.sources.push_back({"ball", sizing::SphereShape{{0, 0, 1}, 0.2}, 0.06});
+    request.scale = scale;
+    return size_domain(world, model, request, {cases::NarrowFaces::join});
+  };
+  using Target = std::optional<double>;
+  for (const auto& [target, scale] : {std::pair(Target(), 0.4), {Target(20'000), 2.5}}) {
+    const SizedDomain one = sized_at(1, target), scaled = sized_at(scale, target);
+    EXPECT_EQ(scaled.model.face_count(), one.model.face_count());
+    EXPECT_EQ(scaled.findings.joined.changes.size(), one.findings.joined.changes.size());
+    for (int i = 0; i < 100; ++i) {
+      const geometry::Vec3 place{std::cos(0.7 * i) * 0.01 * i, std::sin(0.7 * i) * 0.01 * i, 0.02 * i};
+      ASSERT_NEAR(scaled.field(place) / one.field(place), scale, 1e-12 * scale);
+    }
+    EXPECT_NEAR(scaled.sizes.minimum, scale * one.sizes.minimum, 1e-12);
+    EXPECT_NEAR(std::log(scaled.field.options().growth), scale * std::log(one.sizes.growth), 1e-12);
+    EXPECT_NEAR(scaled.sizes.chordal_deviation, scale * scale * one.sizes.chordal_deviation, 1e-12);
+    const double fewer = std::pow(scale, 3) * scaled.findings.counts.tetrahedra;
+    EXPECT_NEAR(fewer / one.findings.counts.tetrahedra, 1, 1e-9);
+    const sizing::SampledModel sampled(world, scaled.model);
+    const double counted = sizing::predict_counts(sampled, scaled.field).tetrahedra;
+    EXPECT_NEAR(counted / scaled.findings.counts.tetrahedra, 1, 0.02) << "the field gives what is said";
+  }
 }
 
 // Sizes from the model go by what is left of it.

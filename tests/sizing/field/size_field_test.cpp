@@ -207,7 +207,7 @@ TEST(SizeFieldLocal, ScaledMultipliesEverySize) {
   }
 }
 
-TEST(SizeFieldLocal, ScaledMultipliesEveryLengthAndNothingElse) {
+TEST(SizeFieldLocal, ScaledMultipliesEveryLengthAndTheGradient) {
   SizingOptions given = options;
   given.surface_maximum = 1.25;
   given.feature_minimum = 0.001;
@@ -218,6 +218,7 @@ TEST(SizeFieldLocal, ScaledMultipliesEveryLengthAndNothingElse) {
   SizingOptions expected = given;
   expected.minimum *= 4, expected.maximum *= 4, expected.surface_maximum *= 4, expected.feature_minimum *= 4;
   expected.narrow_minimum *= 4, expected.gap_minimum *= 4, expected.chordal_deviation *= 4;
+  expected.growth = std::pow(given.growth, 4);
   EXPECT_EQ(SizeField::build(cube(10), {}, given).scaled(4).options(), expected);
 }
 
