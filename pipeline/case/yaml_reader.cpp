@@ -2,6 +2,7 @@
 
 #include "files/input_file.hpp"
 #include "pipeline/case/nearest_name.hpp"
+#include "pipeline/case/other_meshers.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -34,16 +35,6 @@ YAML::Node parse(const std::string& text, const std::string& name, bool position
   }
   if (documents.size() > 1) throw CaseError(name + ": several YAML documents, one is expected");
   return documents.empty() ? YAML::Node() : documents[0];
-}
-
-/// Advice for users who give a geometry where a case is expected.
-void require_no_geometry(const std::string& file) {
-  const std::string known = " .step .stp .iges .igs .brep .stl .obj .off .ply .poly .smesh ";
-  std::string end = std::filesystem::path(file).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (end.empty() || known.find(" " + end + " ") == std::string::npos) return;
-  throw CaseError(file + ": a geometry, but a case is expected. `aeroloom init case.yaml --geometry " + file +
-                  "` writes one");
 }
 
 }  // namespace
@@ -200,7 +191,9 @@ void KeyTable::read_file(const std::string& file) {
                     file, refusal->what));
   }
   require_no_geometry(file);
-  read_text(files::read_whole(file), file);
+  const std::string text = files::read_whole(file);
+  require_no_settings(file, text);
+  read_text(text, file);
 }
 
 void KeyTable::read_text(const std::string& text, const std::string& name) {
@@ -299,15 +292,19 @@ KeyTable::KeyEntry* KeyTable::find(const std::string& name) {
 std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) const {
   std::vector<std::string> here, everywhere;
   for (const KeyEntry& entry : _entries) here.push_back(entry.name);
-  if (const auto near = nearest_name(unknown, here)) return "did you mean '" + *near + "'?";
   root.collect_paths(everywhere);
   std::vector<std::string> last_names;
   last_names.reserve(everywhere.size());
   for (const std::string& path : everywhere) last_names.push_back(path.substr(path.rfind('.') + 1));
-  if (const auto near = nearest_name(unknown, last_names)) {
-    const auto found = std::find(last_names.begin(), last_names.end(), *near) - last_names.begin();
+  const auto path_of_last = [&](const std::string& name) {
+    const auto found = std::find(last_names.begin(), last_names.end(), name) - last_names.begin();
     return "did you mean '" + everywhere[static_cast<std::size_t>(found)] + "'?";
-  }
+  };
+  const bool is_elsewhere = std::find(last_names.begin(), last_names.end(), unknown) != last_names.end();
+  const auto answer = is_elsewhere ? std::nullopt : answer_to_key(unknown);
+  if (answer) return *answer;
+  if (const auto near = nearest_name(unknown, here)) return "did you mean '" + *near + "'?";
+  if (const auto near = nearest_name(unknown, last_names)) return path_of_last(*near);
   return "valid keys: " + joined(here);
 }
 

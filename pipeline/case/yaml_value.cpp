@@ -1,6 +1,7 @@
 #include "pipeline/case/yaml_value.hpp"
 
 #include "pipeline/case/case_error.hpp"
+#include "pipeline/case/other_meshers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,8 +96,9 @@ std::string Range::description() const {
   return unit.empty() ? text : text + " " + unit;
 }
 
-void YamlValue::refuse(const std::string& expectation) const {
-  throw CaseError(fmt::format("{}: '{}': expected {}, got {}", _where, _path, expectation, describe(_node)));
+void YamlValue::refuse(const std::string& expectation, const std::string& answer) const {
+  throw CaseError(
+      fmt::format("{}: '{}': expected {}, got {}{}", _where, _path, expectation, describe(_node), answer));
 }
 
 void YamlValue::require_within(double value, const Range& range) const {
@@ -212,7 +214,10 @@ std::pair<double, double> YamlValue::interval() const {
 
 std::size_t YamlValue::choice(const std::vector<std::string>& names) const {
   const auto found = _node.IsScalar() ? std::find(names.begin(), names.end(), _node.Scalar()) : names.end();
-  if (found == names.end()) refuse((names.size() > 1 ? "one of " : "") + joined(names));
+  if (found == names.end()) {
+    const auto answer = _node.IsScalar() ? answer_to_value(_node.Scalar()) : std::nullopt;
+    refuse((names.size() > 1 ? "one of " : "") + joined(names), answer ? "; " + *answer : "");
+  }
   return static_cast<std::size_t>(found - names.begin());
 }
 

@@ -60,7 +60,8 @@ public:
   std::vector<std::size_t> choices(const std::vector<std::string>& names) const;
 
 private:
-  [[noreturn]] void refuse(const std::string& expectation) const;
+  /// `answer`: what is said besides, with its semicolon.
+  [[noreturn]] void refuse(const std::string& expectation, const std::string& answer = "") const;
   void require_within(double value, const Range& range) const;
 
   const YAML::Node& _node;
