@@ -15,4 +15,7 @@ struct CommonCorners {
 /// common corners, and for a triangle of zero area with one that shares its side. Exact.
 bool meet_wrongly(const Vec3 (&a)[3], const Vec3 (&b)[3], const CommonCorners& common);
 
+/// The middle of what two triangles share, or of where they are nearest to each other. In floating point.
+Vec3 place_of_meeting(const Vec3 (&a)[3], const Vec3 (&b)[3]);
+
 }  // namespace aeroloom::geometry

@@ -23,7 +23,7 @@ namespace aeroloom::pipeline {
 /// is below the accuracy of the facets.
 struct FaceContact {
   cad::FaceId first, second;
-  geometry::Vec3 where;
+  geometry::Vec3 where;  ///< where their facets meet first, in the order of facets
 };
 
 /// The predicted cost of a run (constants: docs/usage.md).

@@ -1,3 +1,4 @@
+#include "geometry/triangle_contact.hpp"
 #include "mesh/checks/triangle_contact.hpp"
 #include "pipeline/check.hpp"
 #include "sizing/features/model_sources.hpp"
@@ -88,12 +89,12 @@ std::vector<FaceContact> find_face_contacts(const cad::Model& model, std::size_t
     tree.find_near(a.corners, 0, counts, near, nodes);
     for (const std::int32_t other : near) {
       const Facet& b = facets[other];
-      if (met.contains({a.face, b.face}) ||
-          !mesh::meet_wrongly(named(a, static_cast<std::int64_t>(i)), named(b, other)))
-        continue;
+      if (met.contains({a.face, b.face})) continue;
+      const mesh::NamedTriangle first = named(a, static_cast<std::int64_t>(i)), second = named(b, other);
+      if (!mesh::meet_wrongly(first, second)) continue;
       met.insert({a.face, b.face});
       if (contacts.size() < most)
-        contacts.push_back({a.face, b.face, (a.corners[0] + a.corners[1] + a.corners[2]) / 3});
+        contacts.push_back({a.face, b.face, geometry::place_of_meeting(first.points, second.points)});
     }
   }
   count = static_cast<std::int64_t>(met.size());

@@ -11,7 +11,14 @@
 #include <set>
 #include <string>
 
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Solid.hxx>
 #include <fmt/format.h>
+#include <gp_Ax2.hxx>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -189,6 +196,21 @@ TEST_F(CheckCommandLocal, ARunHasTheScaleOfItsCase) {
     cells[scale] = read_json("out_" + scale + "/report.json")["mesh"]["tetrahedra"];
   }
   EXPECT_LT(cells["1.5"], 0.6 * cells["1"]);
+}
+
+// A ball that is cut out of a cube touches a side from inside.
+TEST_F(CheckCommandLocal, PointsToWhereFacesTouch) {
+  TopoDS_Solid cube = BRepPrimAPI_MakeBox(1, 1, 1);
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Ax2({0.3, 0.4, 0.25}, {0, 0, -1}), 0.25);
+  BRep_Builder().Add(cube, TopExp_Explorer(ball, TopAbs_SHELL).Current().Reversed());
+  BRepTools::Write(cube, path("tangent.brep").c_str());
+  const Json contacts = check(0, "geometry: {file: " + path("tangent.brep") +
+                                     ", domain: fluid}\nsizing: {target_tetrahedra: 20000}\n")["contacts"];
+  ASSERT_EQ(contacts.size(), 1u);
+  const Json where = contacts[0]["where"];
+  EXPECT_NEAR(where[0].get<double>(), 0.3, 1e-3);
+  EXPECT_NEAR(where[1].get<double>(), 0.4, 1e-3);
+  EXPECT_NEAR(where[2].get<double>(), 0, 1e-3);
 }
 
 TEST_F(CheckCommand, PointsToWhatIsOpen) {
