@@ -6,6 +6,7 @@
 #include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/domain/face_patches.hpp"
+#include "pipeline/domain/length_ranges.hpp"
 #include "pipeline/domain/load_domain.hpp"
 #include "pipeline/domain/sandboxed_cad.hpp"
 #include "pipeline/domain/size_domain.hpp"
@@ -318,8 +319,9 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (!meshable) clock.end();
   if (meshable) {
-    cases::TypedPatches patches =
-        domain::find_patches(communicator, domain::broadcast_model(communicator, std::move(bytes)), input);
+    const cad::Model prepared = domain::broadcast_model(communicator, std::move(bytes));
+    domain::require_lengths_of_model(communicator, prepared, input);
+    cases::TypedPatches patches = domain::find_patches(communicator, prepared, input);
     clock.end();
     const cad::Model& model = patches.model;
     if (communicator.is_root()) warn_of_units(model.unit_name(), model.unit_in_metres(), input.output);

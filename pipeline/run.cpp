@@ -4,6 +4,7 @@
 #include "parallel/observation/log.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/domain/face_patches.hpp"
+#include "pipeline/domain/length_ranges.hpp"
 #include "pipeline/domain/load_domain.hpp"
 #include "pipeline/domain/size_domain.hpp"
 #include "pipeline/finished_surface.hpp"
@@ -129,6 +130,7 @@ private:
                                      _record.input_hash));
     }
     const cad::Domain domain = find_or_load_domain();
+    domain::require_lengths_of_model(_communicator, domain.model, _input);
     cases::TypedPatches patches = domain::find_patches(_communicator, domain.model, _input);
     if (_communicator.is_root())
       warn_of_units(patches.model.unit_name(), patches.model.unit_in_metres(), _input.output);

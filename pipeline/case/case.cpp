@@ -1,6 +1,7 @@
 #include "pipeline/case/case.hpp"
 
 #include "pipeline/case/case_keys.hpp"
+#include "pipeline/case/given_lengths.hpp"
 #include "pipeline/case/group_keys.hpp"
 #include "pipeline/case/layer_keys.hpp"
 #include "pipeline/case/level_keys.hpp"
@@ -128,6 +129,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   set_far_field(draft, result.domain);
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);
+  result.lengths = given_lengths(keys, result.sizing.reference_length.value_or(1));
   result.domain.smallest_size = in_model_units(result.sizing).minimum.value_or(0);
   return result;
 }

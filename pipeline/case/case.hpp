@@ -110,6 +110,15 @@ struct OutputOptions {
   bool pictures = true;                                 ///< in report.html
 };
 
+/// A length, or a place, as a key of the case file gives it.
+struct GivenLength {
+  std::string key, where;      ///< `where`: file and line
+  std::vector<double> values;  ///< in the key's unit: one, or three of a place
+  bool is_place = false;       ///< of any sign, and zero
+  bool may_be_zero = false;
+  double unit = 1;  ///< of the key, in the model's unit
+};
+
 struct Case {
   cad::DomainOptions domain;
   NarrowFaces narrow_faces = NarrowFaces::join;
@@ -122,6 +131,7 @@ struct Case {
   FaceGroups groups;
   std::vector<PatchRule> patches;  ///< the first matching rule holds, for faces in no group
   OutputOptions output;
+  std::vector<GivenLength> lengths;  ///< as keys gave them, on the rank that has read the case file
   parallel::Sandbox sandbox = parallel::Sandbox::process;  ///< does not change results
   /// Most bytes for all ranks of this node; 0: no limit. Not a key: it does not change results.
   std::int64_t memory_limit = 0;

@@ -120,6 +120,19 @@ TEST_F(Refusals, OfKeysAndSizesThatCannotBe) {
   }
 }
 
+// No work begins with them: some would never end.
+TEST_F(Refusals, OfLengthsThatAreNoneOfTheModel) {
+  write("case.yaml", coarse_duct());
+  for (const std::string command : {"check", "run"}) {
+    expect(2, command + " case.yaml --set sizing.minimum=1e-180 --set sizing.maximum=1e-180",
+           {"--set", "'sizing.minimum' is 1e-180,", "at least"});
+    expect(2, command + " case.yaml --set sizing.reference_length=1e-300",
+           {"'sizing.reference_length' is 1e-300", "times that"});
+  }
+  write("case.yaml", coarse_duct() + "patches:\n  body:\n    size: 1e-180\n");
+  expect(2, "run case.yaml", {"case.yaml:7:", "'patches.body.size' is 1e-180,"});
+}
+
 TEST_F(Refusals, OfAFarFieldThatCutsTheBody) {
   write("case.yaml", coarse_wing());
   expect_failure(3, "run case.yaml --set farfield.extent=0.4", {"far field"});
