@@ -15,7 +15,7 @@ std::string worst_table(const Json& places) {
   Table table(
       {{"flaw"}, {"value", Align::right}, {"verdict"}, {"shape"}, {"cell", Align::right}, {"centre"}});
   for (const Json& place : places) {
-    const std::string flaw = text(find(place, "/flaw")), verdict = text(find(place, "/verdict"));
+    const std::string flaw = text(find(place, "/flaw")), verdict = escaped(text(find(place, "/verdict")));
     const Json& value = find(place, "/value");
     table.add({flaw == "smallest_angle" ? "smallest dihedral angle"
                : flaw == "size_jump"    ? "largest neighbour over the cell"

@@ -59,7 +59,7 @@ std::string judgement_of_shape(const Json& report) {
 std::string judgement_of_layers(const Json& report) {
   std::string items;
   for (const Json& flaw : find(report, "/quality/flaws")) {
-    const std::string kind = text(find(flaw, "/flaw")), verdict = text(find(flaw, "/verdict"));
+    const std::string kind = text(find(flaw, "/flaw")), verdict = escaped(text(find(flaw, "/verdict")));
     const std::string at = escaped(text(find(flaw, "/shape"))) + ", at " + place(find(flaw, "/center"));
     if (kind == "shape")
       items += fmt::format(
