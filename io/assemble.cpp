@@ -1,4 +1,4 @@
-#include "files/names.hpp"
+#include "geometry/long_names.hpp"
 #include "geometry/predicates.hpp"
 #include "io/raw_faces.hpp"
 #include "io/raw_mesh.hpp"
@@ -255,10 +255,10 @@ void agree_on(const SharedPath& file, const Work& work) {
 /// All ranks have the same names.
 void bound_names(RawMesh& raw) {
   std::size_t cut = 0;
-  for (mesh::Patch& patch : raw.patches) cut += files::cut_long_name(patch.name) ? 1 : 0;
-  for (std::string& region : raw.regions) cut += files::cut_long_name(region) ? 1 : 0;
+  for (mesh::Patch& patch : raw.patches) cut += geometry::cut_long_name(patch.name) ? 1 : 0;
+  for (std::string& region : raw.regions) cut += geometry::cut_long_name(region) ? 1 : 0;
   if (cut > 0 && raw.file.communicator.is_root())
-    parallel::log_warning(fmt::format("'{}': {}", raw.file.path, files::long_names_text(cut)));
+    parallel::log_warning(fmt::format("'{}': {}", raw.file.path, geometry::long_names_text(cut)));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "io/read_mesh.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 #include "io/file_formats.hpp"
 #include "parallel/communication/collective_error.hpp"
 
@@ -21,7 +21,7 @@ Assembled read_mesh(const SharedPath& file, std::int32_t parts) {
                     fmt::join(readable_extensions(), ", ")));
   }
   parallel::on_root(file.communicator, [&] {
-    if (path.find('*') == std::string::npos) files::require_readable(path);
+    if (path.find('*') == std::string::npos) geometry::require_readable(path);
   });
   return assemble(found.row->read(file), parts);
 }

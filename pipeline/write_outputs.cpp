@@ -1,6 +1,6 @@
 #include "pipeline/write_outputs.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 #include "io/file_formats.hpp"
 #include "io/staged_files.hpp"
 #include "io/write_mesh.hpp"
@@ -77,8 +77,8 @@ EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
     if (!ignored) _files.emplace_back(place, written);
   }
   const std::string report = output.directory + "/report.json";
-  if (files::refusal_of(report)) return;
-  const auto earlier = nlohmann::json::parse(files::read_whole(report), nullptr, false);
+  if (geometry::refusal_of(report)) return;
+  const auto earlier = nlohmann::json::parse(geometry::read_whole(report), nullptr, false);
   if (!earlier.is_object() || !earlier.contains("mesh") || !earlier["mesh"].is_object()) return;
   _hash = earlier["mesh"].value("hash", "");
   for (const auto& name : earlier.value("older_files", nlohmann::json::array()))

@@ -13,18 +13,17 @@ import tempfile
 # What each folder may include, besides itself; lowest first.
 BASE = {"geometry", "parallel", "mesh", "cad", "sizing"}
 ALLOWED = {
-    "files": set(),
     "parallel": set(),
     "geometry": set(),
     "mesh": {"geometry", "parallel"},
-    "cad": {"files", "geometry"},
+    "cad": {"geometry"},
     "sizing": {"cad", "geometry", "mesh", "parallel"},
     "surface": BASE,
     "layers": {"geometry", "parallel", "mesh"},
     "volume": BASE,
     "improve": BASE,
-    "io": {"files", "geometry", "parallel", "mesh"},
-    "pipeline": BASE | {"files", "surface", "layers", "volume", "improve", "io"},
+    "io": {"geometry", "parallel", "mesh"},
+    "pipeline": BASE | {"surface", "layers", "volume", "improve", "io"},
 }
 # Sub-folders that are libraries, lowest first: each may include those before it. Files of the folder itself are "."; a
 # sub-folder may include one of them only where that file needs no sub-folder: options, reports, errors, entries.
@@ -47,7 +46,7 @@ RESTRICTED = {
     "pipeline/case": ALLOWED["pipeline"],
     "pipeline/report/page": set(),
     "pipeline/report/picture": {"geometry", "parallel", "mesh"},
-    "pipeline/study": {"files", "parallel", "pipeline/report/page"},
+    "pipeline/study": {"geometry", "parallel", "pipeline/report/page"},
 }
 # One folder each: nobody outside of it includes what serves it alone.
 INNER = ["surface/front", "surface/curves", "surface/remesh", "surface/charts", "surface/cusps", "volume/lattice", "volume/core",

@@ -14,7 +14,7 @@
 #include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
-#include "files/names.hpp"
+#include "geometry/long_names.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ FluidShape surround_bodies(NamedShape solids, const DomainOptions& options, cons
 FluidShape make_fluid(const DomainOptions& options, const std::string& distrust, Volumes& volumes,
                       Changes& changes) {
   NamedShape source = read_source(options);
-  if (source.cut_names > 0) changes.push_back({files::long_names_text(source.cut_names), {}, 0, true});
+  if (source.cut_names > 0) changes.push_back({geometry::long_names_text(source.cut_names), {}, 0, true});
   NamedShape solids = make_solids(std::move(source), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);

@@ -43,7 +43,7 @@ struct FacetSoup {
   Filling filling = Filling::alternating;
   std::vector<geometry::Vec3> holes;  ///< points in spaces that are not material
   std::vector<RegionPoint> regions;   ///< points in spaces with a name
-  std::size_t cut_names = 0;          ///< names that were too long (files::longest_name)
+  std::size_t cut_names = 0;          ///< names that were too long (geometry::longest_name)
   std::size_t zeroed = 0;             ///< coordinates that bound_coordinates() has set to zero
 };
 

@@ -1,7 +1,7 @@
 #include "cad/faceted/facet_text.hpp"
 
 #include "cad/model/model.hpp"
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -50,7 +50,7 @@ bool same_word(std::string_view a, std::string_view b) {
 }
 
 FacetText::FacetText(std::string file, std::string_view text)
-    : _file(std::move(file)), _text(text.substr(files::mark_length(text))) {}
+    : _file(std::move(file)), _text(text.substr(geometry::mark_length(text))) {}
 
 void FacetText::fail(const std::string& what) const {
   refuse_facets(_file, fmt::format("line {}", _line_number), what);

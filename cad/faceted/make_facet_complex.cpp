@@ -6,8 +6,8 @@
 #include "cad/faceted/facet_solids.hpp"
 #include "cad/faceted/features.hpp"
 #include "cad/faceted/unite_components.hpp"
-#include "files/names.hpp"
 #include "geometry/disjoint_sets.hpp"
+#include "geometry/long_names.hpp"
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
@@ -158,7 +158,7 @@ bool unite_solids(FacetSoup& soup, FacetSolids& solids, bool& imprinted, Changes
 
 FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
                                 CrossingFacets crossing, const std::vector<std::string>& voids) {
-  if (soup.cut_names > 0) changes.push_back({files::long_names_text(soup.cut_names), {}, 0, true});
+  if (soup.cut_names > 0) changes.push_back({geometry::long_names_text(soup.cut_names), {}, 0, true});
   if (soup.zeroed > 0) {
     changes.push_back({fmt::format(
         "{} coordinates are so small beside the largest one that they count as zero", soup.zeroed)});

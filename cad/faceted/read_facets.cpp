@@ -2,8 +2,8 @@
 #include "cad/faceted/facet_text.hpp"
 #include "cad/faceted/plane_graph.hpp"
 #include "cad/model/model.hpp"
-#include "files/input_file.hpp"
-#include "files/names.hpp"
+#include "geometry/input_file.hpp"
+#include "geometry/long_names.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -54,7 +54,7 @@ std::vector<geometry::TriangleCorners> cut_polygon(std::span<const geometry::Vec
 }
 
 void bound_names(FacetSoup& soup) {
-  const auto bound = [&](std::string& name) { soup.cut_names += files::cut_long_name(name) ? 1 : 0; };
+  const auto bound = [&](std::string& name) { soup.cut_names += geometry::cut_long_name(name) ? 1 : 0; };
   for (FacetSoup::Group& group : soup.groups) bound(group.name), bound(group.part);
   for (FacetSoup::RegionPoint& region : soup.regions) bound(region.name);
 }
@@ -62,7 +62,7 @@ void bound_names(FacetSoup& soup) {
 }  // namespace
 
 FacetFile load_facet_file(const std::string& name) {
-  return {name, files::read_whole(name)};
+  return {name, geometry::read_whole(name)};
 }
 
 std::int32_t find_group(FacetSoup& soup, const FacetSoup::Group& group) {
@@ -95,7 +95,7 @@ void add_polygon(FacetSoup& soup, std::span<const std::int64_t> corners, std::in
 
 bool is_faceted_file(const std::string& file) {
   const FacetFormat* format = format_of(file);
-  if (format == nullptr || files::refusal_of(file)) return false;
+  if (format == nullptr || geometry::refusal_of(file)) return false;
   std::ifstream stream(file, std::ios::binary);
   if (format->read != read_stl) return true;
   std::string head(1024, '\0');

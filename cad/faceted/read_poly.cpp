@@ -2,7 +2,7 @@
 #include "cad/faceted/facet_text.hpp"
 #include "cad/faceted/plane_graph.hpp"
 #include "cad/model/model.hpp"
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -191,7 +191,7 @@ private:
 std::optional<std::string> points_beside(const std::string& file) {
   const std::string extension = std::filesystem::path(file).extension().string();
   if (!same_word(extension, ".poly") && !same_word(extension, ".smesh")) return std::nullopt;
-  if (files::refusal_of(file)) return std::nullopt;
+  if (geometry::refusal_of(file)) return std::nullopt;
   // Comments may stand before the number. What is longer has points of its own, or says so too late.
   std::string head(std::size_t{1} << 16, '\0');
   std::ifstream stream(file, std::ios::binary);

@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_text.hpp"
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -113,7 +113,7 @@ private:
 }  // namespace
 
 bool begins_as_text_stl(std::string_view bytes) {
-  bytes.remove_prefix(files::mark_length(bytes));
+  bytes.remove_prefix(geometry::mark_length(bytes));
   bytes.remove_prefix(std::min(bytes.find_first_not_of(" \n\r\t"), bytes.size()));
   return same_word(bytes.substr(0, 5), "solid");
 }

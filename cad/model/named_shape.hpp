@@ -51,7 +51,7 @@ struct NamedShape {
   double unit_in_metres = 1;  ///< lengths of `shape` are in this unit
   double gap = 0;             ///< widest gap closed by sewing or as noise
   double precision = 0;       ///< precision of points that the file states; 0: none
-  std::size_t cut_names = 0;  ///< labels with names that were too long (files::longest_name)
+  std::size_t cut_names = 0;  ///< labels with names that were too long (geometry::longest_name)
 };
 
 /// The built-in aircraft: one closed solid in metres, with named faces. Throws CadError for impossible

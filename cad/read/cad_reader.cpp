@@ -5,8 +5,8 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/read/iges_columns.hpp"
 #include "cad/read/memory_file.hpp"
-#include "files/input_file.hpp"
-#include "files/names.hpp"
+#include "geometry/input_file.hpp"
+#include "geometry/long_names.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -36,7 +36,7 @@ Ends read_ends(const std::string& file) {
   constexpr std::streamoff window = 4096;  // bytes; chosen, not measured
   std::ifstream stream;
   stream.exceptions(std::ios::failbit | std::ios::badbit);
-  files::require_readable(file);
+  geometry::require_readable(file);
   errno = 0;
   try {
     stream.open(file, std::ios::binary | std::ios::ate);
@@ -48,7 +48,7 @@ Ends read_ends(const std::string& file) {
     ends.tail.resize(std::min(size, window));
     stream.seekg(size - std::min(size, window));
     stream.read(ends.tail.data(), static_cast<std::streamsize>(ends.tail.size()));
-    ends.mark = files::mark_length(ends.head);
+    ends.mark = geometry::mark_length(ends.head);
     ends.head.erase(0, ends.mark);
     return ends;
   } catch (const std::ios_base::failure& failure) {
@@ -200,7 +200,7 @@ NamedShape read_by_content(const std::string& file, const Ends& ends) {
 std::optional<std::string> readable_text(const std::string& file, const Ends& ends) {
   const bool is_iges = recognise(ends) == Format::iges;
   if (ends.mark == 0 && !is_iges) return std::nullopt;
-  const std::string text = files::read_whole(file).substr(ends.mark);
+  const std::string text = geometry::read_whole(file).substr(ends.mark);
   if (std::optional<std::string> right = is_iges ? with_right_columns(text) : std::nullopt) return right;
   return ends.mark > 0 ? std::optional(text) : std::nullopt;
 }
@@ -226,7 +226,7 @@ void number_faces(NamedShape& named) {
     FaceLabel& label = named.labels.ChangeFind(faces(i));
     label.number = i - 1;
     for (std::string* name : {&label.name, &label.layer, &label.solid})
-      named.cut_names += files::cut_long_name(*name) ? 1 : 0;
+      named.cut_names += geometry::cut_long_name(*name) ? 1 : 0;
   }
 }
 

@@ -84,12 +84,12 @@ public:
   /// Lines of at most 64 columns. Only texts go on in the next line; a longer number is left to the library.
   std::vector<std::string> lines() const {
     std::vector<std::string> result(1);
-    for (const std::string& token : tokens) {
-      const std::size_t head = text_begin(token);
-      const bool fits = result.back().size() + token.size() <= parameter_columns;
+    for (const std::string& word : tokens) {
+      const std::size_t head = text_begin(word);
+      const bool fits = result.back().size() + word.size() <= parameter_columns;
       const bool goes_on = head > 0 && result.back().size() + head < parameter_columns;
       if (!fits && !goes_on) result.emplace_back();
-      std::string_view rest = token;
+      std::string_view rest = word;
       while (!rest.empty()) {
         if (result.back().size() == parameter_columns) result.emplace_back();
         const std::size_t room = head > 0 ? parameter_columns - result.back().size() : rest.size();
@@ -102,9 +102,9 @@ public:
 
 private:
   /// Where the letters of a text "5Hwords" begin; 0 of a number.
-  static std::size_t text_begin(std::string_view token) {
-    const std::size_t digits = std::min(token.find_first_not_of("0123456789"), token.size());
-    return digits > 0 && digits < token.size() && token[digits] == 'H' ? digits + 1 : 0;
+  static std::size_t text_begin(std::string_view word) {
+    const std::size_t digits = std::min(word.find_first_not_of("0123456789"), word.size());
+    return digits > 0 && digits < word.size() && word[digits] == 'H' ? digits + 1 : 0;
   }
 
   /// The end of the parameter at `begin`, after its delimiter.

@@ -1,6 +1,6 @@
 #include "io/gmsh/msh_scanner.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -29,7 +29,7 @@ bool is_blank_letter(int letter) {
 
 MshScanner::MshScanner(std::string path) : _file(std::make_unique<RangeReader>(std::move(path))) {
   _buffer.resize(std::min(buffer_size, static_cast<std::size_t>(size())));
-  if (fill()) _next = files::mark_length({_buffer.data(), _end});
+  if (fill()) _next = geometry::mark_length({_buffer.data(), _end});
 }
 
 void MshScanner::fail(const std::string& what) const {

@@ -1,6 +1,6 @@
 #include "io/hdf5/input_file.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 #include "io/hdf5/sandboxed_reading.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/sandbox.hpp"
@@ -62,7 +62,7 @@ std::vector<T> read_rows(const std::string& path, Operation operation, const std
 }  // namespace
 
 InputFile::InputFile(std::string path) : _path(std::move(path)) {
-  files::require_readable(_path);
+  geometry::require_readable(_path);
 }
 
 Survey InputFile::survey(const SurveyRequest& request) const {

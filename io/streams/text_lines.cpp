@@ -1,6 +1,6 @@
 #include "io/streams/text_lines.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -34,7 +34,7 @@ bool parse(std::string_view word, T& value) {
 TextLines::TextLines(const std::string& path, std::size_t longest)
     : _file(path), _longest(longest), _buffer(buffer_bytes) {
   refill();
-  _begin = files::mark_length({_buffer.data(), _end});
+  _begin = geometry::mark_length({_buffer.data(), _end});
 }
 
 bool TextLines::refill() {

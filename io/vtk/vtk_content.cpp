@@ -1,6 +1,6 @@
 #include "io/vtk/vtk_content.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 
@@ -70,7 +70,7 @@ parallel::Bytes run_reader(const parallel::NamedTask& task, const std::string& p
 
 std::int64_t readable_bytes(const std::string& path) {
   namespace fs = std::filesystem;
-  files::require_readable(path);
+  geometry::require_readable(path);
   return fs::is_regular_file(path) ? static_cast<std::int64_t>(fs::file_size(path)) : 0;
 }
 

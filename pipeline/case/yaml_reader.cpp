@@ -1,6 +1,6 @@
 #include "pipeline/case/yaml_reader.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 #include "pipeline/case/nearest_name.hpp"
 #include "pipeline/case/other_meshers.hpp"
 
@@ -185,13 +185,13 @@ KeyTable::KeyEntry& KeyTable::make_named(const std::string& name) {
 }
 
 void KeyTable::read_file(const std::string& file) {
-  if (const auto refusal = files::refusal_of(file)) {
+  if (const auto refusal = geometry::refusal_of(file)) {
     throw CaseError(
         fmt::format("{}: the case cannot be opened: {}; it must be a YAML file (`aeroloom init` writes one)",
                     file, refusal->what));
   }
   require_no_geometry(file);
-  const std::string text = files::read_whole(file);
+  const std::string text = geometry::read_whole(file);
   require_no_settings(file, text);
   read_text(text, file);
 }

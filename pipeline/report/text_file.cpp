@@ -1,6 +1,6 @@
 #include "pipeline/report/text_file.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -21,7 +21,7 @@ std::error_code last_reason() {
 }  // namespace
 
 std::string read_text(const std::string& file) {
-  return files::read_whole(file);
+  return geometry::read_whole(file);
 }
 
 void write_text(const std::string& file, const std::string& text) {

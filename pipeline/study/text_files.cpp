@@ -1,6 +1,6 @@
 #include "pipeline/study/text_files.hpp"
 
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -13,9 +13,9 @@
 namespace aeroloom::study {
 
 std::string read_file(const std::filesystem::path& file) {
-  if (const auto refusal = files::refusal_of(file.string()))
+  if (const auto refusal = geometry::refusal_of(file.string()))
     throw std::runtime_error(fmt::format("cannot read '{}': {}", file.string(), refusal->what));
-  return files::read_whole(file.string());
+  return geometry::read_whole(file.string());
 }
 
 void refuse_json(const std::filesystem::path& file, const std::string& what, const std::exception& error) {

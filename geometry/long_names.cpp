@@ -1,10 +1,10 @@
-#include "files/names.hpp"
+#include "geometry/long_names.hpp"
 
 #include <cstdint>
 
 #include <fmt/format.h>
 
-namespace aeroloom::files {
+namespace aeroloom::geometry {
 
 namespace {
 
@@ -32,4 +32,4 @@ std::string long_names_text(std::size_t names) {
                      longest_name);
 }
 
-}  // namespace aeroloom::files
+}  // namespace aeroloom::geometry

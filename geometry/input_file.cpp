@@ -1,4 +1,4 @@
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <cerrno>
 #include <fstream>
@@ -11,11 +11,11 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-namespace aeroloom::files {
+namespace aeroloom::geometry {
 
 namespace {
 
-Refusal refusal_by(int code) {
+FileRefusal refusal_by(int code) {
   const std::error_code reason(code, std::generic_category());
   return {reason.message(), reason};
 }
@@ -27,12 +27,12 @@ bool is_null_device(const struct stat& status) {
 
 }  // namespace
 
-std::optional<Refusal> refusal_of(const std::string& path) {
+std::optional<FileRefusal> refusal_of(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return refusal_by(errno);
   if (S_ISDIR(status.st_mode)) return refusal_by(EISDIR);
   if (!S_ISREG(status.st_mode) && !is_null_device(status)) {
-    return Refusal{
+    return FileRefusal{
         "a device or a pipe, which cannot be read twice. Remedy: copy what it gives into a file, and name "
         "that",
         std::make_error_code(std::errc::invalid_argument)};
@@ -45,7 +45,7 @@ std::optional<Refusal> refusal_of(const std::string& path) {
 }
 
 void require_readable(const std::string& path) {
-  const std::optional<Refusal> refusal = refusal_of(path);
+  const std::optional<FileRefusal> refusal = refusal_of(path);
   if (!refusal) return;
   // The system's words come with the code.
   const bool is_of_system = refusal->what == refusal->code.message();
@@ -71,4 +71,4 @@ std::string read_whole(const std::string& path) {
   return text;
 }
 
-}  // namespace aeroloom::files
+}  // namespace aeroloom::geometry

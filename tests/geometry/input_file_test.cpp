@@ -1,4 +1,4 @@
-#include "files/input_file.hpp"
+#include "geometry/input_file.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace aeroloom::files {
+namespace aeroloom::geometry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -51,4 +51,4 @@ TEST_F(InputFileLocal, RefusesWithTheReason) {
 }
 
 }  // namespace
-}  // namespace aeroloom::files
+}  // namespace aeroloom::geometry

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace aeroloom::files {
+namespace aeroloom::geometry {
 
 /// Bytes of a name that are read. Longer ones are no names that anyone reads, and every file of the output
 /// would repeat them.
@@ -17,4 +17,4 @@ bool cut_long_name(std::string& name);
 /// What is said of names that were cut; `names` are how many.
 std::string long_names_text(std::size_t names);
 
-}  // namespace aeroloom::files
+}  // namespace aeroloom::geometry
