@@ -74,17 +74,17 @@ public:
       const std::size_t begin = std::min(text.find_first_not_of(' ', at), text.size());
       const std::size_t end = end_of(text, begin, delimiters);
       ended = end > begin && text[end - 1] == delimiters.record;
-      if (end > begin) tokens.push_back(text.substr(begin, end - begin));
+      if (end > begin) words.push_back(text.substr(begin, end - begin));
       at = std::max(end, begin + 1);
     }
   }
 
-  std::vector<std::string> tokens;
+  std::vector<std::string> words;
 
   /// Lines of at most 64 columns. Only texts go on in the next line; a longer number is left to the library.
   std::vector<std::string> lines() const {
     std::vector<std::string> result(1);
-    for (const std::string& word : tokens) {
+    for (const std::string& word : words) {
       const std::size_t head = text_begin(word);
       const bool fits = result.back().size() + word.size() <= parameter_columns;
       const bool goes_on = head > 0 && result.back().size() + head < parameter_columns;
