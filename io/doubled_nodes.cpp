@@ -71,11 +71,12 @@ void add_faces(const MeshPart& part, std::vector<PlacedFace>& faces) {
     for (const Run& run : block.runs) {
       for (LocalIndex f = run.begin; f < run.end; ++f) {
         std::array<std::pair<PlaceBits, GlobalIndex>, 4> corners;
-        for (int i = 0; i < 4; ++i) {
-          const LocalIndex v = block.item(f)[i < block.corners ? i : 0];
+        for (int i = 0; i < block.corners; ++i) {
+          const LocalIndex v = block.item(f)[i];
           corners[i] = {bits_of(part.point(v)), part.numbers[static_cast<std::size_t>(v)]};
         }
-        std::sort(corners.begin(), corners.end());
+        std::sort(corners.begin(), corners.begin() + block.corners);
+        if (block.corners == 3) corners[3] = corners[2];
         PlacedFace& face = faces.emplace_back();
         face.patch = run.id;
         for (int i = 0; i < 4; ++i) std::tie(face.corners[i], face.numbers[i]) = corners[i];

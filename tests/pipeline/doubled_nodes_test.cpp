@@ -76,7 +76,7 @@ TEST_F(DoubledNodes, AreToldToPeople) {
     EXPECT_FALSE(expect(0, command + "joined.mesh").has("places of others"));
     expect(0, command + "slit.mesh", {"within the region", "as at a slit"});
   }
-  expect(0, "improve doubled.mesh --set output.folder=out", {what});
+  expect(0, "improve doubled.mesh --set output.directory=out", {what});
 }
 
 }  // namespace
