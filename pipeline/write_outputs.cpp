@@ -63,8 +63,6 @@ void require_free_places(const cases::OutputOptions& output) {
   if (wants_vtk(output))
     for (const char* const name : {"mesh", "surface", "interfaces"})
       require_replaceable(folder + name, Arrival::folder);
-  if (output.checkpoints != cases::CheckpointUse::none)
-    require_replaceable(folder + "checkpoint", Arrival::folder);
 }
 
 EarlierFiles::EarlierFiles(const cases::OutputOptions& output) {
