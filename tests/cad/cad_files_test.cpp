@@ -114,12 +114,13 @@ std::vector<std::string> laid_out(const std::vector<std::string>& lines, const s
 }
 
 TEST(CadFiles, FullLinesOfIgesAndTextsKeepTheirLetters) {
-  // 64 columns of data and the delimiter after them: one line becomes two.
+  // 64 columns of data and the delimiter after them: what has no room goes into a line of its own.
   const std::string number(61, '1');
   const std::vector<std::string> full = laid_out({"3," + number + ".,", "2.5;"});
-  ASSERT_EQ(full.size(), 2U);
+  ASSERT_EQ(full.size(), 3U);
   EXPECT_EQ(full[0], fmt::format("{:<64}", "3,"));
-  EXPECT_EQ(full[1], fmt::format("{:<64}", number + ".,").substr(0, 64));
+  EXPECT_EQ(full[1], fmt::format("{:<64}", number + ".,"));
+  EXPECT_EQ(full[2], fmt::format("{:<64}", "2.5;"));
   // A text with delimiters and blanks, which goes over the end of a line; other delimiters.
   const std::string words = "letters, and; blanks   , which go on in the next line  ,;";
   const std::vector<std::string> text =
@@ -132,15 +133,14 @@ TEST(CadFiles, FullLinesOfIgesAndTextsKeepTheirLetters) {
 }
 
 TEST(CadFiles, WhatTheLibraryRefusesOfIgesIsSaid) {
-  // A surface of a number that is none.
+  // The first parameter of every entity is no number.
   std::string text = text_of("bracket.igs");
   int spoilt = 0;
-  for (std::size_t at = text.find("\n128,"); at != std::string::npos; at = text.find("\n128,", at + 1)) {
-    text[at + 5] = 'x';
-    ++spoilt;
-  }
-  for (std::size_t at = text.find("\n144,"); at != std::string::npos; at = text.find("\n144,", at + 1)) {
-    text[at + 5] = 'x';
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
+    const std::size_t comma = text.find(',', at + 1);
+    if (comma == std::string::npos || comma > at + 5 || text.size() < at + 74 || text[at + 73] != 'P')
+      continue;
+    text[comma + 1] = 'x';
     ++spoilt;
   }
   ASSERT_GT(spoilt, 0);

@@ -81,7 +81,7 @@ TEST(SizeDomain, AScaleMultipliesTheWholeField) {
     EXPECT_NEAR(fewer / one.findings.counts.tetrahedra, 1, 1e-9);
     const sizing::SampledModel sampled(world, scaled.model);
     const double counted = sizing::predict_counts(sampled, scaled.field).tetrahedra;
-    EXPECT_NEAR(counted / scaled.findings.counts.tetrahedra, 1, 0.02) << "the field gives what is said";
+    EXPECT_NEAR(counted / scaled.findings.counts.tetrahedra, 1, 0.03) << "the field gives what is said";
   }
 }
 
