@@ -134,13 +134,12 @@ TEST(CadFiles, FullLinesOfIgesAndTextsKeepTheirLetters) {
 
 TEST(CadFiles, WhatTheLibraryRefusesOfIgesIsSaid) {
   // The first parameter of every entity is no number.
-  std::string text = text_of("bracket.igs");
+  std::istringstream lines(text_of("bracket.igs"));
+  std::string text;
   int spoilt = 0;
-  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) {
-    const std::size_t comma = text.find(',', at + 1);
-    if (comma == std::string::npos || comma > at + 5 || text.size() < at + 74 || text[at + 73] != 'P')
-      continue;
-    text[comma + 1] = 'x';
+  for (std::string line; std::getline(lines, line); text += line + '\n') {
+    if (line.size() < 73 || line[72] != 'P' || line.find(',') != 3) continue;
+    line = fmt::format("{:<64}", line.substr(0, 4) + "x;") + line.substr(64);
     ++spoilt;
   }
   ASSERT_GT(spoilt, 0);

@@ -39,7 +39,8 @@ protected:
                            "}\nsizing: {minimum: 0.5, maximum: 0.5}\noutput: {pictures: false}\n");
     expect(0, "run case.yaml");
     std::map<std::string, double> found;
-    for (const Json& region : read_json("out/report.json")["regions"])
+    const Json report = read_json("out/report.json");
+    for (const Json& region : report["regions"])
       found[region["name"].get<std::string>()] = region["volume"].get<double>();
     return found;
   }
