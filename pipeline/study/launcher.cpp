@@ -245,7 +245,12 @@ Ended run_line(const std::string& line, const std::filesystem::path& log) {
 }
 
 void end_line() {
-  if (const pid_t session = running_session; session > 0) terminate_then_kill(session);
+  pid_t session = 0;
+  {
+    const std::lock_guard lock(beginning);  // a line that has just begun is known as running
+    session = running_session;
+  }
+  if (session > 0) terminate_then_kill(session);
 }
 
 void end_lines() {
