@@ -237,7 +237,8 @@ report::ExitCode compare_studies(const ScalingArguments& arguments) {
   const auto study_in = [](const fs::path& place) {
     return study::read_study(fs::is_directory(place) ? place / "scaling.json" : place);
   };
-  report::print_text(study::compare_text(study_in(arguments.compared[0]), study_in(arguments.compared[1])));
+  const study::Json before = study_in(arguments.compared[0]), after = study_in(arguments.compared[1]);
+  report::print_text(study::compare_text(before, after));
   return report::ExitCode::ok;
 }
 
@@ -293,7 +294,7 @@ int run_scaling(const Invocation& invocation, const ScalingArguments& arguments)
     return guarded(invocation, report::ExitCode::files, [&] {
       try {
         return work();
-      } catch (const std::ios_base::failure&) {
+      } catch (const parallel::CollectiveError&) {
         throw;
       } catch (const std::runtime_error& error) {
         throw parallel::CollectiveError(parallel::FailureKind::files, error.what());
