@@ -7,6 +7,7 @@
 #include "parallel/sandbox/crash_note.hpp"
 #include "parallel/sandbox/fault.hpp"
 #include "parallel/sandbox/sandbox.hpp"
+#include "pipeline/case/option_keys.hpp"
 #include "pipeline/domain/sandboxed_cad.hpp"
 
 #include <cstdio>
@@ -177,6 +178,7 @@ Bytes pack_domain(const cad::Domain& domain) {
 
 cad::Domain unpack_domain(std::span<const std::byte> bytes) {
   auto [report, model] = parallel::from_wire<std::tuple<cad::DomainReport, Bytes>>(bytes);
+  for (cad::Change& change : report.changes) change.what = cases::with_keys(std::move(change.what));
   return {cad::Model::from_bytes(model), std::move(report)};
 }
 
