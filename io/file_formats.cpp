@@ -6,6 +6,7 @@
 #include "io/medit/medit_reader.hpp"
 #include "io/medit/medit_writer.hpp"
 #include "io/openfoam/openfoam_writer.hpp"
+#include "io/renamed_names.hpp"
 #include "io/su2/su2_reader.hpp"
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_reader.hpp"
@@ -107,6 +108,7 @@ constexpr FormatRow format_rows[] = {
      .ends = {".cgns"},
      .write = plain<write_cgns>,
      .content = {.regions = true},
+     .renamed = renamed_in_cgns,
      .in_metres = true},
     // A single letter of byte order before `.ugrid` is the writer's affair.
     {.format = FileFormat::ugrid,
@@ -115,14 +117,16 @@ constexpr FormatRow format_rows[] = {
      .readable_ends = {{{".ugrid", "UGRID"}}},
      .read = read_ugrid,
      .write = plain<write_ugrid>,
-     .content = one_region},
+     .content = one_region,
+     .renamed = renamed_in_ugrid},
     {.format = FileFormat::ugrid64,
      .name = "ugrid64",
      .ends = {".lb8l.ugrid", ".b8l.ugrid"},
      .readable_ends = {{{".ugrid64", "UGRID, 64-bit"}}},
      .read = read_ugrid,
      .write = plain<write_ugrid>,
-     .content = one_region},
+     .content = one_region,
+     .renamed = renamed_in_ugrid},
     {.format = FileFormat::su2,
      .name = "su2",
      .ends = {".su2"},
@@ -130,6 +134,7 @@ constexpr FormatRow format_rows[] = {
      .read = read_su2,
      .write = plain<write_su2>,
      .content = one_region,
+     .renamed = renamed_in_su2,
      .in_metres = true},
     {.format = FileFormat::su2b,
      .name = "su2b",
@@ -138,6 +143,7 @@ constexpr FormatRow format_rows[] = {
      .read = read_su2b,
      .write = plain<write_su2b>,
      .content = one_region,
+     .renamed = renamed_in_su2,
      .in_metres = true},
     {.format = FileFormat::msh,
      .name = "msh",
@@ -145,7 +151,8 @@ constexpr FormatRow format_rows[] = {
      .readable_ends = {{{".msh", "Gmsh MSH"}}},
      .read = read_msh,
      .write = plain<write_msh>,
-     .content = whole_mesh},
+     .content = whole_mesh,
+     .renamed = renamed_in_msh},
     {.format = FileFormat::msh_parts,
      .name = "msh_parts",
      .ends = {"_1.msh"},
@@ -153,7 +160,8 @@ constexpr FormatRow format_rows[] = {
      .write = plain<write_msh_from_first>,
      .content = whole_mesh_in_parts,
      .replaced_end = ".msh",
-     .remove_later_parts = remove_msh_after},
+     .remove_later_parts = remove_msh_after,
+     .renamed = renamed_in_msh},
     {.format = FileFormat::meshb,
      .name = "meshb",
      .ends = {".meshb", ".mesh"},
@@ -167,6 +175,7 @@ constexpr FormatRow format_rows[] = {
      .write = plain<write_foam>,
      .content = whole_mesh_in_parts,
      .folder = "openfoam",
+     .renamed = renamed_in_openfoam,
      .in_metres = true,
      .scaling = openfoam_scaling},
 };

@@ -7,10 +7,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace aeroloom::io {
 
 struct FileMesh;
+struct RenamedName;
 struct RawMesh;
 struct SharedPath;
 struct WriteOptions;
@@ -65,6 +67,8 @@ struct FormatRow {
   int (*named_parts)(const std::string& path) = nullptr;
   /// Removes the files of parts from `parts` on, of an earlier mesh. Null: the format has no such files.
   void (*remove_later_parts)(const SharedPath& file, std::int32_t parts) = nullptr;
+  /// Names that files cannot hold as they are. Null: files hold all names. Not collective.
+  std::vector<RenamedName> (*renamed)(const FileMesh& mesh) = nullptr;
   /// Whether the solvers that read the files take lengths for metres.
   bool in_metres = false;
   /// The command of the format that scales a mesh by a factor. Null: there is none.

@@ -1,5 +1,6 @@
 #include "io/write_mesh.hpp"
 
+#include "io/renamed_names.hpp"
 #include "io/shared_path.hpp"
 #include "io/staged_files.hpp"
 #include "parallel/observation/log.hpp"
@@ -39,6 +40,14 @@ void warn_of_losses(const FileMesh& mesh, const FormatContent& content, const st
       "'{}' has no place for {}: left out; msh, meshb, openfoam and vtkhdf keep {}", file, lost, "them"));
 }
 
+/// Solvers find patches by the names in the file.
+void warn_of_names(const FileMesh& mesh, const FormatRow& row, const std::string& file) {
+  if (row.renamed == nullptr) return;
+  for (const RenamedName& each : row.renamed(mesh))
+    parallel::log_warning(
+        fmt::format("'{}' cannot hold the name '{}': it is '{}' there", file, each.name, each.in_file));
+}
+
 }  // namespace
 
 void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path,
@@ -52,8 +61,11 @@ void write_mesh(const FileMesh& mesh, FileFormat format, const std::string& path
     return write_mesh(repartition(mesh, parts), format, path, as_they_are);
   }
   const fs::path file = written_path(format, path);
+  if (mesh.communicator().is_root()) {
+    if (row.folder.empty()) warn_of_losses(mesh, row.content, file.filename().string());
+    warn_of_names(mesh, row, file.filename().string());
+  }
   if (!row.folder.empty()) return row.write(mesh, file.string(), options);
-  if (mesh.communicator().is_root()) warn_of_losses(mesh, row.content, file.filename().string());
   write_together(mesh.communicator(), file.parent_path().string(), file.filename().string(),
                  [&](const std::string& staging) {
                    row.write(mesh, (fs::path(staging) / file.filename()).string(), options);

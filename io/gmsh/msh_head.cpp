@@ -98,6 +98,10 @@ void grow(std::vector<geometry::Box>& boxes, std::size_t first, const MeshPart& 
 
 }  // namespace
 
+std::vector<std::string> physical_names(const std::vector<std::string>& names) {
+  return distinct_names(names, longest_name, quotable);
+}
+
 std::vector<geometry::Box> boxes_of_entities(const FileMesh& mesh) {
   std::vector<geometry::Box> boxes(mesh.patches.size() + mesh.regions.size());
   for (const MeshPart& part : mesh.parts) {
@@ -141,7 +145,7 @@ std::string msh_head(const FileMesh& mesh, const std::vector<geometry::Box>& box
     text += fmt::format("region {} {}\n", i + 1, escaped_word(mesh.regions[i]));
   text += fmt::format("$EndComments\n$PhysicalNames\n{}\n", mesh.patches.size() + mesh.regions.size());
   const auto add_names = [&](int dimension, const std::vector<std::string>& names) {
-    const std::vector<std::string> held = distinct_names(names, longest_name, quotable);
+    const std::vector<std::string> held = physical_names(names);
     for (std::size_t i = 0; i < held.size(); ++i)
       text += fmt::format("{} {} \"{}\"\n", dimension, i + 1, held[i]);
   };

@@ -22,6 +22,9 @@ inline std::int64_t partitioned_tag(std::int64_t entities, std::int64_t part, st
   return part * entities + entity + 1;
 }
 
+/// The names of patches, or of regions, in $PhysicalNames, all different.
+std::vector<std::string> physical_names(const std::vector<std::string>& names);
+
 /// $MeshFormat, $Comments, $PhysicalNames and $Entities; $PartitionedEntities unless `partition` is null.
 std::string msh_head(const FileMesh& mesh, const std::vector<geometry::Box>& boxes,
                      const MshPartition* partition);

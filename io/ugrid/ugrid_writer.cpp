@@ -129,11 +129,7 @@ geometry::Box box_of(const FileMesh& mesh, std::int32_t patch) {
 
 /// Collective.
 std::string mapbc_text(const FileMesh& mesh, const BoundaryPatches& patches) {
-  std::vector<std::string> names;
-  for (const std::int32_t id : patches.ids) names.push_back(mesh.patches[id].name);
-  // List-directed reads of Fortran end a name at a comma, a semicolon or a slash, and take quotes and stars
-  // for signs of their own.
-  names = plain_names(names, {.signs = "!#$%&()+-.:<=>?@[\\]^_`{|}~"});
+  const std::vector<std::string> names = names_in_mapbc(mesh, patches);
   std::string text = fmt::format("{}\n", patches.size());
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const mesh::PatchType type = mesh.patches[patches.ids[i]].type;
@@ -145,6 +141,14 @@ std::string mapbc_text(const FileMesh& mesh, const BoundaryPatches& patches) {
 }
 
 }  // namespace
+
+std::vector<std::string> names_in_mapbc(const FileMesh& mesh, const BoundaryPatches& patches) {
+  std::vector<std::string> names;
+  for (const std::int32_t id : patches.ids) names.push_back(mesh.patches[id].name);
+  // List-directed reads of Fortran end a name at a comma, a semicolon or a slash, and take quotes and stars
+  // for signs of their own.
+  return plain_names(names, {.signs = "!#$%&()+-.:<=>?@[\\]^_`{|}~"});
+}
 
 void write_ugrid(const FileMesh& mesh, const std::string& path) {
   const parallel::Communicator& communicator = mesh.communicator();

@@ -9,14 +9,19 @@
 /// regions are left out: UGRID has no place for them.
 #pragma once
 
+#include "io/boundary_patches.hpp"
 #include "io/file_mesh.hpp"
 
 #include <string>
+#include <vector>
 
 namespace aeroloom::io {
 
 /// The bytes depend on the parts alone. Collective. Throws CollectiveError: (input) where the suffix is
 /// unknown or its integers are too small for the mesh; (files) where the file cannot be written.
 void write_ugrid(const FileMesh& mesh, const std::string& path);
+
+/// The names of the patches in the .mapbc file, all different.
+std::vector<std::string> names_in_mapbc(const FileMesh& mesh, const BoundaryPatches& patches);
 
 }  // namespace aeroloom::io

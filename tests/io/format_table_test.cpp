@@ -9,6 +9,8 @@
 #include "tests/source_tree.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -125,6 +127,13 @@ mesh::GlobalIndex interface_faces(const FileMesh& mesh) {
   return faces;
 }
 
+/// Warnings of names are not those of what is lost.
+void leave_out_names(parallel::Warnings& warnings) {
+  std::erase_if(warnings.kept, [](const auto& each) {
+    return each.message.find("cannot hold the name") != std::string::npos;
+  });
+}
+
 TEST_F(FormatTable, WhatFilesHoldIsWhatTheRowSays) {
   const FileMesh mesh = examples::mixed_mesh(world, 4, 3);
   ASSERT_EQ(mesh.regions.size(), 2U);
@@ -135,7 +144,8 @@ TEST_F(FormatTable, WhatFilesHoldIsWhatTheRowSays) {
     world.barrier();
     parallel::take_warnings(world);
     write_mesh(mesh, row.format, file, {.surface = true});
-    const parallel::Warnings warnings = parallel::take_warnings(world);
+    parallel::Warnings warnings = parallel::take_warnings(world);
+    leave_out_names(warnings);
     const bool is_whole = row.content.regions && row.content.interfaces;
     if (world.is_root()) {
       EXPECT_EQ(warnings.kept.empty(), is_whole) << row.name;
@@ -155,10 +165,47 @@ TEST_F(FormatTable, WhatFilesHoldIsWhatTheRowSays) {
   }
 }
 
+TEST_F(FormatTable, NamesThatFilesCannotHoldAreSaid) {
+  FileMesh mesh = examples::mixed_mesh(world, 3, 2);
+  const std::string longer = "upper_surface_of_the_left_wing_and_flap", shorter = longer.substr(0, 32);
+  mesh.patches[2].name = longer;
+  const std::map<FileFormat, std::string> held{{FileFormat::cgns, shorter}, {FileFormat::su2, shorter},
+                                               {FileFormat::su2b, shorter}, {FileFormat::ugrid, ""},
+                                               {FileFormat::msh, ""},       {FileFormat::vtkhdf, ""}};
+  for (const auto& [format, name] : held) {
+    const std::string file = path("names" + std::string(row_of(format).ends.front()));
+    parallel::take_warnings(world);
+    write_mesh(mesh, format, file, {});
+    std::string text;
+    for (const auto& each : parallel::take_warnings(world).kept) text += each.message + "\n";
+    if (!world.is_root()) continue;
+    const std::string said = fmt::format("cannot hold the name '{}': it is '{}' there", longer, name);
+    EXPECT_EQ(text.find(said) != std::string::npos, !name.empty()) << file << ": " << text;
+    const bool has_blanks = format == FileFormat::msh || format == FileFormat::vtkhdf;
+    EXPECT_EQ(text.find("'wing / lower side'") == std::string::npos, has_blanks) << file << ": " << text;
+  }
+}
+
+TEST_F(FormatTable, NamesInBytesAreRead) {
+  const FileMesh mesh = examples::mixed_mesh(world, 3, 2);
+  const std::string file = path("bytes.lb8.ugrid");
+  write_mesh(mesh, FileFormat::ugrid, file, {});
+  const std::string companion = path("bytes.mapbc");
+  if (world.is_root()) {
+    std::ifstream stream(companion, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    text.replace(text.find("symmetry"), 8, "Fl\xFCgel");
+    std::ofstream(companion, std::ios::binary) << text;
+  }
+  world.barrier();
+  EXPECT_EQ(read_mesh({world, file}, 2).mesh.patches[1].name, "Fl\xC3\xBCgel");
+}
+
 TEST_F(FormatTable, WarningsNameFormatsThatKeepTheWholeMesh) {
   parallel::take_warnings(world);
   write_mesh(examples::mixed_mesh(world, 3, 2), FileFormat::su2, path("some.su2"), {});
-  const parallel::Warnings warnings = parallel::take_warnings(world);
+  parallel::Warnings warnings = parallel::take_warnings(world);
+  leave_out_names(warnings);
   if (!world.is_root()) return;
   ASSERT_EQ(warnings.kept.size(), 1U);
   std::string text = warnings.kept[0].message;
