@@ -4,12 +4,15 @@
 #include "cad/domain/far_field.hpp"
 #include "cad/domain/far_field_shape.hpp"
 #include "cad/domain/mixed_bodies.hpp"
+#include "cad/domain/patch_names.hpp"
+#include "cad/domain/removed_names.hpp"
 #include "cad/domain/trailing_edges.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
+#include "cad/read/ignored_faces.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
@@ -25,9 +28,12 @@
 namespace aeroloom::cad {
 namespace {
 
-NamedShape read_source(const DomainOptions& options) {
-  if (options.transport) return make_transport(*options.transport);
-  return read_cad_file(options.file);
+NamedShape read_source(const DomainOptions& options, Changes& changes) {
+  NamedShape source =
+      options.transport ? make_transport(*options.transport) : read_cad_file(options.file, options.encoding);
+  for (const std::string& text : source.read_otherwise) changes.push_back({text});
+  ignore_faces(source, options.ignore, changes);
+  return source;
 }
 
 HullComparison compare(const NamedShape& solids, Volumes& volumes) {
@@ -59,16 +65,19 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
 struct FluidShape {
   NamedShape shape;
   KindDecision decision;
-  std::optional<HullComparison> hull;  ///< of the shape, where it was made
-  bool triangulated = false;           ///< its faces, coarsely
-  bool united = false;                 ///< several bodies by the CAD library
-  std::optional<MixedFluid> mixed;     ///< with bodies of triangles; `shape` is not used then
+  std::optional<HullComparison> hull;   ///< of the shape, where it was made
+  bool triangulated = false;            ///< its faces, coarsely
+  bool united = false;                  ///< several bodies by the CAD library
+  std::optional<MixedFluid> mixed;      ///< with bodies of triangles; `shape` is not used then
+  std::vector<std::string> names = {};  ///< in the file
 };
 
 /// Of a file of triangles, which has parts.
 FluidShape make_fluid_around_facets(const DomainOptions& options, Volumes& volumes, Changes& changes) {
-  return {{},    {DomainKind::body, "taken as bodies: there are parts"}, {}, false,
-          false, surround_mixed({}, {}, options, volumes, changes)};
+  FluidShape fluid;
+  fluid.decision = {DomainKind::body, "taken as bodies: there are parts"};
+  fluid.mixed = surround_mixed({}, {}, options, volumes, changes);
+  return fluid;
 }
 
 /// Bodies in a far field. With a reason to `distrust` unions of the CAD library, none is made.
@@ -93,8 +102,9 @@ FluidShape surround_bodies(NamedShape solids, const DomainOptions& options, cons
 
 FluidShape make_fluid(const DomainOptions& options, const std::string& distrust, Volumes& volumes,
                       Changes& changes) {
-  NamedShape source = read_source(options);
+  NamedShape source = read_source(options, changes);
   if (source.cut_names > 0) changes.push_back({geometry::long_names_text(source.cut_names), {}, 0, true});
+  std::vector<std::string> names = names_of_file(source);
   NamedShape solids = make_solids(std::move(source), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
@@ -104,6 +114,7 @@ FluidShape make_fluid(const DomainOptions& options, const std::string& distrust,
     FluidShape fluid = surround_bodies(std::move(solids), options, distrust, volumes, changes);
     fluid.decision = std::move(decision), fluid.hull = hull;
     fluid.triangulated = triangulated && !fluid.mixed;
+    fluid.names = std::move(names);
     return fluid;
   }
   solids = join_regions(std::move(solids), volumes, changes);
@@ -111,23 +122,36 @@ FluidShape make_fluid(const DomainOptions& options, const std::string& distrust,
     solids = close_noise(std::move(solids), options.smallest_size, changes);
     hull.reset();  // joined ones have other faces
   }
-  return {std::move(solids), std::move(decision), hull, triangulated, false, {}};
+  return {std::move(solids), std::move(decision), hull, triangulated, false, {}, std::move(names)};
 }
 
-Model build_mixed(const MixedFluid& fluid, Volumes& volumes) {
-  std::vector<FaceTag> tags = tag_faces(fluid.shape, DomainKind::body, nullptr);
+/// Tags of the faces as the case wants them.
+std::vector<FaceTag> tags_for_case(const NamedShape& shape, DomainKind kind, const HullComparison* hull,
+                                   const DomainOptions& options, Changes& changes) {
+  std::vector<FaceTag> tags = tag_faces(shape, kind, hull);
+  if (options.caps == Caps::join) join_caps(shape, tags, changes);
+  return tags;
+}
+
+Model build_mixed(const MixedFluid& fluid, const DomainOptions& options, Volumes& volumes, Changes& changes) {
+  std::vector<FaceTag> tags = tags_for_case(fluid.shape, DomainKind::body, nullptr, options, changes);
   tags.insert(tags.end(), fluid.wall_tags.begin(), fluid.wall_tags.end());
+  separate_patches(tags, changes);
   Model model = build_model(fluid.shape, tags, fluid.walls ? &*fluid.walls : nullptr);
   require_mixed_volume(model, fluid, volumes);
   return model;
 }
 
-Model build_domain(const FluidShape& fluid, Volumes& volumes) {
-  if (fluid.mixed) return build_mixed(*fluid.mixed, volumes);
-  if (fluid.decision.kind != DomainKind::fluid)
-    return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::body, nullptr));
-  const HullComparison hull = fluid.hull ? *fluid.hull : compare(fluid.shape, volumes);
-  return build_model(fluid.shape, tag_faces(fluid.shape, DomainKind::fluid, &hull));
+Model build_domain(const FluidShape& fluid, const DomainOptions& options, Volumes& volumes,
+                   Changes& changes) {
+  if (fluid.mixed) return build_mixed(*fluid.mixed, options, volumes, changes);
+  std::optional<HullComparison> hull = fluid.hull;
+  const bool is_fluid = fluid.decision.kind == DomainKind::fluid;
+  if (is_fluid && !hull) hull = compare(fluid.shape, volumes);
+  std::vector<FaceTag> tags = tags_for_case(fluid.shape, is_fluid ? DomainKind::fluid : DomainKind::body,
+                                            is_fluid ? &*hull : nullptr, options, changes);
+  separate_patches(tags, changes);
+  return build_model(fluid.shape, tags);
 }
 
 /// The CAD library knows points to one length whatever the unit; far from the origin numbers are further
@@ -178,7 +202,7 @@ Domain prepare(const DomainOptions& options, const std::string& distrust) {
                                                : make_fluid(options, distrust, volumes, report.changes);
   report.kind = fluid.decision.kind;
   report.reason = fluid.decision.reason;
-  Model model = build_domain(fluid, volumes);
+  Model model = build_domain(fluid, options, volumes, report.changes);
   model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
   require_representable(model.bounds());
   try {
@@ -188,6 +212,7 @@ Domain prepare(const DomainOptions& options, const std::string& distrust) {
     throw;
   }
   report.reference_length = largest_extent(model.body_bounds().size());
+  report.removed = find_removed_names(fluid.names, model, report.changes);
   return {std::move(model), std::move(report)};
 }
 
@@ -230,7 +255,8 @@ void export_step(const DomainOptions& options, ExportedShape shape, const std::s
     Changes changes;
     Volumes volumes;
     if (shape == ExportedShape::geometry)
-      return write_step(make_solids(read_source(options), options.smallest_size, volumes, changes), file);
+      return write_step(make_solids(read_source(options, changes), options.smallest_size, volumes, changes),
+                        file);
     const FluidShape fluid = make_fluid(options, {}, volumes, changes);
     if (fluid.mixed) refuse_facets();
     write_step(fluid.shape, file);

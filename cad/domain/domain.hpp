@@ -55,6 +55,10 @@ struct TrailingEdgeOptions {
                      ///< neighbours' breadth
 };
 
+/// What becomes of faces that close planar openings: they join the patch of the wall around them, or are
+/// patches `cap_1`, `cap_2`, ...
+enum class Caps { join, name };
+
 /// A body of flat triangles beside the CAD geometry, such as a store or an ice shape.
 struct FacetedBody {
   std::string name;  ///< name of the part to which its faces belong
@@ -76,6 +80,17 @@ struct DomainOptions {
   std::vector<std::string> voids = {};
   double smallest_size = 0;  ///< of the mesh to come; gaps above a tenth of it are not sewn; 0: not known
   std::vector<FacetedBody> parts = {};  ///< united with bodies that they overlap
+  /// Faces of the file that are left out: patterns of names, or numbers; of triangles, names of groups.
+  std::vector<std::string> ignore = {};
+  Caps caps = Caps::join;
+  std::string encoding =
+      {};  ///< of names in files that are not UTF-8 (geometry::decode_names); empty: latin-1
+};
+
+/// The name of a face, or of a patch, that the file has and the domain has not.
+struct RemovedName {
+  std::string name;
+  std::string reason;  ///< the change that removed its faces, as far as it is known
 };
 
 /// What was read and what was changed. For log and report.
@@ -84,6 +99,7 @@ struct DomainReport {
   std::string reason;                       ///< reason for the decision, if the program decided
   double reference_length = 0;              ///< of the body, or of the domain without bodies
   Changes changes;                          ///< every repair: what, where, how much
+  std::vector<RemovedName> removed = {};    ///< for messages about rules that match nothing
 };
 
 struct Domain {

@@ -1,5 +1,6 @@
 #include "cad/domain/domain_kind.hpp"
 
+#include "cad/domain/patch_names.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/tolerances.hpp"
 
@@ -165,6 +166,7 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     const FaceLabel* const found = domain.labels.Seek(faces(i));
     is_numbered = is_numbered || (found != nullptr && found->number >= 0);
   }
+  InterfaceNames interfaces(region_names(domain));
   std::vector<FaceTag> tags;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const FaceLabel* found = domain.labels.Seek(faces(i));
@@ -178,13 +180,15 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     // Numbers are those of the file: what was made here has none.
     if (tag.name.empty() && is_numbered) tag.name = fmt::format("new_face_{}", i - 1);
     if (label.symmetry) tag.patch = "symmetry";
+    if (label.far_field || label.symmetry) tag.origin = PatchOrigin::program;
     const bool fluid = kind == DomainKind::fluid;
     const std::vector<int>& around = solids[i - 1];
-    if (tag.patch.empty() && around.size() == 2)
-      tag.patch = fmt::format("interface_{}_{}", around[0], around[1]);
+    const bool is_interface = tag.patch.empty() && around.size() == 2;
+    if (is_interface) tag.patch = interfaces(around[0], around[1]);
     if (tag.patch.empty() && !fluid) tag.patch = label.solid;
     if (tag.patch.empty()) tag.patch = label.layer;
     if (tag.patch.empty()) tag.patch = label.colour;
+    if (tag.patch.empty() || is_interface) tag.origin = PatchOrigin::unnamed;
     if (tag.patch.empty() && fluid) tag.patch = side_of_face(faces(i), all);
     if (tag.patch.empty() && fluid && hull && hull->on_hull[i - 1]) tag.patch = "outer";
     if (tag.patch.empty()) tag.patch = "body";

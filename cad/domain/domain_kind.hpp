@@ -33,7 +33,7 @@ std::string side_of_box(const Box& face, const Box& all);
 
 /// Names of all faces and of their patches, in the order of TopExp. A patch has the name of its face if the
 /// file names the face. For unnamed faces the patch is:
-/// - between two regions: "interface_<region>_<region>";
+/// - between two regions: "interface_<region>_<region>" (InterfaceNames);
 /// - of bodies: the name of the solid, the layer or the colour, else "body";
 /// - of a ready-made fluid: layer or colour; "xmin" to "zmax" on a side of the box; "outer" on the hull; else
 /// "body".

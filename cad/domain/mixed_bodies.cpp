@@ -205,8 +205,8 @@ std::optional<FacetComplex> make_walls(FacetSoup facets, const DomainOptions& op
 void gather_facets(BodyMixer& mixer, const std::vector<RefusedUnion>& refused, bool has_cad,
                    const DomainOptions& options, Changes& changes) {
   report_step("reading the triangles");
-  if (!has_cad) mixer.add(read_bodies(options.file, 1, options.feature_angle, changes));
-  for (const FacetedBody& part : options.parts) mixer.add(read_part(part, options.feature_angle, changes));
+  if (!has_cad) mixer.add(read_bodies({"", options.file, 1}, options, changes));
+  for (const FacetedBody& part : options.parts) mixer.add(read_part(part, options, changes));
   for (const RefusedUnion& each : refused) mixer.add_refused(each);
 }
 
@@ -237,7 +237,7 @@ MixedFluid surround_mixed(NamedShape bodies, const std::vector<RefusedUnion>& re
   }
   if (!walls) return fluid;
   fluid.walls.emplace(make_faceted_geometry(*std::move(walls)));
-  fluid.wall_tags = tag_walls(fluid.walls->complex(), !has_cad);
+  fluid.wall_tags = tag_walls(fluid.walls->complex(), !has_cad, options, changes);
   return fluid;
 }
 

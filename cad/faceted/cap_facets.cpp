@@ -122,7 +122,9 @@ private:
     if (!triangles) return false;
     const bool turn = runs_as_sides_do(*triangles, numbers);
     const std::string name = fmt::format("cap_{}", ++_count);
-    const std::int32_t group = find_group(capped, {name, {}});
+    FacetSoup::Group cap{name, {}};
+    cap.cap = true;
+    const std::int32_t group = find_group(capped, cap);
     for (const auto& [a, b, c] : *triangles) {
       const geometry::TriangleCorners t = {numbers[a], numbers[turn ? c : b], numbers[turn ? b : c]};
       capped.triangles.push_back(t);

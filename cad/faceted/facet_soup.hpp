@@ -5,6 +5,7 @@
 /// segments.
 #pragma once
 
+#include "cad/model/patch_origin.hpp"
 #include "geometry/vec.hpp"
 
 #include <array>
@@ -28,6 +29,8 @@ struct FacetSoup {
     /// For CAD faces that were triangulated, as in FaceTag. A group with a patch name is a patch of its own.
     std::string patch = {}, layer = {}, colour = {};
     std::int32_t number = -1;
+    bool cap = false;  ///< closes an opening
+    PatchOrigin origin = PatchOrigin::file;
     friend bool operator==(const Group&, const Group&) = default;
   };
   struct RegionPoint {
@@ -36,7 +39,8 @@ struct FacetSoup {
   };
 
   std::string file, format;
-  std::vector<geometry::Vec3> points;  ///< finite
+  std::vector<std::string> read_otherwise = {};  ///< names that are not UTF-8 in the file, a sentence each
+  std::vector<geometry::Vec3> points;            ///< finite
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> group_of;  ///< per triangle, index into groups
   std::vector<Group> groups;
@@ -86,8 +90,9 @@ std::optional<std::string> points_beside(const std::string& file);
 /// Throws CadError where the largest coordinate is above 1e30 or, unless it is 0, below 1e-30.
 void bound_coordinates(FacetSoup& soup);
 
-/// Throws CadError with line or byte for files that are damaged, empty or of another format, and
-/// std::ios_base::failure if the file cannot be opened.
-FacetSoup read_facets(const std::string& file);
+/// Names that are not UTF-8 are in `encoding` (geometry::decode_names). Throws CadError with line or byte for
+/// files that are damaged, empty or of another format, and std::ios_base::failure if the file cannot be
+/// opened.
+FacetSoup read_facets(const std::string& file, const std::string& encoding = "");
 
 }  // namespace aeroloom::cad

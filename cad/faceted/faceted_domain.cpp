@@ -2,6 +2,7 @@
 
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field_shape.hpp"
+#include "cad/domain/patch_names.hpp"
 #include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/model_data.hpp"
@@ -18,16 +19,6 @@
 namespace aeroloom::cad {
 namespace {
 
-/// By the names of both regions, or by their numbers.
-std::string interface_name(const FacetComplex& complex, const FacetRegions& face) {
-  const auto name = [&](RegionId region) {
-    const std::string& given = complex.regions[region];
-    return given.empty() || given == fmt::format("region_{}", region) ? std::to_string(region) : given;
-  };
-  return fmt::format("interface_{}_{}", name(std::min(face.front, face.back)),
-                     name(std::max(face.front, face.back)));
-}
-
 /// Patches of faces without a name go by part, then by the side of the domain they lie on.
 std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullComparison* hull) {
   const Box all = box_of_points(complex.points);
@@ -35,6 +26,7 @@ std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullCompariso
   for (std::size_t t = 0; t < complex.triangles.size(); ++t) {
     for (const std::int32_t p : complex.triangles[t]) boxes[complex.face_of[t]].add(complex.points[p]);
   }
+  InterfaceNames interfaces(complex.regions);
   std::vector<FaceTag> tags;
   for (std::size_t f = 0; f < complex.faces.size(); ++f) {
     const FacetComplex::Face& face = complex.faces[f];
@@ -42,9 +34,12 @@ std::vector<FaceTag> tag_facets(const FacetComplex& complex, const HullCompariso
     if (tag.name.empty()) tag.name = fmt::format("face_{}", f);
     tag.part = face.part, tag.layer = face.layer, tag.colour = face.colour;
     tag.number = static_cast<std::int32_t>(f);
+    tag.origin = face.origin;
     if (!face.patch.empty()) tag.patch = face.patch, tag.number = face.number;
-    if (tag.patch.empty() && face.back != no_entity) tag.patch = interface_name(complex, face);
+    const bool is_interface = tag.patch.empty() && face.back != no_entity;
+    if (is_interface) tag.patch = interfaces(face.front, face.back);
     if (tag.patch.empty() && !hull) tag.patch = face.part;
+    if (tag.patch.empty() || is_interface) tag.origin = PatchOrigin::unnamed;
     if (tag.patch.empty() && hull) tag.patch = side_of_box(boxes[f], all);
     if (tag.patch.empty() && hull && f < hull->on_hull.size() && hull->on_hull[f]) tag.patch = "outer";
     if (tag.patch.empty()) tag.patch = "body";
@@ -60,9 +55,20 @@ FacetComplex with_named_regions(FacetComplex complex) {
   return complex;
 }
 
-Model fluid_model(const FacetedGeometry& faceted, const HullComparison* hull) {
+/// Tags of faces as the case wants them.
+std::vector<FaceTag> facet_tags_for_case(const FacetComplex& complex, const HullComparison* hull,
+                                         const DomainOptions& options, Changes& changes) {
+  std::vector<FaceTag> tags = tag_facets(complex, hull);
+  if (options.caps == Caps::join) join_caps(complex, tags, changes);
+  return tags;
+}
+
+Model fluid_model(const FacetedGeometry& faceted, const HullComparison* hull, const DomainOptions& options,
+                  Changes& changes) {
   static const HullComparison none;
-  return build_model({}, tag_facets(faceted.complex(), hull ? hull : &none), &faceted);
+  std::vector<FaceTag> tags = facet_tags_for_case(faceted.complex(), hull ? hull : &none, options, changes);
+  separate_patches(tags, changes);
+  return build_model({}, tags, &faceted);
 }
 
 double volume_of_regions(const Model& model) {
@@ -72,7 +78,8 @@ double volume_of_regions(const Model& model) {
 }
 
 /// The fluid around bodies.
-Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options, Changes& changes) {
+Model surround_facets(const FacetComplex& bodies, const DomainOptions& all, Changes& changes) {
+  const FarFieldOptions options = all.far_field.value_or(all.default_far_field);
   refuse_symmetry(options, "a faceted file");
   FacetComplex walls = outer_walls(bodies, changes);
   report_step("building the far field");
@@ -82,7 +89,9 @@ Model surround_facets(const FacetComplex& bodies, const FarFieldOptions& options
   const double outer = volumes.of(far_field.shape);
   const FacetedGeometry faceted = make_faceted_geometry(std::move(walls));
   std::vector<FaceTag> tags = tag_faces(far_field, DomainKind::body, nullptr);
-  for (FaceTag& tag : tag_facets(faceted.complex(), nullptr)) tags.push_back(std::move(tag));
+  for (FaceTag& tag : facet_tags_for_case(faceted.complex(), nullptr, all, changes))
+    tags.push_back(std::move(tag));
+  separate_patches(tags, changes);
   Model model = build_model(far_field, tags, &faceted);
   const double fluid = model.region_volume(0);
   const double error = std::abs(outer - body - fluid);
@@ -129,8 +138,9 @@ NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& op
   return named;
 }
 
-std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered) {
-  std::vector<FaceTag> tags = tag_facets(walls, nullptr);
+std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered, const DomainOptions& options,
+                               Changes& changes) {
+  std::vector<FaceTag> tags = facet_tags_for_case(walls, nullptr, options, changes);
   for (std::size_t f = 0; f < tags.size(); ++f) {
     if (!numbered && walls.faces[f].patch.empty()) tags[f].number = -1;
   }
@@ -144,15 +154,14 @@ Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& com
   std::optional<FacetedGeometry> faceted;
   if (options.kind == DomainKind::fluid || (options.kind == DomainKind::automatic && !options.far_field)) {
     faceted = make_faceted_geometry(with_named_regions(complex));
-    const Model alone = fluid_model(*faceted, nullptr);
+    Changes of_trial;
+    const Model alone = fluid_model(*faceted, nullptr, options, of_trial);
     hull = compare_with_hull(alone, volume_of_regions(alone));
   }
   const KindDecision decision = choose_faceted_kind(options, complex, hull);
   report.kind = decision.kind, report.reason = decision.reason;
-  Model model =
-      decision.kind == DomainKind::fluid
-          ? fluid_model(*faceted, &*hull)
-          : surround_facets(complex, options.far_field.value_or(options.default_far_field), report.changes);
+  Model model = decision.kind == DomainKind::fluid ? fluid_model(*faceted, &*hull, options, report.changes)
+                                                   : surround_facets(complex, options, report.changes);
   if (options.trailing_edges.treatment == TrailingEdges::sharpen)
     report.changes.push_back({"no trailing edge was closed: faces of triangles are kept as they are"});
   const Vec3 size = model.body_bounds().size();

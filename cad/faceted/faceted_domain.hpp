@@ -19,19 +19,20 @@ Domain prepare_faceted(const DomainOptions& options);
 Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes);
 
 /// Reads and repairs the triangles of a file, scales them, and keeps the outer walls of the bodies. Bodies
-/// that cross are united.
-FacetSoup read_bodies(const std::string& file, double scale, double feature_angle, Changes& changes);
+/// that cross are united. A body without a name is the file of the case, some of whose groups may be ignored.
+FacetSoup read_bodies(const FacetedBody& body, const DomainOptions& options, Changes& changes);
 
 /// As read_bodies, for a part of the case. Faces get the name of the part, with that of their group if there
 /// are several groups. Throws as prepare_faceted.
-FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& changes);
+FacetSoup read_part(const FacetedBody& part, const DomainOptions& options, Changes& changes);
 
 /// The far field around bodies of triangles alone, with its labels.
 NamedShape far_field_around(const FacetComplex& walls, const FarFieldOptions& options);
 /// Throws CadError if the options ask for a half model. `who` says what cannot be cut.
 void refuse_symmetry(const FarFieldOptions& options, const std::string& who);
 /// Names and patches of wall faces, in their order. Faces get numbers only if `numbered`.
-std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered);
+std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered, const DomainOptions& options,
+                               Changes& changes);
 
 /// Fills in counts, bounds and defects of a faceted file as it is.
 void examine_facets(const std::string& file, Diagnosis& diagnosis);

@@ -4,6 +4,7 @@
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/faceted/make_facet_complex.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/read/ignored_faces.hpp"
 #include "geometry/angle.hpp"
 
 #include <algorithm>
@@ -15,6 +16,10 @@ namespace aeroloom::cad {
 
 namespace {
 
+void say_names(const FacetSoup& soup, Changes& changes) {
+  for (const std::string& text : soup.read_otherwise) changes.push_back({text});
+}
+
 struct PreparedTriangles {
   Domain domain;
   bool united = false, imprinted = false;
@@ -23,7 +28,9 @@ struct PreparedTriangles {
 PreparedTriangles prepare_triangles(const DomainOptions& options, CrossingFacets crossing) {
   Changes changes;
   report_step("reading the triangles");
-  FacetSoup soup = read_facets(options.file);
+  FacetSoup soup = read_facets(options.file, options.encoding);
+  say_names(soup, changes);
+  ignore_groups(soup, options.ignore, changes);
   report_step("repairing the triangles");
   const FacetComplex complex = make_facet_complex(std::move(soup), options.feature_angle * geometry::degree,
                                                   changes, crossing, options.voids);
@@ -65,22 +72,24 @@ Domain prepare_faceted(const DomainOptions& options) {
       .domain;
 }
 
-FacetSoup read_bodies(const std::string& file, double scale, double feature_angle, Changes& changes) {
-  FacetSoup soup = read_facets(file);
-  if (scale != 1) {
-    for (Vec3& p : soup.points) p = scale * p;
-    for (Vec3& p : soup.holes) p = scale * p;
-    for (auto& region : soup.regions) region.point = scale * region.point;
+FacetSoup read_bodies(const FacetedBody& body, const DomainOptions& options, Changes& changes) {
+  FacetSoup soup = read_facets(body.file, options.encoding);
+  say_names(soup, changes);
+  if (body.name.empty()) ignore_groups(soup, options.ignore, changes);
+  if (body.scale != 1) {
+    for (Vec3& p : soup.points) p = body.scale * p;
+    for (Vec3& p : soup.holes) p = body.scale * p;
+    for (auto& region : soup.regions) region.point = body.scale * region.point;
     bound_coordinates(soup);
   }
-  const FacetComplex complex =
-      make_facet_complex(std::move(soup), feature_angle * geometry::degree, changes, CrossingFacets::unite);
-  return soup_of(outer_walls(complex, changes), file);
+  const FacetComplex complex = make_facet_complex(std::move(soup), options.feature_angle * geometry::degree,
+                                                  changes, CrossingFacets::unite);
+  return soup_of(outer_walls(complex, changes), body.file);
 }
 
-FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& changes) {
+FacetSoup read_part(const FacetedBody& part, const DomainOptions& options, Changes& changes) {
   Changes own;
-  FacetSoup soup = read_bodies(part.file, part.scale, feature_angle, own);
+  FacetSoup soup = read_bodies(part, options, own);
   for (Change& change : own) {
     change.what = fmt::format("part '{}': {}", part.name, change.what);
     changes.push_back(std::move(change));
@@ -90,7 +99,7 @@ FacetSoup read_part(const FacetedBody& part, double feature_angle, Changes& chan
   for (FacetSoup::Group& group : soup.groups) {
     const bool named = several && !group.name.empty();
     group.name = named ? part.name + "_" + group.name : part.name;
-    group.part = part.name;
+    group.part = part.name, group.origin = PatchOrigin::part;
   }
   return soup;
 }

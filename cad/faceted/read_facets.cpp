@@ -4,12 +4,14 @@
 #include "cad/model/model.hpp"
 #include "geometry/input_file.hpp"
 #include "geometry/long_names.hpp"
+#include "geometry/name_text.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -59,6 +61,21 @@ void bound_names(FacetSoup& soup) {
   for (FacetSoup::RegionPoint& region : soup.regions) bound(region.name);
 }
 
+void decode_names_of(FacetSoup& soup, const std::string& encoding) {
+  std::vector<std::string*> names;
+  for (FacetSoup::Group& group : soup.groups) names.insert(names.end(), {&group.name, &group.part});
+  for (FacetSoup::RegionPoint& region : soup.regions) names.push_back(&region.name);
+  std::vector<std::string> bytes;
+  for (const std::string* name : names) bytes.push_back(*name);
+  const std::vector<geometry::DecodedName> decoded = geometry::decode_names(bytes, encoding);
+  std::set<std::string> said;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    *names[i] = decoded[i].text;
+    if (!decoded[i].change.empty() && said.insert(decoded[i].change).second)
+      soup.read_otherwise.push_back(decoded[i].change);
+  }
+}
+
 }  // namespace
 
 FacetFile load_facet_file(const std::string& name) {
@@ -104,7 +121,7 @@ bool is_faceted_file(const std::string& file) {
   return is_binary_stl(head) || begins_as_text_stl(head);
 }
 
-FacetSoup read_facets(const std::string& file) {
+FacetSoup read_facets(const std::string& file, const std::string& encoding) {
   const FacetFormat* format = format_of(file);
   if (format == nullptr) {
     throw CadError(fmt::format(
@@ -118,6 +135,7 @@ FacetSoup read_facets(const std::string& file) {
     throw CadError(fmt::format("{} has more than {} points or triangles; coarsen it", file, most_items));
   if (soup.triangles.empty())
     throw CadError(fmt::format("{} has no triangles; export the surface of the body", file));
+  decode_names_of(soup, encoding);
   return soup;
 }
 

@@ -154,10 +154,14 @@ void name_groups(const TopoDS_Solid& solid, const FaceLabels& labels, FacetSoup&
   NamedShape named;
   named.shape = solid, named.labels = labels;
   const std::vector<FaceTag> tags = tag_faces(named, DomainKind::body, nullptr);
+  const TopTools_IndexedMapOfShape faces = map_of(solid, TopAbs_FACE);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const FaceTag& tag = tags[i];
     soup.groups.push_back({tag.name.empty() ? fmt::format("face_{}", i) : tag.name, tag.part, tag.patch,
                            tag.layer, tag.colour, tag.number});
+    soup.groups.back().origin = tag.origin;
+    const FaceLabel* label = labels.Seek(faces(static_cast<int>(i) + 1));
+    soup.groups.back().cap = label != nullptr && label->cap;
   }
 }
 

@@ -39,27 +39,6 @@ Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedGeometry*
   return {all, of_body.empty() ? all : of_body};
 }
 
-/// A region is called as the solid of its faces; a face between two regions may carry the other one's label.
-std::vector<std::string> region_names(const NamedShape& named) {
-  const TopTools_IndexedMapOfShape solids = map_of(named.shape, TopAbs_SOLID);
-  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
-  const std::vector<std::vector<int>> around = solids_around_faces(named.shape);
-  std::vector<std::string> names(solids.Extent());
-  for (const std::size_t most : {1, 2}) {
-    for (int f = 1; f <= faces.Extent(); ++f) {
-      const FaceLabel* label = named.labels.Seek(faces(f));
-      if (label == nullptr || around[f - 1].size() > most) continue;
-      for (const int solid : around[f - 1]) {
-        if (names[solid].empty()) names[solid] = label->solid;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].empty()) names[i] = fmt::format("region_{}", i);
-  }
-  return names;
-}
-
 void put_labels(const NamedShape& named, const FacetedGeometry* faceted, const std::vector<FaceTag>& tags,
                 ByteWriter& writer) {
   writer.put_text(named.unit_name);
@@ -108,6 +87,27 @@ void apply_tags(const std::vector<FaceTag>& tags, Model::Data& data) {
 }
 
 }  // namespace
+
+/// A region is called as the solid of its faces; a face between two regions may carry the other one's label.
+std::vector<std::string> region_names(const NamedShape& named) {
+  const TopTools_IndexedMapOfShape solids = map_of(named.shape, TopAbs_SOLID);
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
+  const std::vector<std::vector<int>> around = solids_around_faces(named.shape);
+  std::vector<std::string> names(solids.Extent());
+  for (const std::size_t most : {1, 2}) {
+    for (int f = 1; f <= faces.Extent(); ++f) {
+      const FaceLabel* label = named.labels.Seek(faces(f));
+      if (label == nullptr || around[f - 1].size() > most) continue;
+      for (const int solid : around[f - 1]) {
+        if (names[solid].empty()) names[solid] = label->solid;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].empty()) names[i] = fmt::format("region_{}", i);
+  }
+  return names;
+}
 
 std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape) {
   const TopTools_IndexedMapOfShape solids = map_of(shape, TopAbs_SOLID);

@@ -4,6 +4,7 @@
 #include "cad/model/evaluation/surface_evaluator.hpp"
 #include "cad/model/model.hpp"
 #include "cad/model/named_shape.hpp"
+#include "cad/model/patch_origin.hpp"
 
 #include <array>
 #include <cstddef>
@@ -27,7 +28,11 @@ struct FaceTag {
   bool far_field = false;
   std::string part = {}, layer = {}, colour = {};
   std::int32_t number = -1;  ///< in the file
+  PatchOrigin origin = PatchOrigin::file;
 };
+
+/// Names of the solids, in order: those of their faces, or "region_<number>".
+std::vector<std::string> region_names(const NamedShape& named);
 
 /// The solids on the sides of each face, one or two, in the order of TopExp.
 std::vector<std::vector<int>> solids_around_faces(const TopoDS_Shape& shape);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <NCollection_DataMap.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
@@ -20,6 +21,8 @@ struct FaceLabel {
   std::string solid;   ///< name of the solid (part, product) of the face
   bool far_field = false;
   bool symmetry = false;  ///< lies on the symmetry plane of a half model
+  bool cap = false;       ///< closes an opening
+  bool ignored = false;   ///< left out, as the case asks
   int number = -1;        ///< number of the face in the file, from 0; -1 without a file
 };
 
@@ -47,10 +50,11 @@ inline void copy_label(FaceLabels& labels, const TopoDS_Shape& from, const TopoD
 struct NamedShape {
   TopoDS_Shape shape;
   FaceLabels labels;
-  std::string unit_name;      ///< "m", "mm", "in", ...; empty if none is declared
-  double unit_in_metres = 1;  ///< lengths of `shape` are in this unit
-  double gap = 0;             ///< widest gap closed by sewing or as noise
-  double precision = 0;       ///< precision of points that the file states; 0: none
+  std::string unit_name;                         ///< "m", "mm", "in", ...; empty if none is declared
+  double unit_in_metres = 1;                     ///< lengths of `shape` are in this unit
+  double gap = 0;                                ///< widest gap closed by sewing or as noise
+  double precision = 0;                          ///< precision of points that the file states; 0: none
+  std::vector<std::string> read_otherwise = {};  ///< names that are not UTF-8 in the file, a sentence each
   std::size_t cut_names = 0;  ///< labels with names that were too long (geometry::longest_name)
 };
 

@@ -176,16 +176,16 @@ Format recognise(const Ends& ends) {
       file, excerpt(ends.head)));
 }
 
-NamedShape read_by_content(const std::string& file, const Ends& ends) {
+NamedShape read_by_content(const std::string& file, const Ends& ends, const std::string& encoding) {
   switch (recognise(ends)) {
     case Format::step:
       require(contains(ends.tail, "END-ISO-10303-21"), file,
               "a STEP file that ends too early: no END-ISO-10303-21");
-      return read_step(file);
+      return read_step(file, encoding);
     case Format::iges:
       require(iges_is_complete(ends.tail), file,
               "an IGES file that ends too early: its last line is no T section");
-      return read_iges(file);
+      return read_iges(file, encoding);
     case Format::brep:
       return read_brep(file, false);
     case Format::binary_brep:
@@ -206,10 +206,11 @@ std::optional<std::string> readable_text(const std::string& file, const Ends& en
 }
 
 /// Messages name the file that the user knows.
-NamedShape read_from_memory(const std::string& file, const std::string& text, const Ends& ends) {
+NamedShape read_from_memory(const std::string& file, const std::string& text, const Ends& ends,
+                            const std::string& encoding) {
   const MemoryFile copy(text);
   try {
-    return read_by_content(copy.path(), ends);
+    return read_by_content(copy.path(), ends, encoding);
   } catch (const CadError& error) {
     std::string message = error.what();
     const std::size_t at = message.find(copy.path());
@@ -247,13 +248,14 @@ std::string format_of_cad_file(const std::string& file) {
   return {};
 }
 
-NamedShape read_cad_file(const std::string& file) {
+NamedShape read_cad_file(const std::string& file, const std::string& encoding) {
   const Ends ends = read_ends(file);
   require(!trimmed(ends.head).empty(), file, "the file is empty");
   report_step("reading the file");
   return guarded(fmt::format("reading '{}'", file), [&] {
     const std::optional<std::string> text = readable_text(file, ends);
-    NamedShape named = text ? read_from_memory(file, *text, ends) : read_by_content(file, ends);
+    NamedShape named =
+        text ? read_from_memory(file, *text, ends, encoding) : read_by_content(file, ends, encoding);
     number_faces(named);
     return named;
   });

@@ -2,8 +2,12 @@
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/length_unit.hpp"
 #include "cad/read/xde_document.hpp"
+#include "geometry/name_text.hpp"
 
 #include <algorithm>
+#include <string>
+#include <unordered_set>
+#include <vector>
 
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESControl_Controller.hxx>
@@ -32,9 +36,11 @@ const LengthUnit* unit_of_section(const IGESData_GlobalSection& section) {
 
 /// Full names of any entity; the eight letters of the short label only where they name a part, as exporters
 /// put the entity's type there for faces.
-EntityNames names_in_iges(IGESControl_Reader& reader) {
+EntityNames names_in_iges(IGESControl_Reader& reader, const std::string& encoding,
+                          std::vector<std::string>& read_otherwise) {
   constexpr int manifold_solid = 186, shell = 514;
-  EntityNames names;
+  std::vector<TopoDS_Shape> shapes;
+  std::vector<std::string> texts;
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
   for (int i = 1; i <= model->NbEntities(); ++i) {
@@ -45,7 +51,17 @@ EntityNames names_in_iges(IGESControl_Reader& reader) {
     if (name.IsNull() && part && entity->HasShortLabel()) name = entity->ShortLabel();
     if (name.IsNull() || name->IsEmpty()) continue;
     const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
-    if (!shape.IsNull()) names.Bind(shape.Located(TopLoc_Location()), name->ToCString());
+    if (shape.IsNull()) continue;
+    shapes.push_back(shape.Located(TopLoc_Location()));
+    texts.emplace_back(name->ToCString());
+  }
+  EntityNames names;
+  std::unordered_set<std::string> said;
+  const std::vector<geometry::DecodedName> decoded = geometry::decode_names(texts, encoding);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    names.Bind(shapes[i], decoded[i].text);
+    if (!decoded[i].change.empty() && said.insert(decoded[i].change).second)
+      read_otherwise.push_back(decoded[i].change);
   }
   return names;
 }
@@ -89,7 +105,7 @@ Handle(TDocStd_Document) transfer_iges(IGESCAFControl_Reader& reader, const std:
 
 }  // namespace
 
-NamedShape read_iges(const std::string& file) {
+NamedShape read_iges(const std::string& file, const std::string& encoding) {
   IGESControl_Controller::Init();
   IGESCAFControl_Reader reader;
   reader.SetColorMode(true);
@@ -102,7 +118,9 @@ NamedShape read_iges(const std::string& file) {
   const LengthUnit& unit = declared ? *declared : millimetre();
   set_cad_library_unit(unit);
   const Handle(TDocStd_Document) document = transfer_iges(reader, file);
-  NamedShape named = collect_parts(document, names_in_iges(reader));
+  std::vector<std::string> read_otherwise;
+  NamedShape named = collect_parts(document, names_in_iges(reader, encoding, read_otherwise));
+  named.read_otherwise = std::move(read_otherwise);
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
   named.precision = std::max(0.0, reader.IGESModel()->GlobalSection().Resolution());

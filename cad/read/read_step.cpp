@@ -1,9 +1,15 @@
 #include "cad/model/model.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/length_unit.hpp"
+#include "cad/read/step_text.hpp"
 #include "cad/read/xde_document.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <unordered_set>
 
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Controller.hxx>
@@ -63,15 +69,41 @@ EntityNames names_in_step(STEPControl_Reader& reader) {
   return names;
 }
 
+/// The CAD library takes bytes for UTF-8, and loses what is not: it gets no others.
+IFSelect_ReturnStatus parse(STEPCAFControl_Reader& reader, const std::string& file,
+                            const std::optional<StepText>& decoded) {
+  if (!decoded) return reader.ReadFile(file.c_str());
+  std::istringstream stream(decoded->bytes);
+  return reader.ChangeReader().ReadStream(file.c_str(), stream);
+}
+
+/// What is said of strings that became names. Those with escapes are said, too: nobody knows what they
+/// became.
+std::vector<std::string> changes_of_names(const NamedShape& named, const StepText& text) {
+  std::unordered_set<std::string> names, said;
+  const TopTools_IndexedMapOfShape faces = map_of(named.shape, TopAbs_FACE);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    if (const FaceLabel* label = named.labels.Seek(faces(i)))
+      names.insert({label->name, label->solid, label->layer});
+  }
+  std::vector<std::string> changes;
+  for (const DecodedString& each : text.decoded) {
+    const bool is_name = names.contains(each.text) || each.text.find('\\') != std::string::npos;
+    if (is_name && said.insert(each.change).second) changes.push_back(each.change);
+  }
+  return changes;
+}
+
 }  // namespace
 
-NamedShape read_step(const std::string& file) {
+NamedShape read_step(const std::string& file, const std::string& encoding) {
   STEPControl_Controller::Init();
   STEPCAFControl_Reader reader;
   reader.SetColorMode(true);
   reader.SetNameMode(true);
   reader.SetLayerMode(true);
-  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+  const std::optional<StepText> decoded = decode_step(file, encoding);
+  if (parse(reader, file, decoded) != IFSelect_RetDone) {
     throw CadError(fmt::format("'{}': a STEP file that cannot be parsed", file));
   }
   const LengthUnit* declared = first_declared_unit(reader.ChangeReader());
@@ -81,6 +113,7 @@ NamedShape read_step(const std::string& file) {
   Handle(TDocStd_Document) document = make_document();
   if (!reader.Transfer(document)) throw CadError(fmt::format("'{}': a STEP file without shapes", file));
   NamedShape named = collect_parts(document, names_in_step(reader.ChangeReader()));
+  if (decoded) named.read_otherwise = changes_of_names(named, *decoded);
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
   named.precision = stated_uncertainty(reader.ChangeReader());

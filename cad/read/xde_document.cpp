@@ -22,11 +22,14 @@
 namespace aeroloom::cad {
 namespace {
 
+std::string utf8_of(const TCollection_ExtendedString& text) {
+  return TCollection_AsciiString(text).ToCString();
+}
+
 std::string name_of_label(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
-  const TCollection_AsciiString text(name->Get(), '?');
-  return text.ToCString();
+  return utf8_of(name->Get());
 }
 
 class PartCollector {
@@ -122,7 +125,7 @@ private:
     }
     Handle(TColStd_HSequenceOfExtendedString) layers = new TColStd_HSequenceOfExtendedString;
     if (_layers->GetLayers(label, layers) && layers->Length() > 0) {
-      face.layer = TCollection_AsciiString(layers->Value(1), '?').ToCString();
+      face.layer = utf8_of(layers->Value(1));
     }
   }
 

@@ -119,7 +119,8 @@ Diagnosis diagnose(const DomainOptions& options) {
   } else {
     diagnosis.format = options.transport ? "built-in" : format_of_cad_file(options.file);
     guarded("examining the geometry", [&] {
-      examine(options.transport ? make_transport(*options.transport) : read_cad_file(options.file),
+      examine(options.transport ? make_transport(*options.transport)
+                                : read_cad_file(options.file, options.encoding),
               diagnosis);
     });
   }

@@ -40,18 +40,35 @@ std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
   return shells;
 }
 
-Parts take_apart(const TopoDS_Shape& shape, Changes& changes) {
+bool is_ignored(const FaceLabels& labels, const TopoDS_Shape& face) {
+  const FaceLabel* label = labels.Seek(face);
+  return label != nullptr && label->ignored;
+}
+
+bool has_ignored(const FaceLabels& labels, const TopoDS_Shape& shape) {
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
+    if (is_ignored(labels, faces.Current())) return true;
+  return false;
+}
+
+void add_faces(const TopoDS_Shape& shape, const FaceLabels& labels, TopTools_IndexedMapOfShape& faces) {
+  for (TopExp_Explorer each(shape, TopAbs_FACE); each.More(); each.Next())
+    if (!is_ignored(labels, each.Current())) faces.Add(each.Current());
+}
+
+Parts take_apart(const TopoDS_Shape& shape, const FaceLabels& labels, Changes& changes) {
   Parts parts;
   const TopTools_IndexedMapOfShape solids = map_of(shape, TopAbs_SOLID);
   TopTools_IndexedMapOfShape shells;
   for (int i = 1; i <= solids.Extent(); ++i) {
     const std::vector<TopoDS_Shell> bounds = shells_of(solids(i));
-    const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed);
+    const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed) &&
+                        !has_ignored(labels, solids(i));
     if (closed) {
       parts.solids.push_back(TopoDS::Solid(solids(i).Oriented(TopAbs_FORWARD)));
     } else {
       changes.push_back({fmt::format("solid {} is not closed: its faces are sewn anew", i - 1)});
-      TopExp::MapShapes(solids(i), TopAbs_FACE, parts.open_faces);
+      add_faces(solids(i), labels, parts.open_faces);
     }
   }
   // A compound may list the shells and faces of its solids once more.
@@ -63,14 +80,14 @@ Parts take_apart(const TopoDS_Shape& shape, Changes& changes) {
   }
   for (int i = 1; i <= shells.Extent(); ++i) {
     const TopoDS_Shell shell = TopoDS::Shell(shells(i));
-    if (is_closed(shell)) {
+    if (is_closed(shell) && !has_ignored(labels, shell)) {
       parts.closed_shells.push_back(shell);
     } else {
-      TopExp::MapShapes(shell, TopAbs_FACE, parts.open_faces);
+      add_faces(shell, labels, parts.open_faces);
     }
   }
   for (TopExp_Explorer each(shape, TopAbs_FACE, TopAbs_SHELL); each.More(); each.Next()) {
-    parts.loose_faces.Add(each.Current());
+    if (!is_ignored(labels, each.Current())) parts.loose_faces.Add(each.Current());
   }
   return parts;
 }
@@ -142,19 +159,19 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
   report_step("healing the shape");
-  Parts parts = take_apart(named.shape, changes);
+  Parts parts = take_apart(named.shape, named.labels, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)
     split_solid(parts.solids[i], i, volumes, solids, changes);
   std::vector<TopoDS_Shell> shells = parts.closed_shells;
   if (!shells.empty()) changes.push_back({fmt::format("{} closed shells promoted to solids", shells.size())});
   if (solids.empty() && shells.empty()) {
-    TopExp::MapShapes(named.shape, TopAbs_FACE, parts.open_faces);
+    add_faces(named.shape, named.labels, parts.open_faces);
     parts.loose_faces.Clear();
   }
   if (!parts.open_faces.IsEmpty()) {
-    const SewnShells sewn =
-        sew(parts.open_faces, largest_sewing_tolerance(smallest_size), named.labels, changes);
+    const SewnShells sewn = sew(parts.open_faces, largest_sewing_tolerance(smallest_size), named.labels,
+                                changes, !solids.empty() || !shells.empty());
     shells.insert(shells.end(), sewn.shells.begin(), sewn.shells.end());
     named.gap = sewn.gap;
   }

@@ -34,6 +34,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace aeroloom::cad {
 namespace {
@@ -176,6 +177,7 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
   for (std::size_t i = 0; i < caps.size(); ++i) {
     FaceLabel label;
     label.name = fmt::format("cap_{}", i + 1);
+    label.cap = true;
     labels.Bind(caps[i].face, label);
     faces.Add(caps[i].face);
     caps_made.push_back(
@@ -256,6 +258,53 @@ std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels)
   return text + (edges.size() > shown ? "; ..." : "");
 }
 
+/// Names of faces outside of closed shells.
+std::vector<std::string> stray_names(const Sewn& sewn) {
+  TopTools_IndexedMapOfShape closed;
+  for (const TopoDS_Shell& shell : sewn.closed) TopExp::MapShapes(shell, TopAbs_FACE, closed);
+  std::vector<std::string> names;
+  const TopTools_IndexedMapOfShape all = map_of(sewn.shape, TopAbs_FACE);
+  for (int i = 1; i <= all.Extent(); ++i) {
+    const std::string name = shown_name(sewn.labels, all(i));
+    if (!closed.Contains(all(i)) && !name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+/// Beside closed bodies the faces are likely to be strays.
+[[noreturn]] void refuse_open(const TopTools_IndexedMapOfShape& faces, const Sewn& last,
+                              const FaceLabels& labels, bool beside_bodies) {
+  constexpr std::size_t most_named = 10;
+  std::vector<std::string> strays;
+  if (beside_bodies || !last.closed.empty()) {
+    if (faces.Extent() == 1)
+      strays.push_back(shown_name(labels, faces(1)));
+    else if (!last.shape.IsNull())
+      strays = stray_names(last);
+  }
+  std::erase(strays, "");
+  const std::string remedy = strays.empty() || strays.size() > most_named
+                                 ? ""
+                                 : fmt::format(
+                                       "Remedy: leave what is no wall of a body out (DomainOptions::ignore: "
+                                       "['{}']), or close it to a "
+                                       "body in the CAD program",
+                                       fmt::join(strays, "', '"));
+  if (faces.Extent() == 1) {
+    const Box box = tight_box(faces(1));
+    throw CadError(fmt::format("a single face '{}', around {}, bounds no volume: {}. {}",
+                               shown_name(labels, faces(1)), geometry::place_text(box.center()),
+                               list_open_edges(faces(1), labels),
+                               remedy.empty() ? "Add the faces that close it in the CAD program" : remedy));
+  }
+  throw CadError(
+      fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
+                  "the diagonal), and their openings are no small planar ones: {}. {}",
+                  last.tolerance, last.fraction,
+                  last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels),
+                  remedy.empty() ? "Close the gaps in the CAD program" : remedy));
+}
+
 }  // namespace
 
 std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
@@ -271,7 +320,7 @@ std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
 }
 
 SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
-               Changes& changes) {
+               Changes& changes, bool beside_bodies) {
   const Box box = tight_box(std::vector<TopoDS_Shape>(faces.cbegin(), faces.cend()));
   const double diagonal = box.diagonal();
   std::vector<Sewn> tried;
@@ -304,18 +353,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     labels = capped.labels;
     return {capped.closed, gap};
   }
-  const Sewn& last = tried.back();
-  if (faces.Extent() == 1) {
-    throw CadError(fmt::format(
-        "a single face, around {}, bounds no volume: {}. Add the faces that close it in the CAD program",
-        geometry::place_text(box.center()), list_open_edges(faces(1), labels)));
-  }
-  throw CadError(
-      fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
-                  "the diagonal), and their openings are no small planar ones: {}. Close the gaps in "
-                  "the CAD program",
-                  last.tolerance, last.fraction,
-                  last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels)));
+  refuse_open(faces, tried.back(), labels, beside_bodies);
 }
 
 }  // namespace aeroloom::cad

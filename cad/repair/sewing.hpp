@@ -23,8 +23,9 @@ struct SewnShells {
 /// Sews faces until all of them form closed shells. Tolerances grow from 1e-7 to 1e-4 of the diagonal, up to
 /// `largest_tolerance`. If some faces are noise (noise.hpp), smaller tolerances are tried too, and sewing
 /// without these faces. If no tolerance succeeds, planar openings are capped (plane_loops.hpp). Labels
-/// follow. Tolerance, gaps and caps are appended to `changes`. Throws CadError that lists the open edges.
+/// follow. Tolerance, gaps and caps are appended to `changes`. Throws CadError that lists the open edges. If
+/// there are closed bodies beside these faces, or among them, it names the faces that may be left out.
 SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
-               Changes& changes);
+               Changes& changes, bool beside_bodies = false);
 
 }  // namespace aeroloom::cad

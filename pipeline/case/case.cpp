@@ -1,5 +1,6 @@
 #include "pipeline/case/case.hpp"
 
+#include "geometry/name_text.hpp"
 #include "pipeline/case/case_keys.hpp"
 #include "pipeline/case/given_lengths.hpp"
 #include "pipeline/case/group_keys.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -41,6 +43,11 @@ void check_geometry(const KeyTable& keys, const CaseDraft& draft, const std::str
     throw CaseError(at("dimensions") + "'geometry.dimensions' belongs to 'geometry.builtin', not to a file");
   }
   check_parts(keys, draft);
+  try {
+    geometry::require_encoding(draft.result.domain.encoding);
+  } catch (const std::invalid_argument& error) {
+    throw CaseError(at("encoding") + "'geometry.encoding': " + error.what());
+  }
   const cad::TrailingEdgeOptions& trailing = draft.result.domain.trailing_edges;
   const char* const needless = draft.sharpen_width       ? "sharpen_width"
                                : !trailing.faces.empty() ? "sharpen_faces"
@@ -98,6 +105,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
     check_patterns(keys, "patches." + rule.name + ".faces", rule.faces);
   check_patterns(keys, "geometry.voids", draft.result.domain.voids);
   check_patterns(keys, "geometry.sharpen_faces", draft.result.domain.trailing_edges.faces);
+  check_patterns(keys, "geometry.ignore", draft.result.domain.ignore);
   for (const SourceDraft& source : draft.sources) {
     for (const auto& [key, patterns] : source.patterns)
       check_patterns(keys, "sizing.sources." + source.name + "." + key, patterns);

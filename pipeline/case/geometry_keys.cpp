@@ -130,6 +130,26 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
             "them, whichever way they are turned ([Regions of triangles](faceted.md#regions)). "
             "Patterns as in `sharpen_faces`; without names, solids are `solid_0`, `solid_1` and so on.",
             "none", "[cavity, 'hole*']"}));
+  keys.texts(
+      "ignore", draft.result.domain.ignore,
+      sets("DomainOptions::ignore",
+           {"Faces of the file that are left out, such as a stray sheet beside the bodies: patterns of "
+            "names (`*` any characters, `?` one, `re:` an expression) or numbers. Of triangles: names "
+            "of solids, objects or groups. `aeroloom info FILE` lists them; one without a match is an "
+            "error.",
+            "none", "[face_12, 'construction*']"}));
+  keys.choice<cad::Caps>(
+      "caps", draft.result.domain.caps, {{"join", cad::Caps::join}, {"name", cad::Caps::name}},
+      sets("DomainOptions::caps",
+           "Patches of faces that close planar openings ([Healing](real_cad.md)). `join`: that of the wall "
+           "around the opening. `name`: `cap_1`, `cap_2` and so on. The faces have these names either way."));
+  keys.text("encoding", draft.result.domain.encoding,
+            sets("DomainOptions::encoding",
+                 {"Encoding of names in files of geometry, where they are not UTF-8: `latin-1`, "
+                  "`windows-1252`, `GB18030`, `Shift-JIS`, or another that `iconv -l` lists. STEP has "
+                  "escapes for other letters, and needs none. Without it, each byte is a letter of latin-1 "
+                  "([Names](real_cad.md#names)).",
+                  "latin-1", "GB18030"}));
   declare_trailing_edges(keys, draft);
   declare_parts(keys, draft);
   declare_dimensions(

@@ -122,7 +122,7 @@ TEST_F(Repair, AnOpenBoxGetsALid) {
   ASSERT_NE(cap, nullptr);
   EXPECT_NE(cap->what.find("area 20"), std::string::npos) << cap->what;
   const auto& patches = domain.model.patches();
-  EXPECT_NE(std::find(patches.begin(), patches.end(), "cap_1"), patches.end());
+  EXPECT_EQ(std::find(patches.begin(), patches.end(), "cap_1"), patches.end());
 }
 
 TEST_F(Repair, ATubeGetsAnnularCaps) {
