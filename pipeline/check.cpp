@@ -319,9 +319,10 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   const bool meshable = communicator.maximum(std::int64_t{record.diagnosis.domain.has_value()}) > 0;
   if (!meshable) clock.end();
   if (meshable) {
-    const cad::Model prepared = domain::broadcast_model(communicator, std::move(bytes));
-    domain::require_lengths_of_model(communicator, prepared, input);
-    cases::TypedPatches patches = domain::find_patches(communicator, prepared, input);
+    cad::Domain domain{domain::broadcast_model(communicator, std::move(bytes)), {}};
+    if (communicator.is_root()) domain.report.removed = record.diagnosis.domain->report.removed;
+    domain::require_lengths_of_model(communicator, domain.model, input);
+    cases::TypedPatches patches = domain::find_patches(communicator, domain, input);
     clock.end();
     const cad::Model& model = patches.model;
     if (communicator.is_root()) warn_of_units(model.unit_name(), model.unit_in_metres(), input.output);

@@ -194,8 +194,8 @@ double LayerForecast::bytes() const {
 
 LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::PatchType>& types,
                               const cases::Case& input, const sizing::SizeField& field) {
-  const layers::LayerOptions options =
-      cases::layer_options(input.layers, input.sizing, model.patches(), types);
+  const layers::LayerOptions options = cases::layer_options(
+      cases::without_missing_patches(input.layers, model.patches()), input.sizing, model.patches(), types);
   const LayerCount count(model, field, types, options.elements);
   LayerForecast forecast{{}, input.layers.reynolds, input.layers.length};
   if (options.elements == layers::LayerElements::tets) forecast.cells_of_prism = 3;

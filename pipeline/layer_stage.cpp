@@ -88,7 +88,8 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   surface.patch_types = surface.types;
   const layers::LayerOptions options =
-      cases::layer_options(input.layers, input.sizing, surface.patches, surface.types);
+      cases::layer_options(cases::without_missing_patches(input.layers, surface.patches), input.sizing,
+                           surface.patches, surface.types);
   const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =

@@ -131,7 +131,7 @@ private:
     }
     const cad::Domain domain = find_or_load_domain();
     domain::require_lengths_of_model(_communicator, domain.model, _input);
-    cases::TypedPatches patches = domain::find_patches(_communicator, domain.model, _input);
+    cases::TypedPatches patches = domain::find_patches(_communicator, domain, _input);
     if (_communicator.is_root())
       warn_of_units(patches.model.unit_name(), patches.model.unit_in_metres(), _input.output);
     if (_communicator.is_root())
@@ -174,6 +174,9 @@ private:
 
   domain::SizedDomain size(const cases::TypedPatches& domain) {
     domain::SizedDomain sized = find_or_build_sizes(domain.model);
+    if (_communicator.is_root())
+      for (const std::string& warning : domain::warnings_of_lost_patches(domain, sized.model, _input))
+        parallel::log_warning(warning);
     domain::require_walls_apart(sized);
     require_memory(sized, types_of(sized.model.patches(), domain), _input);
     return sized;

@@ -131,7 +131,9 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   result.sizing.edges.assign(draft.edges.begin(), draft.edges.end());
   result.layers.given = result.layers.first || result.layers.reynolds || !draft.layer_rules.empty();
   result.layers.patches.assign(draft.layer_rules.begin(), draft.layer_rules.end());
-  for (const PatchRule& rule : result.patches) {
+  for (LayerRule& rule : result.layers.patches) rule.where = keys.where("layers.patches." + rule.name);
+  for (PatchRule& rule : result.patches) {
+    rule.where = keys.where("patches." + rule.name);
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
   }
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;

@@ -3,6 +3,7 @@
 #include "cad/model/patches.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
+#include "pipeline/case/box_sides.hpp"
 #include "pipeline/case/face_texts.hpp"
 #include "pipeline/case/nearest_name.hpp"
 
@@ -165,9 +166,9 @@ void FaceFinder::refuse(const GroupRule& rule, const char* what, const std::stri
       near.empty() ? fmt::format("the geometry gives no face a {}", what)
                    : fmt::format("the nearest that faces have are '{}'", fmt::join(near, "', '"));
   throw std::invalid_argument(
-      fmt::format("{}: no face has a {} like '{}'; {}. Remedy: `aeroloom info FILE` lists "
+      fmt::format("{}: no face has a {} like '{}'; {}{}. Remedy: `aeroloom info FILE` lists "
                   "them; `optional: true` where the group may be empty",
-                  origin_of(rule), what, text, nearest));
+                  origin_of(rule), what, text, nearest, hint_on_box_sides(_model, text)));
 }
 
 std::vector<char> FaceFinder::with_names(const std::vector<std::string>& patterns, const GroupRule& rule,

@@ -228,6 +228,9 @@ void declare_patches(KeyTable& root, CaseDraft& draft) {
                     common({"Largest size of elements on the patch. Only smaller sizes that are asked for "
                             "there replace it.",
                             "that of `sizing`", "0.05"}));
+        keys.flag("optional", rule.optional,
+                  "Whether the rule may match nothing, as in a case for several geometries, or where a face "
+                  "may be closed or joined. Otherwise this is an error.");
         declare_patch_type(keys, rule.type);
       });
 }

@@ -14,6 +14,10 @@ namespace aeroloom::cases {
 
 namespace {
 
+std::string place_of_rule(const LayerRule& rule) {
+  return fmt::format("{}layers.patches.{}", rule.where.empty() ? "" : rule.where + ": ", rule.name);
+}
+
 /// What all walls get.
 layers::WallLayers layers_of_walls(const LayerRequest& request, const SizingRequest& sizing) {
   std::optional<sizing::LevelLayers> level;
@@ -64,14 +68,14 @@ std::size_t patch_of_rule(const LayerRule& rule, const std::vector<std::string>&
   if (found == patches.end()) {
     const std::optional<std::string> nearest = nearest_name(rule.name, patches);
     throw std::invalid_argument(
-        fmt::format("layers.patches.{}: there is no such patch{}. Remedy: `aeroloom check` lists the patches",
-                    rule.name, nearest ? fmt::format("; the nearest name is '{}'", *nearest) : ""));
+        fmt::format("{}: there is no such patch{}. Remedy: `aeroloom check` lists the patches",
+                    place_of_rule(rule), nearest ? fmt::format("; the nearest name is '{}'", *nearest) : ""));
   }
   if (types.at(patch) != mesh::PatchType::wall && rule.count != 0)
     throw std::invalid_argument(
-        fmt::format("layers.patches.{}: layers stand on walls, and this patch is of type {}. Remedy: "
+        fmt::format("{}: layers stand on walls, and this patch is of type {}. Remedy: "
                     "`patches: {{{}: {{type: wall}}}}`, or no layers on it",
-                    rule.name, mesh::name_of(types[patch]), rule.name));
+                    place_of_rule(rule), mesh::name_of(types[patch]), rule.name));
   return patch;
 }
 
@@ -109,6 +113,13 @@ layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequ
   for (const LayerRule& rule : request.patches)
     options.patches[patch_of_rule(rule, patches, types)] = wanted_layers(request, sizing, &rule);
   return options;
+}
+
+LayerRequest without_missing_patches(LayerRequest request, const std::vector<std::string>& patches) {
+  std::erase_if(request.patches, [&](const LayerRule& rule) {
+    return std::find(patches.begin(), patches.end(), rule.name) == patches.end();
+  });
+  return request;
 }
 
 }  // namespace aeroloom::cases

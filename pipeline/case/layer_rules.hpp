@@ -17,6 +17,7 @@ struct LayerRule {
   std::string name;  ///< of the patch
   std::optional<double> first, growth, total;
   std::optional<std::int64_t> constant, count;  ///< count 0: no layers
+  std::string where = {};                       ///< place in the case, for messages: "case.yaml:7:3"
 };
 
 /// The patches that get layers by default.
@@ -63,10 +64,13 @@ struct SizingRequest;
 layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
                                  const LayerRule* rule = nullptr);
 
-/// The layers of each patch. Throws std::invalid_argument for a rule whose patch does not exist (with the
-/// nearest name) or is no wall.
+/// The layers of each patch. Throws std::invalid_argument, with the place in the case, for a rule whose patch
+/// does not exist (with the nearest name) or is no wall.
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,
                                    const std::vector<std::string>& patches,
                                    const std::vector<mesh::PatchType>& types);
+
+/// The request without rules for patches that are not in the list.
+LayerRequest without_missing_patches(LayerRequest request, const std::vector<std::string>& patches);
 
 }  // namespace aeroloom::cases

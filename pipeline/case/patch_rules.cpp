@@ -1,6 +1,7 @@
 #include "pipeline/case/patch_rules.hpp"
 
 #include "cad/model/patches.hpp"
+#include "pipeline/case/box_sides.hpp"
 #include "pipeline/case/nearest_name.hpp"
 
 #include <algorithm>
@@ -43,6 +44,24 @@ std::vector<std::string> names_of(const cad::Model& model) {
   return names;
 }
 
+/// The key, after its place in the case.
+std::string origin_of(const PatchRule& rule) {
+  return fmt::format("{}patches.{}", rule.where.empty() ? "" : rule.where + ": ", rule.name);
+}
+
+constexpr const char* may_be_empty = "`optional: true` where the rule may match nothing";
+
+/// A name of the file that no face has any more is no mistake in the case.
+void refuse_removed(const PatchRule& rule, const std::string& pattern,
+                    const std::vector<cad::RemovedName>& removed) {
+  const cad::NamePattern wanted(pattern);
+  const auto found =
+      std::ranges::find_if(removed, [&](const cad::RemovedName& each) { return wanted.matches(each.name); });
+  if (found == removed.end()) return;
+  throw std::invalid_argument(fmt::format("{}: the file has '{}', but the domain has not: {}. Remedy: {}",
+                                          origin_of(rule), found->name, found->reason, may_be_empty));
+}
+
 [[noreturn]] void refuse_pattern(const cad::Model& model, const PatchRule& rule, const std::string& pattern) {
   constexpr std::size_t most = 5;
   std::vector<std::string> names = names_of(model);
@@ -52,34 +71,37 @@ std::vector<std::string> names_of(const cad::Model& model) {
   std::string nearest;
   for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
     nearest += fmt::format("{}'{}'", i > 0 ? ", " : "", names[i]);
-  throw std::invalid_argument(fmt::format(
-      "patches.{}: no face and no patch of this model is like '{}'; the nearest names are {}. Remedy: "
-      "`aeroloom check` lists the patches; * stands for any characters, ? for one",
-      rule.name, pattern, nearest));
+  throw std::invalid_argument(
+      fmt::format("{}: no face and no patch of this model is like '{}'; the nearest names are {}{}. Remedy: "
+                  "`aeroloom check` lists the patches; * stands for any characters, ? for one; {}",
+                  origin_of(rule), pattern, nearest, hint_on_box_sides(model, pattern), may_be_empty));
 }
 
 /// The faces that a rule takes from those that are still free.
-void take_faces(const cad::Model& model, const PatchRule& rule, FacePatches& chosen) {
+void take_faces(const cad::Model& model, const PatchRule& rule, const std::vector<cad::RemovedName>& removed,
+                FacePatches& chosen) {
   const std::vector<std::string> own{rule.name};
-  bool takes_any = false;
+  bool takes_any = false, matches_any = false;
   for (const std::string& text : rule.faces.empty() ? own : rule.faces) {
     const cad::NamePattern pattern(text);
     bool any = false;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {
       if (!is_like(model, f, pattern)) continue;
-      any = true;
+      any = matches_any = true;
       if (chosen.taken[f]) continue;
       takes_any = true;
       chosen.taken[f] = 1;
       chosen.patch_of_face[f] = rule.name;
     }
-    if (!any) refuse_pattern(model, rule, text);
+    if (any || rule.optional) continue;
+    refuse_removed(rule, text, removed);
+    refuse_pattern(model, rule, text);
   }
-  if (!takes_any) {
+  if (!takes_any && matches_any && !rule.optional) {
     throw std::invalid_argument(
-        fmt::format("patches.{}: all faces that it matches belong to groups, or to patches before it. "
+        fmt::format("{}: all faces that it matches belong to groups, or to patches before it. "
                     "Remedy: put it first",
-                    rule.name));
+                    origin_of(rule)));
   }
 }
 
@@ -144,7 +166,8 @@ void warn(TypedPatches& patches, const PatchSetting& rule, const std::vector<cha
 }  // namespace
 
 FacePatches choose_patches(const cad::Model& model, const FaceGroups& groups,
-                           const std::vector<PatchRule>& rules) {
+                           const std::vector<PatchRule>& rules,
+                           const std::vector<cad::RemovedName>& removed) {
   FacePatches chosen;
   const std::vector<std::int32_t> group_of_face = find_groups(model, groups.rules);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
@@ -153,7 +176,7 @@ FacePatches choose_patches(const cad::Model& model, const FaceGroups& groups,
     chosen.patch_of_face.push_back(group != no_group ? groups.rules[group].name
                                                      : model.patches()[model.face(f).patch]);
   }
-  for (const PatchRule& rule : rules) take_faces(model, rule, chosen);
+  for (const PatchRule& rule : rules) take_faces(model, rule, removed, chosen);
   require_all_taken(model, groups, chosen);
   return chosen;
 }

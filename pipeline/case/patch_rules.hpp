@@ -1,6 +1,7 @@
 /// Rules of the case for patches: names, the faces they join, and their boundary conditions.
 #pragma once
 
+#include "cad/domain/domain.hpp"
 #include "cad/model/model.hpp"
 #include "mesh/data/patch.hpp"
 #include "pipeline/case/face_groups.hpp"
@@ -18,6 +19,8 @@ struct PatchRule {
   std::vector<std::string> faces;
   std::optional<mesh::PatchType> type;  ///< boundary condition; empty: the default one
   std::optional<double> size = {};      ///< largest element size on it, in the model's unit
+  bool optional = false;                ///< it may match nothing
+  std::string where = {};               ///< place in the case, for messages: "case.yaml:7:3"
 };
 
 /// The patch of each face.
@@ -35,10 +38,11 @@ struct TypedPatches {
 
 /// Assigns faces to patches: by the first group that selects them, else by the first rule that matches a
 /// name; others keep their patch. Throws std::invalid_argument as find_groups(), for a pattern that matches
-/// no face (with the nearest names), for a rule that loses all faces to others, and for faces that strict
-/// groups leave out.
+/// no face (with the nearest names, or with the reason if it names a face in `removed`), for a rule that
+/// loses all faces to others, and for faces that strict groups leave out. Optional rules may match nothing.
 FacePatches choose_patches(const cad::Model& model, const FaceGroups& groups,
-                           const std::vector<PatchRule>& rules);
+                           const std::vector<PatchRule>& rules,
+                           const std::vector<cad::RemovedName>& removed = {});
 
 /// Applies the patches to the model. Groups and rules give boundary conditions. Defaults: a patch named as a
 /// type, or as one of its usual synonyms ("symmetry_plane", "inflow"), has that type; far-field faces added

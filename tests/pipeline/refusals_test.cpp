@@ -170,12 +170,21 @@ TEST_F(Refusals, OfGroupsThatSelectNothing) {
 
 TEST_F(Refusals, OfPatchesThatAreNotThere) {
   write("case.yaml", coarse_duct() + "layers: {first: 1e-3, patches: {no_such_patch: {count: 3}}}\n");
-  expect(2, "run case.yaml", {"layers.patches.no_such_patch: there is no such patch"});
+  for (const std::string command : {"check", "run"})
+    expect(2, command + " case.yaml",
+           {"case.yaml:5:", "layers.patches.no_such_patch: there is no such patch"});
+  EXPECT_FALSE(exists("out/surface.pvtp"));
   write("case.yaml", coarse_transport() + "patches:\n  wing: {faces: ['wing_*'], type: slip}\n");
   expect(2, "run case.yaml --set patches.wing.faces=winglet_*", {"'winglet_*'", "'wing_left_upper'"});
   write("case.yaml", coarse_wing());
   expect(3, "check case.yaml --set geometry.sharpen_faces=[wings]",
          {"no face and no patch of this model is called 'wings'"});
+  // These strips were closed; the sides are those of a fluid.
+  write("case.yaml", coarse_transport() + "patches:\n  te: {faces: '*_trailing_edge'}\n");
+  expect(2, "check case.yaml",
+         {"case.yaml:7:", "patches.te: the file has 'wing_", "was closed", "optional: true"});
+  expect(2, "check case.yaml --set patches.te.faces=xmin", {"taken as a body", "geometry.domain: fluid"});
+  expect(2, "check case.yaml --set geometry.encoding=klingon", {"no encoding 'klingon'"});
 }
 
 // Sizes that nobody can hold, or that are of nothing, are refused with the name of what asks for them.

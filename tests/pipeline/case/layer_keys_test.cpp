@@ -96,6 +96,8 @@ TEST_F(LayerKeys, PatchesMustBeWallsOfThisModel) {
                 .find("layers.patches.wign: there is no such patch; the nearest name is "
                       "'wing'"),
             std::string::npos);
+  EXPECT_NE(message("wign: {count: 3}").find("case.yaml:2:"), std::string::npos)
+      << message("wign: {count: 3}");
   EXPECT_NE(message("farfield: {count: 3}").find("is of type farfield"), std::string::npos);
   EXPECT_EQ(message("farfield: {count: 0}"), "");
 }

@@ -98,5 +98,49 @@ TEST(PatchRules, APatternWithoutFacesNamesTheNearest) {
   }
 }
 
+std::string refusal_of(const std::vector<PatchRule>& rules,
+                       const std::vector<cad::RemovedName>& removed = {}) {
+  try {
+    choose_patches(transport(), {}, rules, removed);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PatchRules, OptionalOnesMayMatchNothing) {
+  PatchRule rule{"nacelle", {"nacelle_*", "*wing*"}, PatchType::slip};
+  EXPECT_NE(refusal_of({rule}).find("`optional: true`"), std::string::npos) << refusal_of({rule});
+  rule.optional = true;
+  EXPECT_EQ(refusal_of({rule}), "");
+  EXPECT_EQ(type_of(apply_patch_rules(transport(), {rule}), "nacelle"), PatchType::slip);
+  rule.faces = {"nacelle_*"};
+  EXPECT_EQ(apply_patch_rules(transport(), {rule}).model.patches(), transport().patches());
+  const PatchRule all{"all", {"*"}, {}};
+  rule.faces = {"*wing*"};
+  EXPECT_EQ(refusal_of({all, rule}), "");
+}
+
+TEST(PatchRules, SayWhereTheyStandAndWhatBecameOfTheirFaces) {
+  PatchRule rule{"te", {"te_left"}, {}};
+  rule.where = "case.yaml:7:3";
+  EXPECT_EQ(refusal_of({rule}).rfind("case.yaml:7:3: patches.te: no face", 0), 0U) << refusal_of({rule});
+  const std::string removed = refusal_of({rule}, {{"te_left", "trailing edge 'te_left' was closed"}});
+  EXPECT_EQ(
+      removed,
+      "case.yaml:7:3: patches.te: the file has 'te_left', but the domain has not: trailing edge 'te_left' "
+      "was closed. Remedy: `optional: true` where the rule may match nothing");
+}
+
+TEST(PatchRules, NamesOfAFluidsBoxTellThatItIsABody) {
+  for (const char* side : {"xmin", "zmax", "re:^y(min|max)$"}) {
+    const std::string text = refusal_of({{"inlet", {side}, PatchType::inlet}});
+    EXPECT_NE(text.find("taken as a body"), std::string::npos) << text;
+    EXPECT_NE(text.find("`geometry.domain: fluid`"), std::string::npos) << text;
+  }
+  EXPECT_EQ(refusal_of({{"inlet", {"inflow_7"}, PatchType::inlet}}).find("taken as a body"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace aeroloom::cases
