@@ -1,9 +1,17 @@
 #include "pipeline/finished_surface.hpp"
 
+#include "geometry/place_text.hpp"
+#include "mesh/checks/enclosures.hpp"
 #include "mesh/checks/validity.hpp"
 #include "mesh/data/boundary_mesh.hpp"
 #include "mesh/quality/quality.hpp"
+#include "parallel/communication/collective_error.hpp"
+#include "parallel/observation/log.hpp"
 #include "pipeline/finished_volume.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 
@@ -58,6 +66,31 @@ void inspect_surface(const std::string& what, FinishedSurface& surface) {
   figures.surface_quality = mesh::summarise_quality(surface);
   figures.face_table = table_of_faces(surface.model, surface);
   figures.patches = table_of_patches(surface.model, figures.face_table, surface.types);
+}
+
+void judge_chambers(const mesh::NumberedMesh& surface, cases::ChamberUse kind) {
+  constexpr std::size_t most = 5;  // places that a message lists
+  const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
+  const std::vector<mesh::Enclosure> chambers = mesh::find_enclosures(surface);
+  if (chambers.empty()) return;
+  std::string places;
+  for (std::size_t i = 0; i < std::min(most, chambers.size()); ++i) {
+    const mesh::Enclosure& each = chambers[i];
+    const std::string region =
+        surface.region_count() > 1 ? fmt::format("of '{}' ", surface.regions[each.region]) : std::string();
+    places += fmt::format("{}{:.4g} {}around {}", i > 0 ? ", " : "", each.volume, region,
+                          geometry::place_text(each.place));
+  }
+  if (chambers.size() > most) places += fmt::format(" and {} more", chambers.size() - most);
+  const std::string text =
+      fmt::format("a region falls into {} parts that nothing joins, of volume {}", chambers.size(), places);
+  if (kind == cases::ChamberUse::refuse)
+    throw parallel::CollectiveError(
+        parallel::FailureKind::input,
+        text +
+            ". Remedy: close or fill what is not wanted in the CAD, or `geometry.chambers: keep` to mesh "
+            "all of them");
+  if (surface.communicator.is_root()) parallel::log_warning("surface: " + text);
 }
 
 void adopt_boundary(const mesh::NumberedMesh& volume, FinishedSurface& surface) {

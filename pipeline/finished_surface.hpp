@@ -3,6 +3,7 @@
 
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
+#include "pipeline/case/case.hpp"
 #include "pipeline/report/run_record.hpp"
 #include "sizing/field/size_field.hpp"
 
@@ -24,6 +25,10 @@ struct FinishedSurface : surface::SurfaceMesh {
 /// Checks the surface and measures quality, faces and patches. `what` names the surface in messages.
 /// Collective. Throws as require_valid().
 void inspect_surface(const std::string& what, FinishedSurface& surface);
+
+/// Looks for regions whose space falls into several parts, before they are filled. Where such are kept, warns
+/// of them. Collective. Throws CollectiveError (input) with volumes and places where they are refused.
+void judge_chambers(const mesh::NumberedMesh& surface, cases::ChamberUse chambers);
 
 /// Replaces the surface mesh by the boundary of an improved volume and inspects it. Collective. Throws as
 /// inspect_surface().

@@ -247,6 +247,7 @@ private:
     FinishedSurface finished{std::move(surface), sized.model, types_of(sized.model.patches(), domain),
                              sized.sizes, sized.findings.counts.tetrahedra};
     inspect_surface("the surface mesh", finished);
+    judge_chambers(finished, _input.chambers);
     static_cast<report::SurfaceFigures&>(_record) = finished.figures;
     log_surface(finished.report, finished.figures);
     if (_communicator.is_root()) log_needles(finished.report, finished.figures.face_table);

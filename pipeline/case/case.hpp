@@ -89,6 +89,9 @@ SizingRequest in_model_units(const SizingRequest& request);
 inline constexpr geometry::Vec3 default_flow{1, 0, 0};
 inline constexpr double default_target = 1'000'000;
 
+/// Whether a region may fall into parts that nothing joins.
+enum class ChamberUse { refuse, keep };
+
 /// What happens to a face narrower than the smallest size that continues smoothly into a neighbour.
 enum class NarrowFaces { join, keep };
 
@@ -122,6 +125,7 @@ struct GivenLength {
 struct Case {
   cad::DomainOptions domain;
   NarrowFaces narrow_faces = NarrowFaces::join;
+  ChamberUse chambers = ChamberUse::refuse;
   SizingRequest sizing;
   surface::SurfaceOptions surface;
   LayerRequest layers;

@@ -119,6 +119,10 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
       "narrow_faces", draft.result.narrow_faces, {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}},
       "`join`: a face narrower than `sizing.minimum` becomes part of a neighbour that continues it smoothly "
       "([Narrow faces](real_cad.md#narrow-faces)). `keep`: its borders stay in the mesh.");
+  keys.choice<ChamberUse>(
+      "chambers", draft.result.chambers, {{"refuse", ChamberUse::refuse}, {"keep", ChamberUse::keep}},
+      "A region whose space falls into parts that nothing joins, such as the fluid around a body and that in "
+      "a void of it. `refuse`: an error that lists volumes and places. `keep`: all are meshed.");
   keys.number(
       "feature_angle", draft.result.domain.feature_angle, Range::between(5, 180, "degrees"),
       sets("DomainOptions::feature_angle", {"For files of triangles: a side becomes an edge of the mesh if "

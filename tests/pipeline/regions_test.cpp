@@ -10,8 +10,11 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRep_Builder.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
 #include <gtest/gtest.h>
 
 namespace aeroloom::pipeline {
@@ -102,6 +105,47 @@ TEST(Regions, OverlappingSolidsAreRefusedWithAPlace) {
     EXPECT_NE(std::string(failure.what()).find("around (1.5, 0.5, 0.5)"), std::string::npos)
         << failure.what();
   }
+}
+
+// A solid of one shell that meets itself in an edge: two boxes, of volume 1 and 2.
+TopoDS_Solid pinched_solid() {
+  TopTools_ListOfShape boxes;
+  boxes.Append(box(0, 0, 0, 1, 1, 1)), boxes.Append(box(1, 1, 0, 2, 1, 1));
+  BRepAlgoAPI_BuilderAlgo common;
+  common.SetArguments(boxes);
+  common.Build();
+  const BRep_Builder builder;
+  TopoDS_Shell shell;
+  builder.MakeShell(shell);
+  for (TopExp_Explorer each(common.Shape(), TopAbs_FACE); each.More(); each.Next())
+    builder.Add(shell, each.Current());
+  shell.Closed(true);
+  TopoDS_Solid solid;
+  builder.MakeSolid(solid);
+  builder.Add(solid, shell);
+  return solid;
+}
+
+TEST(Regions, ThatFallIntoPartsAreRefusedUnlessKept) {
+  const Folder folder;
+  cases::Case input = cad_cases::coarse_case(folder.write(pinched_solid(), "pinched.brep"), folder, 3000);
+  input.domain.kind = cad::DomainKind::fluid;
+  report::RunRecord refused;
+  try {
+    run_case(parallel::Communicator::world(), input, refused);
+    ADD_FAILURE() << "two parts that nothing joins were meshed";
+  } catch (const report::StageFailure& failure) {
+    const std::string text = failure.what();
+    EXPECT_EQ(failure.code(), report::ExitCode::surface);
+    for (const char* part :
+         {"falls into 2 parts", "2 around (2, 1.5, 0.5)", "1 around (0.5, 0.5, 0.5)", "geometry.chambers"})
+      EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  }
+  input.chambers = cases::ChamberUse::keep;
+  std::string alone;
+  const report::RunRecord kept = cad_cases::run_twice(input, alone);
+  EXPECT_EQ(kept.hash, alone);
+  EXPECT_NEAR(kept.mesh_volume, 3, 1e-9);
 }
 
 // A pin stands on a plate so that its outline touches the plate's rim in one point: two loops of one face
