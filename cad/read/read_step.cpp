@@ -14,10 +14,15 @@
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Controller.hxx>
 #include <StepBasic_UncertaintyMeasureWithUnit.hxx>
+#include <StepGeom_DegenerateToroidalSurface.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_ConnectedFaceSet.hxx>
 #include <StepShape_Face.hxx>
+#include <StepShape_FaceBound.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <StepShape_Loop.hxx>
 #include <StepShape_SolidModel.hxx>
+#include <StepShape_VertexLoop.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopLoc_Location.hxx>
@@ -94,6 +99,27 @@ std::vector<std::string> changes_of_names(const NamedShape& named, const StepTex
   return changes;
 }
 
+/// The CAD library drops which part of a torus that crosses itself a face without a border means.
+void refuse_inner_tori(STEPControl_Reader& reader, const std::string& file) {
+  const Handle(Interface_InterfaceModel) model = reader.WS()->Model();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto face = Handle(StepShape_FaceSurface)::DownCast(model->Value(i));
+    if (face.IsNull()) continue;
+    const auto torus = Handle(StepGeom_DegenerateToroidalSurface)::DownCast(face->FaceGeometry());
+    if (torus.IsNull() || torus->SelectOuter()) continue;
+    bool has_border = false;
+    for (int k = 1; k <= face->NbBounds(); ++k)
+      has_border = has_border || !face->BoundsValue(k)->Bound()->IsKind(STANDARD_TYPE(StepShape_VertexLoop));
+    if (has_border) continue;
+    throw CadError(fmt::format(
+        "'{}': face '{}' of entity {} is the inner part of a torus that crosses itself (radii {:.6g} and "
+        "{:.6g}), which the CAD library does not tell from the outer one. Remedy: export it as a surface of "
+        "revolution",
+        file, face->Name().IsNull() ? "" : face->Name()->ToCString(), model->StringLabel(face)->ToCString(),
+        torus->MajorRadius(), torus->MinorRadius()));
+  }
+}
+
 }  // namespace
 
 NamedShape read_step(const std::string& file, const std::string& encoding) {
@@ -106,6 +132,7 @@ NamedShape read_step(const std::string& file, const std::string& encoding) {
   if (parse(reader, file, decoded) != IFSelect_RetDone) {
     throw CadError(fmt::format("'{}': a STEP file that cannot be parsed", file));
   }
+  refuse_inner_tori(reader.ChangeReader(), file);
   const LengthUnit* declared = first_declared_unit(reader.ChangeReader());
   const LengthUnit& unit = declared ? *declared : millimetre();
   set_cad_library_unit(unit);

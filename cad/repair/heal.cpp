@@ -7,6 +7,7 @@
 #include "cad/repair/repair_edges.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
+#include "cad/repair/spindle_tori.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
 
@@ -159,6 +160,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
   report_step("healing the shape");
+  trim_spindle_tori(named, changes);
   Parts parts = take_apart(named.shape, named.labels, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)
