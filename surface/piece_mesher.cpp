@@ -20,6 +20,33 @@ void classify_border_vertex(cad::FaceId face, mesh::SharedVertexKey vertex_key, 
   piece.vertex_entity.push_back(on_cut ? face : on_edge ? edge : static_cast<std::int32_t>(vertex_key));
 }
 
+/// Whether another face ends at the vertex too, as where two cones meet in their apexes.
+bool is_met_by_others(const cad::Model& model, cad::VertexId vertex, cad::FaceId face) {
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
+    const cad::Edge& edge = model.edge(e);
+    if (edge.first != vertex && edge.last != vertex) continue;
+    if (std::any_of(edge.faces.begin(), edge.faces.end(), [&](cad::FaceId f) { return f != face; }))
+      return true;
+  }
+  return false;
+}
+
+/// Apexes lie inside of their face. One at which other faces end is a vertex of their pieces too.
+void classify_apexes(const cad::Model& model, const FaceMesh& mesh, mesh::Piece& piece) {
+  std::vector<FaceMesh::ApexVertex> shared;
+  for (const FaceMesh::ApexVertex& apex : mesh.apexes) {
+    if (apex.vertex == cad::no_entity) continue;
+    piece.vertex_dimension[apex.at] = mesh::CadDimension::vertex;
+    piece.vertex_entity[apex.at] = apex.vertex;
+    if (is_met_by_others(model, apex.vertex, mesh.face)) shared.push_back(apex);
+  }
+  std::sort(shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.at < b.at; });
+  for (const FaceMesh::ApexVertex& apex : shared) {
+    piece.shared_vertices.push_back(apex.at);
+    piece.shared_keys.push_back(mesh::cad_vertex_key(apex.vertex));
+  }
+}
+
 mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, const FaceMesh& mesh) {
   mesh::Piece piece;
   piece.kind = mesh::CellKind::triangle;
@@ -34,11 +61,7 @@ mesh::Piece piece_of(const cad::Model& model, const FaceVertices& vertices, cons
   piece.shared_keys = vertices.vertex_keys;
   piece.vertex_dimension.resize(mesh.points.size(), mesh::CadDimension::face);
   piece.vertex_entity.resize(mesh.points.size(), mesh.face);
-  for (const FaceMesh::ApexVertex& apex : mesh.apexes) {
-    if (apex.vertex == cad::no_entity) continue;
-    piece.vertex_dimension[apex.at] = mesh::CadDimension::vertex;
-    piece.vertex_entity[apex.at] = apex.vertex;
-  }
+  classify_apexes(model, mesh, piece);
   piece.triangle_face.assign(mesh.triangles.size(), mesh.face);
   piece.triangle_patch.assign(mesh.triangles.size(), model.face(mesh.face).patch);
   return piece;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRep_Builder.hxx>
 #include <TopExp_Explorer.hxx>
@@ -88,6 +90,30 @@ TEST(Regions, ThreeBoxesMeetAtOneEdge) {
 
 TEST(RegionsLocal, TwoBoxesTouchInAnEdgeAlone) {
   expect_regions(together({box(0, 0, 0, 1, 1, 1), box(1, 1, 0, 1, 1, 1)}), {{1, 1}, 0});
+}
+
+// Nothing but the common apex belongs to both, whether they are regions or bodies.
+TEST(Regions, TwoConesMeetInTheirApexes) {
+  const auto cone = [](double direction) {
+    return BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(0, 0, direction)), 0, 0.5, 1).Shape();
+  };
+  const double volume = std::numbers::pi * 0.25 / 3;
+  const Folder folder;
+  cases::Case input =
+      cad_cases::coarse_case(folder.write(together({cone(1), cone(-1)}), "cones.brep"), folder, 1500);
+  input.domain.kind = cad::DomainKind::fluid;
+  std::string alone;
+  const report::RunRecord regions = cad_cases::run_twice(input, alone);
+  EXPECT_EQ(regions.hash, alone);
+  ASSERT_EQ(regions.regions_filled.size(), 2u);
+  for (const report::RegionRow& region : regions.regions_filled)
+    EXPECT_NEAR(region.volume, volume, 0.05 * volume);
+  input.domain.kind = cad::DomainKind::body;
+  input.domain.far_field = cad::FarFieldOptions{.shape = cad::FarFieldShape::box, .extent = 1};
+  input.improve.enabled = false;
+  report::RunRecord bodies;
+  run_case(parallel::Communicator::world(), input, bodies);
+  EXPECT_NEAR(bodies.mesh_volume, 4 * 4 * 4 - 2 * volume, 0.1 * volume);
 }
 
 TEST(Regions, OverlappingSolidsAreRefusedWithAPlace) {

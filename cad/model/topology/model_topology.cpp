@@ -4,6 +4,7 @@
 #include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/disjoint_sets.hpp"
 #include "geometry/place_text.hpp"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ namespace {
 // The CAD library's maps copy when they are moved.
 struct Maps {  // NOLINT(bugprone-exception-escape)
   TopTools_IndexedMapOfShape vertices, edges, faces, solids;
+  std::vector<VertexId> vertex_ids;  ///< by index in `vertices`, less one
 };
 
 /// Visits the edges of a face loop by loop, oriented as in the face oriented forward. Edges lying inside the
@@ -62,9 +64,39 @@ Maps map_shapes(const TopoDS_Shape& shape) {
   return maps;
 }
 
-void add_vertices(const Maps& maps, Model::Data& data) {
+/// The vertices at which faces run to a point, by index in the map.
+std::vector<char> mark_apexes(const Maps& maps) {
+  std::vector<char> marks(static_cast<std::size_t>(maps.vertices.Extent()), 0);
+  for (int i = 1; i <= maps.edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(maps.edges(i));
+    if (BRep_Tool::Degenerated(edge)) marks[maps.vertices.FindIndex(TopExp::FirstVertex(edge)) - 1] = 1;
+  }
+  return marks;
+}
+
+/// Vertices of the CAD model become vertices. Where an apex lies on another one, the two are one: the CAD
+/// library joins solids that meet in their corners, but not in their apexes.
+void add_vertices(Maps& maps, Model::Data& data) {
+  const double same = tolerances::coincident * data.body_bounds.diagonal();
+  const std::vector<char> is_apex = mark_apexes(maps);
+  std::vector<Vec3> places;
   for (int i = 1; i <= maps.vertices.Extent(); ++i)
-    data.vertices.push_back(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)))));
+    places.push_back(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)))));
+  geometry::DisjointSets<VertexId> sets(places.size());
+  for (std::size_t apex = 0; apex < places.size(); ++apex) {
+    for (std::size_t v = 0; is_apex[apex] && v < places.size(); ++v)
+      if (distance(places[apex], places[v]) <= same)
+        sets.unite(static_cast<VertexId>(apex), static_cast<VertexId>(v));
+  }
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    const auto lowest = static_cast<std::size_t>(sets.root(static_cast<VertexId>(v)));
+    if (lowest < v) {
+      maps.vertex_ids.push_back(maps.vertex_ids[lowest]);
+      continue;
+    }
+    maps.vertex_ids.push_back(static_cast<VertexId>(data.vertices.size()));
+    data.vertices.push_back(places[v]);
+  }
 }
 
 void add_edges(const Maps& maps, Model::Data& data) {
@@ -74,8 +106,8 @@ void add_edges(const Maps& maps, Model::Data& data) {
     Edge edge;
     TopoDS_Vertex first, last;
     TopExp::Vertices(evaluator.shape, first, last);
-    edge.first = maps.vertices.FindIndex(first) - 1;
-    edge.last = maps.vertices.FindIndex(last) - 1;
+    edge.first = maps.vertex_ids[maps.vertices.FindIndex(first) - 1];
+    edge.last = maps.vertex_ids[maps.vertices.FindIndex(last) - 1];
     edge.degenerate = BRep_Tool::Degenerated(evaluator.shape);
     BRep_Tool::Range(evaluator.shape, edge.first_parameter, edge.last_parameter);
     if (!edge.degenerate) {
@@ -254,7 +286,7 @@ const UseCurve& FaceEvaluator::use(const Coedge& wanted) const {
 }
 
 void index_topology(Model::Data& data) {
-  const Maps maps = map_shapes(data.shape);
+  Maps maps = map_shapes(data.shape);
   add_vertices(maps, data);
   add_edges(maps, data);
   data.faces.resize(maps.faces.Extent());
