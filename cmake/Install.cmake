@@ -1,11 +1,11 @@
 # cmake --install: the program, the stages as static libraries with their public headers, what find_package(Aeroloom)
-# reads, manual pages, completion, cases and documentation. Of the program's own folder, pipeline/, only cases and their
-# domains are libraries for others.
+# reads, manual pages, completion, cases and documentation. Of the program's own folder, pipeline/, all but the commands are
+# libraries for others; few of their headers are.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 get_property(libraries GLOBAL PROPERTY AEROLOOM_LIBRARIES)
-list(FILTER libraries EXCLUDE REGEX "^aeroloom_pipeline(_commands|_report|_study|$)")
+list(REMOVE_ITEM libraries aeroloom_pipeline_commands)
 foreach(library IN LISTS libraries)
   install(TARGETS ${library} EXPORT AeroloomTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/aeroloom)

@@ -12,6 +12,7 @@
 #include "io/ugrid/ugrid_reader.hpp"
 #include "io/ugrid/ugrid_writer.hpp"
 #include "io/vtk/vtk_reader.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "io/vtkhdf/vtkhdf_reader.hpp"
 #include "io/vtkhdf/vtkhdf_writer.hpp"
 #include "io/write_mesh.hpp"

@@ -31,6 +31,9 @@ enum class FileFormat : std::uint8_t {
   openfoam,   ///< OpenFOAM, a case with processor folders
 };
 
+/// The compression of the arrays in files of VTK.
+enum class Compression { none, lz4, zlib };
+
 /// What the files of a format can hold, besides cells of all shapes and boundary patches.
 struct FormatContent {
   bool regions = false;     ///< several regions

@@ -3,7 +3,6 @@
 
 #include "io/file_formats.hpp"
 #include "io/file_mesh.hpp"
-#include "io/vtk/vtk_writer.hpp"
 
 #include <cstdint>
 #include <string>

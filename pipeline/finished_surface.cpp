@@ -59,6 +59,17 @@ std::vector<report::PatchRow> table_of_patches(const cad::Model& model,
 
 }  // namespace
 
+std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
+                                      const cases::TypedPatches& domain) {
+  const std::vector<std::string>& names = domain.model.patches();
+  std::vector<mesh::PatchType> types;
+  for (const std::string& patch : patches) {
+    const auto found = std::find(names.begin(), names.end(), patch);
+    types.push_back(domain.types.at(static_cast<std::size_t>(found - names.begin())));
+  }
+  return types;
+}
+
 void inspect_surface(const std::string& what, FinishedSurface& surface) {
   const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
   require_valid(what, mesh::check_surface_mesh(surface));

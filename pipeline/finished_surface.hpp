@@ -4,6 +4,7 @@
 #include "cad/model/model.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "pipeline/case/case.hpp"
+#include "pipeline/case/patch_rules.hpp"
 #include "pipeline/report/run_record.hpp"
 #include "sizing/field/size_field.hpp"
 
@@ -21,6 +22,11 @@ struct FinishedSurface : surface::SurfaceMesh {
   bool bounds_volume = true;  ///< false if layers end on planes: the volume has other triangles there
   report::SurfaceFigures figures = {};  ///< results of inspect_surface()
 };
+
+/// The types of patches of a model that has some of those of the domain: a patch whose faces were all closed
+/// is gone, and those after it have other numbers.
+std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
+                                      const cases::TypedPatches& domain);
 
 /// Checks the surface and measures quality, faces and patches. `what` names the surface in messages.
 /// Collective. Throws as require_valid().

@@ -5,6 +5,7 @@
 #include "mesh/quality/mixed_quality.hpp"
 #include "mesh/quality/quality.hpp"
 #include "pipeline/case/layer_gate.hpp"
+#include "pipeline/report/exit_code.hpp"
 #include "pipeline/stage_log.hpp"
 
 #include <algorithm>
@@ -211,7 +212,7 @@ std::string coarse_region(const cases::QualityGate& gate, const JudgedMesh& mesh
          "; it is a few of the smallest elements wide";
 }
 
-void require_quality(const cases::Case& input, const JudgedMesh& mesh) {
+std::string missed_quality(const cases::Case& input, const JudgedMesh& mesh) {
   const cases::QualityGate& gate = input.gate;
   const report::VolumeFigures& volume = mesh.volume;
   std::string missed =
@@ -219,6 +220,11 @@ void require_quality(const cases::Case& input, const JudgedMesh& mesh) {
   for (const std::string& other :
        {missed_layers(input.layers.gate, mesh), missed_area(gate, mesh), missed_volume(gate, mesh)})
     if (!other.empty()) missed += (missed.empty() ? "" : "\n") + other;
+  return missed;
+}
+
+void require_quality(const cases::Case& input, const JudgedMesh& mesh) {
+  const std::string missed = missed_quality(input, mesh);
   if (!missed.empty()) throw report::StageFailure("quality gate", report::ExitCode::quality_gate, missed);
 }
 

@@ -60,7 +60,9 @@ struct JudgedMesh {
 /// A warning about a region whose volume deviates from the CAD by more than the limit, but which is only a
 /// few of the smallest elements wide. May be empty.
 std::string coarse_region(const cases::QualityGate& gate, const JudgedMesh& mesh);
-/// Throws StageFailure if the mesh or its layers miss limits of the case.
+/// The limits of the case that the mesh or its layers miss, a line for each; empty if there are none.
+std::string missed_quality(const cases::Case& input, const JudgedMesh& mesh);
+/// Throws StageFailure if there are any.
 void require_quality(const cases::Case& input, const JudgedMesh& mesh);
 
 }  // namespace aeroloom::pipeline

@@ -1,7 +1,9 @@
 #include "pipeline/run.hpp"
 
+#include "io/vtk/vtk_writer.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
+#include "pipeline/case/option_keys.hpp"
 #include "pipeline/checkpoints.hpp"
 #include "pipeline/domain/face_patches.hpp"
 #include "pipeline/domain/length_ranges.hpp"
@@ -19,7 +21,6 @@
 #include "pipeline/volume_stages.hpp"
 #include "pipeline/write_outputs.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -35,19 +36,6 @@ bool is_simplified(const domain::SizedDomain& sized) {
   return !sized.findings.joined.groups.empty() || domain::has_closed(sized.findings.edges);
 }
 
-/// The types of patches of a model that has some of those of the domain: a patch whose faces were all closed
-/// is gone, and those after it have other numbers.
-std::vector<mesh::PatchType> types_of(const std::vector<std::string>& patches,
-                                      const cases::TypedPatches& domain) {
-  const std::vector<std::string>& names = domain.model.patches();
-  std::vector<mesh::PatchType> types;
-  for (const std::string& patch : patches) {
-    const auto found = std::find(names.begin(), names.end(), patch);
-    types.push_back(domain.types.at(static_cast<std::size_t>(found - names.begin())));
-  }
-  return types;
-}
-
 /// The finished volume.
 struct InspectedVolume : mesh::NumberedMesh {
   report::VolumeFigures figures = {};
@@ -61,7 +49,44 @@ public:
   CaseRun(parallel::Communicator communicator, const cases::Case& input, report::RunRecord& record)
       : _communicator(std::move(communicator)), _input(input), _record(record), _clock(record.clock) {}
 
+  /// With files and pictures. Throws StageFailure if a gate is missed.
   void run() {
+    make([&](const InspectedVolume& finished, const FinishedSurface& surface, const Finish& finish) {
+      stage("output", report::ExitCode::files, [&] {
+        write(finished, surface);
+        if (_communicator.is_root()) warn(finish.judged);
+        if (_input.output.pictures)
+          _record.pictures = report::pictures_or_warning(finish.pictured, &finished);
+      });
+      require_quality(_input, finish.judged);
+    });
+  }
+
+  /// Without files.
+  MeshOfCase run_in_memory() {
+    MeshOfCase result;
+    make([&](InspectedVolume& finished, const FinishedSurface&, const Finish& finish) {
+      if (_communicator.is_root()) warn(finish.judged);
+      result.hash = finished.figures.hash;
+      result.missed = cases::with_keys(missed_quality(_input, finish.judged));
+      result.unit = finish.judged.unit;
+      result.unit_in_metres = finish.metres;
+      result.mesh = std::move(static_cast<mesh::NumberedMesh&>(finished));
+    });
+    return result;
+  }
+
+private:
+  /// What the end of a run needs besides the meshes.
+  struct Finish {
+    const report::PictureSource& pictured;
+    JudgedMesh judged;
+    double metres;  ///< the unit of the model
+  };
+
+  /// Makes the mesh; `end` gets the inspected volume, the surface and what it needs besides.
+  template <class End>
+  void make(const End& end) {
     using report::ExitCode;
     const cases::TypedPatches domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
     domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return size(domain); });
@@ -90,19 +115,15 @@ public:
         stage("layers", ExitCode::volume, [&] { append_layers(_input, surface, *layered, improved.mesh); });
       return improved;
     });
-    const InspectedVolume finished =
+    InspectedVolume finished =
         stage("inspect", ExitCode::volume, [&] { return inspect(std::move(volume), surface); });
-    const JudgedMesh judged{finished.figures, surface.figures.patches, layers ? &*layers : nullptr,
-                            surface.sizes, domain.model.unit_name()};
-    stage("output", ExitCode::files, [&] {
-      write(finished, surface);
-      if (_communicator.is_root()) warn(judged);
-      if (_input.output.pictures) _record.pictures = report::pictures_or_warning(pictured, &finished);
-    });
-    require_quality(_input, judged);
+    end(finished, surface,
+        {pictured,
+         {finished.figures, surface.figures.patches, layers ? &*layers : nullptr, surface.sizes,
+          domain.model.unit_name()},
+         domain.model.unit_in_metres()});
   }
 
-private:
   template <class Work>
   std::invoke_result_t<Work> stage(const std::string& name, report::ExitCode code, Work work) {
     return run_stage(_clock, name, code, work);
@@ -373,6 +394,11 @@ private:
 void run_case(const parallel::Communicator& communicator, const cases::Case& input,
               report::RunRecord& record) {
   CaseRun(communicator, input, record).run();
+}
+
+MeshOfCase mesh_of_case(const parallel::Communicator& communicator, const cases::Case& input,
+                        report::RunRecord& record) {
+  return CaseRun(communicator, input, record).run_in_memory();
 }
 
 }  // namespace aeroloom::pipeline

@@ -14,9 +14,12 @@ namespace aeroloom::pipeline {
 
 namespace {
 
-/// Writes the triangles at fault and throws the failure with the name of their file. Collective.
+/// Writes the triangles at fault and throws the failure with the name of their file; without a directory none
+/// is written. Collective.
 [[noreturn]] void point_at_offenders(const mesh::DistributedMesh& surface,
-                                     const volume::VolumeFailure& failure, const std::string& file) {
+                                     const volume::VolumeFailure& failure, const std::string& directory) {
+  if (directory.empty()) throw parallel::CollectiveError(failure.kind(), failure.what());
+  const std::string file = directory + "/offending_triangles.vtp";
   std::string outcome = "the triangles are in " + file;
   try {
     parallel::on_root(surface.communicator,
@@ -94,7 +97,7 @@ mesh::DistributedMesh VolumeStages::fill_zones(const sizing::SizedSurface& bound
   try {
     return volume::fill_zones(input_of(boundary), std::move(zones), report);
   } catch (const volume::VolumeFailure& failure) {
-    point_at_offenders(boundary, failure, _input.output.directory + "/offending_triangles.vtp");
+    point_at_offenders(boundary, failure, _input.output.directory);
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include "geometry/input_file.hpp"
 #include "io/file_formats.hpp"
+#include "io/shared_path.hpp"
 #include "io/staged_files.hpp"
+#include "io/vtk/vtk_writer.hpp"
 #include "io/write_mesh.hpp"
 #include "mesh/data/boundary_mesh.hpp"
 #include "parallel/observation/log.hpp"

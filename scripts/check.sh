@@ -35,7 +35,7 @@ cmake --install build/release --prefix "$PWD/build/installed" > /dev/null
 cmake -S examples/solver -B build/example -DCMAKE_PREFIX_PATH="$PWD/build/installed" -DCMAKE_BUILD_TYPE=Release > /dev/null
 cmake --build build/example
 for ranks in 1 3; do
-  scripts/mpirun_local.sh "$ranks" build/example/solver | tee "build/example/on_$ranks"
+  scripts/mpirun_local.sh "$ranks" build/example/solver examples/solver/case.yaml | tee "build/example/on_$ranks"
 done
 # One mesh, whatever the number of ranks.
 diff <(grep hash build/example/on_1) <(grep hash build/example/on_3)

@@ -2,6 +2,7 @@
 /// Coordinates and global ids have 64 bits; the points of a cell, which are indices in the file, have 32.
 #pragma once
 
+#include "io/file_formats.hpp"
 #include "io/file_mesh.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 
@@ -11,9 +12,6 @@
 #include <vector>
 
 namespace aeroloom::io {
-
-/// The compression of the arrays in a file.
-enum class Compression { none, lz4, zlib };
 
 /// The number of cells of a .vtu file in a mesh of `cells` cells. Viewers show faces between files as
 /// boundary, so meshes of common size get one or two files. Larger meshes get about fifty, which as many

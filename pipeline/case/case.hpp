@@ -4,7 +4,6 @@
 #include "cad/domain/domain.hpp"
 #include "improve/improve_options.hpp"
 #include "io/file_formats.hpp"
-#include "io/vtk/vtk_writer.hpp"
 #include "parallel/observation/log.hpp"
 #include "parallel/sandbox/sandbox.hpp"
 #include "pipeline/case/case_error.hpp"

@@ -6,6 +6,7 @@
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/commands/plain_words.hpp"
+#include "pipeline/mesh_case.hpp"
 #include "pipeline/report/text_file.hpp"
 #include "pipeline/stage.hpp"
 
@@ -75,19 +76,10 @@ int with_case(const Invocation& invocation, const CaseArguments& arguments,
   invocation.configure_log();
   cases::Case input;
   try {
-    // Rank 0 alone looks at the file; all learn of an error together.
-    std::string resolved;
-    parallel::agree(communicator, [&] {
-      if (arguments.file.empty())
-        input = cases::case_of_overrides(arguments.overrides);
-      else if (communicator.is_root())
-        input = cases::read_case(arguments.file, arguments.overrides);
-      if (communicator.is_root() && !arguments.file.empty()) resolved = cases::resolved_yaml(input);
-    });
-    communicator.broadcast_value(resolved);
-    parallel::agree(communicator, [&] {
-      if (!communicator.is_root() && !resolved.empty()) input = cases::case_of_resolved(resolved);
-    });
+    if (arguments.file.empty())
+      parallel::agree(communicator, [&] { input = cases::case_of_overrides(arguments.overrides); });
+    else
+      input = read_case(communicator, arguments.file, arguments.overrides);
   } catch (const parallel::CollectiveError& error) {
     const bool memory = error.kind() == parallel::FailureKind::resources;
     return fail(invocation, memory ? report::ExitCode::resources : report::ExitCode::usage, error.what());
