@@ -17,6 +17,7 @@ import subprocess
 import tempfile
 import time
 
+from far_fields import FAR_FIELDS
 from printed_table import PrintedTable, add_page_option
 
 SUFFIXES = {".step", ".stp", ".igs", ".iges", ".brep", ".stl", ".obj", ".off", ".ply", ".poly", ".smesh"}
@@ -73,7 +74,7 @@ def mesh_file(options, file, kind):
     with tempfile.TemporaryDirectory(prefix="real_cad_", dir=options.scratch) as scratch:
         output = pathlib.Path(scratch) / "out"
         case = pathlib.Path(scratch) / "case.yaml"
-        case.write_text(json.dumps({"geometry": {"file": str(file)}, "output": {"directory": str(output)}}))
+        case.write_text(json.dumps({"geometry": {"file": str(file)}, "patches": FAR_FIELDS.get(file.name, {}), "output": {"directory": str(output)}}))
         code, log, seconds = launch(options, case)
         if code != 0:
             return Row(file.name, kind, code, None, 0, 0, "", seconds, 0, 0, "", first_error(log))

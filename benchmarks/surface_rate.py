@@ -7,19 +7,21 @@ Cases are names of the table below; all of them where none is given. Gmsh is ask
 same angle per element; its time is that of its 1-D and 2-D meshing, without reading the file. Ours is that of
 the surface stage, curves and the search for intersections included, and with the size field as well.
 """
+import json
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 
+from far_fields import FAR_BOX
 from printed_table import PrintedTable, take_page_option
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GEOMETRY = ROOT.parent / "shared" / "geometry"
 CASES = {
     "sphere": dict(file=ROOT / "configs/geometry/sphere.brep", minimum=0.00539, maximum=0.00539, angle=30),
-    "dlr_f6": dict(file=GEOMETRY / "aircraft/gmsh_dlr_f6.brep", minimum=1.5, maximum=12, angle=12),
+    "dlr_f6": dict(file=GEOMETRY / "aircraft/gmsh_dlr_f6.brep", minimum=1.5, maximum=12, angle=12, patches=FAR_BOX),
 }
 
 
@@ -28,7 +30,7 @@ def ours(program, case, folder):
     config.write_text(
         f"geometry: {{file: {case['file']}, domain: fluid}}\n"
         f"sizing: {{minimum: {case['minimum']}, maximum: {case['maximum']}, curvature_angle: {case['angle']}}}\n"
-        "surface: {piece_triangles: 3000}\n")
+        f"surface: {{piece_triangles: 3000}}\npatches: {json.dumps(case.get('patches', {}))}\n")
     text = subprocess.run([program, config], capture_output=True, text=True, check=True).stdout
     values = dict(re.findall(r"(\w+)=(\S+)", text))
     triangles = float(values["triangles"])

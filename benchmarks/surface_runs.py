@@ -6,6 +6,8 @@ import re
 import statistics
 import subprocess
 
+from far_fields import FAR_FIELDS
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benchmarks" / "results"
 AIRCRAFT = ROOT.parent / "shared" / "geometry" / "aircraft"
@@ -31,7 +33,8 @@ def run_with_details(program, case, folder, *arguments, ranks=1):
 def write_case(file, folder, piece_triangles):
     """A case of this CAD file with sizes from the model."""
     case = pathlib.Path(folder).resolve() / f"{file.stem}.yaml"
-    case.write_text(f"geometry: {{file: {file}}}\nsurface: {{piece_triangles: {piece_triangles}}}\n")
+    patches = FAR_FIELDS.get(file.name, {})
+    case.write_text(f"geometry: {{file: {file}}}\nsurface: {{piece_triangles: {piece_triangles}}}\npatches: {json.dumps(patches)}\n")
     return case
 
 

@@ -154,7 +154,7 @@ std::string describe_domain(const cad::Domain& domain, const std::vector<mesh::P
 
 std::string describe_forecast(const RunForecast& forecast, int ranks) {
   const domain::SizingFindings& findings = forecast.findings;
-  std::string text;
+  std::string text = "far field: " + findings.far_field + "\n";
   for (const domain::JudgedEdge& edge : findings.edges)
     if (edge.fate != domain::EdgeFate::kept) text += "      " + edge.what + "\n";
   for (const std::string& line : shown_changes(findings.joined.changes, "check.json: forecast.joined_faces"))
@@ -247,6 +247,7 @@ Json forecast_json(const RunForecast& forecast) {
   const domain::SizingFindings& findings = forecast.findings;
   return {{"minimum", forecast.sizes.minimum},
           {"maximum", forecast.sizes.maximum},
+          {"far_field", findings.far_field},
           {"triangles", findings.counts.triangles},
           {"tetrahedra", findings.counts.tetrahedra},
           {"seconds_on_one_core", forecast.seconds},

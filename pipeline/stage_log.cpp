@@ -31,6 +31,7 @@ void log_geometry(const cad::Model& model, const cad::DomainReport& report) {
 
 void log_sizing(const domain::SizedDomain& sized) {
   const domain::SizingFindings& findings = sized.findings;
+  log_info("sizing: far field: " + findings.far_field);
   for (const domain::JudgedEdge& edge : findings.edges)
     if (edge.fate != domain::EdgeFate::kept) log_info("sizing: " + edge.what);
   for (const std::string& line : shown_changes(findings.joined.changes, "report.json: sizing.joined_faces"))

@@ -124,6 +124,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   for (GroupRule& rule : result.groups.rules) {
     rule.where = keys.where("groups." + rule.name);
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
+    if (rule.type) result.sizing.patch_types.emplace_back(rule.name, *rule.type);
   }
   result.patches.assign(draft.patches.begin(), draft.patches.end());
   result.sizing.sources = rules_of(draft.sources);
@@ -135,6 +136,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
   for (PatchRule& rule : result.patches) {
     rule.where = keys.where("patches." + rule.name);
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
+    if (rule.type) result.sizing.patch_types.emplace_back(rule.name, *rule.type);
   }
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   set_far_field(draft, result.domain);

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -80,6 +81,8 @@ struct SizingRequest : sizing::GivenSizes {
   std::vector<WallRule> walls;                 ///< bands along walls
   std::vector<EdgeRule> edges;                 ///< sizes along CAD edges
   std::vector<sizing::PatchSize> patch_sizes;  ///< of patches and groups that have a size
+  /// Of patches and groups that have a condition; the last of one name holds.
+  std::vector<std::pair<std::string, mesh::PatchType>> patch_types;
 };
 
 /// The request with lengths and places in the model's unit. The expression stays as it is.

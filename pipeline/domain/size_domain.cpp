@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -145,6 +147,7 @@ SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& re
     sizing::ChosenSizes applied = sizing::apply_sizes(factory, trial.sizes, purpose);
     SizingFindings findings{std::move(joined), applied.counts};
     findings.bounded = report_bounded_faces(factory, trial.sizes);
+    findings.far_field = factory.sampled().far_field_decision();
     return {factory.model(), trial.sizes, std::move(applied.field), std::move(findings)};
   }
   const double target = *target_of(request);
@@ -154,6 +157,7 @@ SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& re
   if (!request.holds_features())
     findings.features = report_features(factory.sampled(), chosen.features, chosen.counts.tetrahedra);
   findings.bounded = report_bounded_faces(factory, chosen.options);
+  findings.far_field = factory.sampled().far_field_decision();
   return {factory.model(), chosen.options, std::move(chosen.field), std::move(findings)};
 }
 
@@ -176,6 +180,28 @@ sizing::SizeRequests requests_of(const cases::SizingRequest& request) {
   return requests;
 }
 
+/// What the conditions that the case gives, or names of patches, say of each face.
+std::vector<sizing::FaceRole> roles_of(const cad::Model& model, const cases::SizingRequest& request) {
+  using mesh::PatchType;
+  using sizing::FaceRole;
+  std::map<std::string, PatchType> types;
+  for (const auto& [name, type] : request.patch_types) types[name] = type;
+  const auto role_of = [&](const std::string& patch) {
+    const auto found = types.find(patch);
+    const bool is_given = found != types.end();
+    const std::optional<PatchType> type = is_given ? found->second : mesh::patch_type_by_name(patch);
+    if (!type) return FaceRole::open;
+    if (*type == PatchType::farfield) return FaceRole::far_field;
+    if (*type == PatchType::symmetry) return FaceRole::symmetry;
+    return *type == PatchType::wall && is_given ? FaceRole::wall : FaceRole::open;
+  };
+  std::vector<FaceRole> of_patch, of_face;
+  for (const std::string& patch : model.patches()) of_patch.push_back(role_of(patch));
+  for (cad::FaceId f = 0; f < model.face_count(); ++f)
+    of_face.push_back(of_patch[static_cast<std::size_t>(model.face(f).patch)]);
+  return of_face;
+}
+
 /// The purpose of a choice of sizes, and the sizes that it starts from.
 struct Aim {
   sizing::FieldFor purpose;
@@ -191,8 +217,9 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
-  std::optional<sizing::FieldFactory> factory(std::in_place, sizing::SampledModel(communicator, model),
-                                              layers, fields, requests_of(asked));
+  std::optional<sizing::FieldFactory> factory(
+      std::in_place, sizing::SampledModel(communicator, model, roles_of(model, asked)), layers, fields,
+      requests_of(asked));
   std::optional<LevelRequest> of_level;
   if (asked.level) of_level = apply_level(*factory, asked);
   const cases::SizingRequest& request = of_level ? of_level->request : asked;

@@ -10,6 +10,7 @@
 #include "sizing/field/size_field.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace aeroloom::domain {
@@ -29,6 +30,7 @@ struct SizingFindings {
       {};                         ///< faces where the smallest size prevents the wanted curvature angle
   TrailingEdgeReport edges = {};  ///< blunt trailing edges, if they were examined
   WallFindings walls = {};        ///< walls close to each other
+  std::string far_field = {};     ///< which faces are far field, and why
 };
 
 }  // namespace aeroloom::domain

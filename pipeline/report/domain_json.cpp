@@ -36,6 +36,7 @@ Json sizing_json(const RunRecord& record) {
           {"growth", record.sizes.growth},
           {"trailing_edges", to_json(findings.edges)},
           {"joined_faces", to_json(findings.joined.changes)},
+          {"far_field", findings.far_field},
           {"octree_leaves", record.size_field_leaves}};
 }
 

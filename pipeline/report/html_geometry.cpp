@@ -195,6 +195,8 @@ std::string domain_facts(const Json& report) {
     rows.emplace_back("at fine features from", quantity(find(sizing, "/feature_minimum")));
     rows.emplace_back("angle per element", degrees(find(sizing, "/curvature_angle")));
     rows.emplace_back("growth", quantity(find(sizing, "/growth")));
+    if (const std::string far = text(find(sizing, "/far_field")); !far.empty())
+      rows.emplace_back("far field", escaped(far));
   }
   return facts(rows);
 }

@@ -30,11 +30,15 @@ std::vector<double> predict_sampling_loads(const std::vector<bool>& far_field,
 
 }  // namespace
 
-SampledModel::SampledModel(const parallel::Communicator& communicator, const cad::Model& model)
-    : _communicator(communicator), _model(model), _root(model.bounds()), _areas(measure_faces()) {
+SampledModel::SampledModel(const parallel::Communicator& communicator, const cad::Model& model,
+                           const std::vector<FaceRole>& roles)
+    : _communicator(communicator),
+      _model(model),
+      _root(model.bounds()),
+      _far_field(find_far_field(communicator, model, roles)),
+      _areas(measure_faces()) {
   parallel::collectively(communicator, ScopedCpu::As::task, [&] {
-    _far_field = find_far_field(model);
-    const std::vector<double> loads = predict_sampling_loads(_far_field, _areas);
+    const std::vector<double> loads = predict_sampling_loads(_far_field.faces, _areas);
     _owners = parallel::assign_largest_first(loads, communicator.size());
     parallel::Progress progress("sizing", model.face_count(), "faces");
     for (FaceId f = 0; f < model.face_count(); ++f) {
@@ -57,11 +61,12 @@ SampledModel::SampledModel(SampledModel&& before, const cad::Model& joined)
       _part_on_boundary(std::move(before._part_on_boundary)),
       _facets(std::move(before._facets)),
       _body_box(before._body_box) {
+  _far_field.decision = before._far_field.decision;
   parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     std::vector<FaceId> number(before._model.face_count());
     for (FaceId f = 0; f < joined.face_count(); ++f) {
       const std::vector<FaceId> members = joined.members(f);
-      _far_field.push_back(before._far_field[members.front()]);
+      _far_field.faces.push_back(before._far_field.faces[members.front()]);
       _owners.push_back(before._owners[members.front()]);
       _areas.push_back(0);
       for (const FaceId member : members) _areas[f] += before._areas[member], number[member] = f;
@@ -88,7 +93,7 @@ std::vector<double> SampledModel::measure_faces() const {
 }
 
 void SampledModel::add_face(FaceId id) {
-  _faces.push_back({id, sampling_facets(_model, id, _far_field[id])});
+  _faces.push_back({id, sampling_facets(_model, id, _far_field.faces[id])});
 }
 
 void SampledModel::take_faces(std::vector<SampledFace> before, const std::vector<FaceId>& number) {
@@ -121,7 +126,7 @@ void SampledModel::gather_triangles() {
   std::vector<ModelFacet> mine;
   parallel::collectively(_communicator, ScopedCpu::As::task, [&] {
     for (const SampledFace& face : _faces) {
-      if (_model.face(face.id).back != cad::no_entity && !_far_field[face.id]) continue;
+      if (_model.face(face.id).back != cad::no_entity && !_far_field.faces[face.id]) continue;
       const auto& points = face.facets.points;
       const std::vector<double> deviations = facet_deviations(_model, face.id, face.facets);
       for (std::size_t i = 0; i < deviations.size(); ++i) {
@@ -136,7 +141,7 @@ void SampledModel::gather_triangles() {
   ScopedCpu cpu(ScopedCpu::As::repeated);
   std::vector<Triangle> boundary;
   for (const ModelFacet& t : all) {
-    if (!_far_field[t.face]) {
+    if (!_far_field.faces[t.face]) {
       for (const geometry::Vec3 p : t.corners) _body_box.add(p);
     }
     if (_model.face(t.face).back == cad::no_entity) boundary.push_back(t.corners);
@@ -152,7 +157,7 @@ std::vector<SizeSource> SampledModel::sample_own_edges(const SizingOptions& opti
   for (cad::EdgeId e = _communicator.rank(); e < _model.edge_count(); e += _communicator.size()) {
     const std::vector<FaceId>& faces = _model.edge(e).faces;
     const bool only_far_field =
-        std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return _far_field[f]; });
+        std::all_of(faces.begin(), faces.end(), [&](FaceId f) { return _far_field.faces[f]; });
     const auto more = edge_sources(_model, e, only_far_field, options);
     sources.insert(sources.end(), more.begin(), more.end());
   }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "parallel/communication/communicator.hpp"
+#include "sizing/features/far_field.hpp"
 #include "sizing/features/model_sources.hpp"
 #include "sizing/features/proximity.hpp"
 #include "sizing/features/triangle_tree.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace aeroloom::sizing {
@@ -23,8 +25,10 @@ struct SampledFace {
 /// ranks.
 class SampledModel {
 public:
-  /// Collective. Throws parallel::CollectiveError where the CAD library fails on a face.
-  SampledModel(const parallel::Communicator& communicator, const cad::Model& model);
+  /// `roles`: by face, or none. Collective. Throws parallel::CollectiveError where the CAD library fails on a
+  /// face.
+  SampledModel(const parallel::Communicator& communicator, const cad::Model& model,
+               const std::vector<FaceRole>& roles = {});
 
   /// For the same model with some faces joined. All other faces keep their facets. Collective.
   SampledModel(SampledModel&& before, const cad::Model& joined);
@@ -36,7 +40,9 @@ public:
   /// The area of a face.
   double area(cad::FaceId face) const { return _areas[face]; }
   /// Whether a face bounds the far field, by find_far_field().
-  bool bounds_far_field(cad::FaceId face) const { return _far_field[face]; }
+  bool bounds_far_field(cad::FaceId face) const { return _far_field.faces[face]; }
+  /// Why faces are far field, or none is.
+  const std::string& far_field_decision() const { return _far_field.decision; }
 
   /// The faces of this rank, ascending.
   const std::vector<SampledFace>& own_faces() const { return _faces; }
@@ -64,7 +70,7 @@ private:
   parallel::Communicator _communicator;
   cad::Model _model;
   RootCube _root;
-  std::vector<bool> _far_field;
+  FarFieldFaces _far_field;
   std::vector<double> _areas;
   std::vector<int> _owners;  // ranks, by face
   std::vector<SampledFace> _faces;

@@ -81,45 +81,7 @@ private:
   std::vector<SizeSource> _sources;
 };
 
-/// Whether all that is in the first box lies in one side of the other.
-bool lies_on_side(const geometry::Box& own, const geometry::Box& box) {
-  const double tolerance = 1e-6 * box.diagonal();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (own.high[axis] <= box.low[axis] + tolerance || own.low[axis] >= box.high[axis] - tolerance)
-      return true;
-  }
-  return false;
-}
-
 }  // namespace
-
-std::vector<bool> find_far_field(const cad::Model& model) {
-  const geometry::Box& all = model.bounds();
-  // Corners away from every side tell without a triangulation.
-  const auto corners_lie_on_side = [&](cad::FaceId face) {
-    geometry::Box corners;
-    for (const auto& loop : model.face(face).loops) {
-      for (const cad::Coedge& use : loop) corners.add(model.vertex(model.edge(use.edge).first));
-    }
-    return corners.empty() || lies_on_side(corners, all);
-  };
-  const auto all_lies_on_side = [&](cad::FaceId face) {
-    geometry::Box own;
-    for (const Vec3 p : sampling_facets(model, face, true).points) own.add(p);
-    return lies_on_side(own, all);
-  };
-  std::vector<bool> far(model.face_count(), false);
-  bool flagged = false;
-  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    far[f] = model.is_far_field(f);
-    flagged = flagged || far[f];
-  }
-  if (flagged) return far;
-  for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    far[f] = model.is_planar(f) && corners_lie_on_side(f) && all_lies_on_side(f);
-  }
-  return far;
-}
 
 cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field) {
   const double deflection = far_field ? far_facet_deflection * model.bounds().diagonal()

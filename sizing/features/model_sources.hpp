@@ -10,10 +10,6 @@
 
 namespace aeroloom::sizing {
 
-/// Whether each face bounds the far field. If the model flags no face, planar faces on the box of the model
-/// do, such as the sides of a wind tunnel.
-std::vector<bool> find_far_field(const cad::Model& model);
-
 /// The triangulation of a face that samples and predictions start from.
 cad::Facets sampling_facets(const cad::Model& model, cad::FaceId face, bool far_field);
 

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
@@ -196,6 +197,31 @@ TEST_F(CheckCommandLocal, ARunHasTheScaleOfItsCase) {
     cells[scale] = read_json("out_" + scale + "/report.json")["mesh"]["tetrahedra"];
   }
   EXPECT_LT(cells["1.5"], 0.6 * cells["1"]);
+}
+
+// The walls of a bent duct lie on its box but for two.
+TEST_F(CheckCommandLocal, SeesWallsOfADuctAsARunDoes) {
+  const TopoDS_Shape bend = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 4, 4, 1).Shape(),
+                                            BRepPrimAPI_MakeBox(gp_Pnt(1, 1, -1), 4, 4, 3).Shape());
+  BRepTools::Write(bend, path("bend.brep").c_str());
+  constexpr double target = 15000;
+  const Json forecast =
+      check(0,
+            "geometry: {file: " + path("bend.brep") +
+                ", domain: fluid}\nsizing: {target_tetrahedra: 15000}\nimprove: {enabled: false}\n"
+                "output: {pictures: false}\n",
+            {"far field: none, all faces are sized as walls"})["forecast"];
+  EXPECT_NEAR(forecast["tetrahedra"].get<double>(), target, 0.25 * target);
+  expect(0, "run case.yaml", {"far field: none"});
+  const Json report = read_json("out/report.json");
+  EXPECT_EQ(report["sizing"]["far_field"], forecast["far_field"]);
+  EXPECT_NEAR(report["mesh"]["tetrahedra"].get<double>(), target, 0.35 * target);
+  double fewest = 1e300, most = 0;
+  for (const Json& face : report["faces"]) {
+    const double density = face["triangles"].get<double>() / face["area"].get<double>();
+    fewest = std::min(fewest, density), most = std::max(most, density);
+  }
+  EXPECT_LT(most, 1.6 * fewest) << "walls are even";
 }
 
 // A ball that is cut out of a cube touches a side from inside.

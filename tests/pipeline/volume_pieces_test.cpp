@@ -47,7 +47,7 @@ TEST(VolumePieces, AreOneMeshForAnyNumberOfRanks) {
 
 TEST(VolumePieces, AreTheMeshOfOnePiece) {
   const Folder folder;
-  cases::Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'500);
+  cases::Case input = pieces_case(folder, box_with_sphere(), 20'000, 2'000);
   input.improve.enabled = false;
   report::RunRecord many, one;
   run_case(parallel::Communicator::world(), input, many);

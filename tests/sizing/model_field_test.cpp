@@ -215,13 +215,6 @@ TEST(ModelField, IsTheSameForAnyRankCount) {
   }
 }
 
-TEST(ModelField, SidesOfAWindTunnelCountAsFarField) {
-  const Model tunnel = cad::make_primitive_domain(PrimitiveKind::box);
-  for (const bool far : sizing::find_far_field(tunnel)) EXPECT_TRUE(far);
-  const Model torus = cad::make_primitive_domain(PrimitiveKind::torus);
-  for (const bool far : sizing::find_far_field(torus)) EXPECT_FALSE(far);
-}
-
 TEST(ModelField, RefusesImpossibleOptionsOnEveryRank) {
   const Model model = cad::make_primitive_domain(PrimitiveKind::box);
   EXPECT_THROW(build(model, {0, 1, 12, 1.3, 0}), std::invalid_argument);
