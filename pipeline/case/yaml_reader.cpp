@@ -349,12 +349,11 @@ void KeyTable::collect_infos(std::vector<KeyInfo>& infos) const {
 
 std::string KeyTable::where(const std::string& path) const {
   const std::size_t dot = path.find('.');
-  for (const KeyEntry& entry : _entries) {
-    if (entry.name != path.substr(0, dot)) continue;
-    if (dot == std::string::npos) return entry.where;
-    return entry.below ? entry.below->where(path.substr(dot + 1)) : "";
-  }
-  return "";
+  const auto found = _places.find(path.substr(0, dot));
+  if (found == _places.end()) return "";
+  const KeyEntry& entry = _entries[found->second];
+  if (dot == std::string::npos) return entry.where;
+  return entry.below ? entry.below->where(path.substr(dot + 1)) : "";
 }
 
 std::string KeyTable::write() const {
