@@ -12,7 +12,8 @@ program=$PWD/build/release/bin/aeroloom
 scripts/mpirun_local.sh 2 "$program" run configs/acceptance/whole_dlr_f6.yaml --set output.directory=$runs/good \
   --set "geometry.file=$runs/geometry/aircraft/gmsh_dlr_f6.brep" --set improve.gate.smallest_angle=20
 scripts/mpirun_local.sh 2 "$program" run configs/transport.yaml --set output.directory=$runs/missed \
-  --set sizing.minimum=0.12 --set sizing.surface_maximum=1.2 --set improve.gate.min_mean_ratio=0.5 || test $? -eq 6
+  --set sizing.minimum=0.12 --set sizing.surface_maximum=1.2 --set sizing.curvature_angle=12 --set sizing.growth=1.35 \
+  --set improve.gate.min_mean_ratio=0.5 || test $? -eq 6
 
 python3 scripts/report_pictures.py $runs/good/report.html $runs/good/at \
   screen::620 screen:pictures::0.5 screen:histograms screen:stages
