@@ -72,12 +72,21 @@ struct Contribution {
   std::vector<std::vector<mesh::SharedVertexKey>> vertex_keys;  ///< per local piece, per vertex
 };
 
-/// The boundary triangles of a piece whose tetrahedron is in a cavity.
+/// The boundary triangles of a piece whose tetrahedron is in a cavity: of those at a baffle triangle the one
+/// that it is seen from outside of.
 void mark_triangles(const mesh::Piece& piece, const std::vector<CavityId>& of_cell,
                     std::vector<CavityId>& of_triangle) {
   struct Face {
     std::array<mesh::LocalIndex, 3> vertices;
+    bool odd;
     CavityId cavity;
+  };
+  const auto face_of = [](mesh::LocalIndex a, mesh::LocalIndex b, mesh::LocalIndex c, CavityId cavity) {
+    const std::array<mesh::LocalIndex, 3> vertices = sorted({a, b, c});
+    const bool odd = std::array{b, c} != std::array{vertices[1], vertices[2]} &&
+                     std::array{c, a} != std::array{vertices[1], vertices[2]} &&
+                     std::array{a, b} != std::array{vertices[1], vertices[2]};
+    return Face{vertices, odd, cavity};
   };
   std::vector<char> on_boundary(piece.vertex_count(), 0);
   for (const mesh::LocalIndex v : piece.boundary) on_boundary[v] = 1;
@@ -87,17 +96,19 @@ void mark_triangles(const mesh::Piece& piece, const std::vector<CavityId>& of_ce
     for (const auto& f : mesh::tetrahedron_faces) {
       const mesh::LocalIndex* v = piece.cell(c);
       if (!on_boundary[v[f[0]]] || !on_boundary[v[f[1]]] || !on_boundary[v[f[2]]]) continue;
-      faces.push_back({sorted({v[f[0]], v[f[1]], v[f[2]]}), of_cell[c]});
+      faces.push_back(face_of(v[f[0]], v[f[1]], v[f[2]], of_cell[c]));
     }
   }
-  const auto less = [](const Face& a, const Face& b) { return a.vertices < b.vertices; };
+  const auto less = [](const Face& a, const Face& b) {
+    return a.vertices != b.vertices ? a.vertices < b.vertices : a.odd < b.odd;
+  };
   std::sort(faces.begin(), faces.end(), less);
   of_triangle.assign(piece.boundary_count(), no_cavity);
   for (mesh::LocalIndex t = 0; t < piece.boundary_count(); ++t) {
     const mesh::LocalIndex* v = piece.boundary_triangle(t);
-    const Face wanted{sorted({v[0], v[1], v[2]}), no_cavity};
+    const Face wanted = face_of(v[0], v[1], v[2], no_cavity);
     const auto at = std::lower_bound(faces.begin(), faces.end(), wanted, less);
-    if (at != faces.end() && at->vertices == wanted.vertices) of_triangle[t] = at->cavity;
+    if (at != faces.end() && !less(wanted, *at)) of_triangle[t] = at->cavity;
   }
 }
 

@@ -6,7 +6,8 @@ bool OperationContext::allows(const CavityReplacement& change) {
   for (const Corners& c : change.new_tets) {
     if (_mesh.quality_of(c) <= change.before || !_mesh.is_positive(c)) return false;
   }
-  return _local_target.accepts(_mesh, change) && _limits.allow(_mesh, change) &&
+  return _mesh.keeps_baffles(change) && _local_target.accepts(_mesh, change) &&
+         _limits.allow(_mesh, change) &&
          (!_over_constrained || _over_constrained->added_by(_mesh, change) <= 0);
 }
 

@@ -182,7 +182,7 @@ void OverConstrainedRemoval::fill_stars(TetMesh& mesh, LocalIndex t) {
 
 bool OverConstrainedRemoval::is_good(const TetMesh& mesh, const CavityReplacement& cavity) {
   if (cavity.after < bar_of(mesh, cavity.before)) return false;
-  return _count.added_by(mesh, cavity) < 0 &&
+  return _count.added_by(mesh, cavity) < 0 && mesh.keeps_baffles(cavity) &&
          std::all_of(cavity.new_tets.begin(), cavity.new_tets.end(),
                      [&](const Corners& c) { return mesh.is_positive(c); }) &&
          _limits.allow_sizes(mesh, cavity);

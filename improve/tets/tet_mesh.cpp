@@ -28,7 +28,7 @@ TetMesh::TetMesh(mesh::Piece& piece, const mesh::TetQuality& measure, bool bound
   }
   _tet_mark.assign(_original_count, 0);
   match_all_faces();
-  if (boundary_may_change) match_triangles();
+  match_triangles(boundary_may_change);
   fix_vertices();
 }
 
@@ -75,6 +75,9 @@ void TetMesh::fix_vertices() {
   _shared.assign(_incident.size(), 0);
   for (const LocalIndex v : _piece.shared_vertices) _fixed[v] = _shared[v] = 1;
   for (const LocalIndex v : _piece.boundary) _fixed[v] = 1;
+  for (const auto& triangle : _baffles) {
+    for (const LocalIndex v : triangle) _shared[v] = 1;
+  }
   for (std::size_t h = 0; h < _twins.size(); ++h) {
     if (_twins[h] >= 0) continue;
     for (const LocalIndex v : face_key(static_cast<HalfFace>(h))) _fixed[v] = 1;
@@ -141,6 +144,12 @@ void TetMesh::match_cavity_faces() {
     throw std::logic_error("improve: a cavity and its filling differ in their faces");
   for (std::size_t i = 0; i < _faces.size(); i += 2) {
     const FaceRecord &a = _faces[i], &b = _faces[i + 1];
+    if (i + 3 < _faces.size() && a.side < 0 && b.side < 0 && _faces[i + 3].key == a.key) {
+      for (const std::size_t k : {i + 2, i + 3})
+        _twins[_faces[k].side] = a.side;  // on both sides of a baffle
+      i += 2;
+      continue;
+    }
     if (a.key != b.key || (a.outer && b.outer)) {
       throw std::logic_error("improve: a cavity and its filling differ in their faces");
     }

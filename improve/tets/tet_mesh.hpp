@@ -67,7 +67,8 @@ struct CavityReplacement {
 };
 
 /// The cells and boundary triangles of a piece while they change. A vertex is fixed if it is shared, or
-/// classified on the boundary, or on a face without neighbour.
+/// classified on the boundary, or on a face without neighbour. A triangle between two tetrahedra is of a
+/// baffle: it is the boundary of both, which are no neighbours. It stays, and its vertices count as shared.
 class TetMesh {
 public:
   /// Takes the cells out of the piece; finish() puts them back. Without `boundary_may_change`, boundary
@@ -125,6 +126,9 @@ public:
   std::int64_t changed_triangles() const { return _changed_triangles; }
   void note_slid_triangles(std::size_t count) { _changed_triangles += static_cast<std::int64_t>(count); }
 
+  /// Whether a change has tetrahedra on both sides of the same baffle triangles as before.
+  bool keeps_baffles(const CavityReplacement& cavity) const;
+
   /// Replaces tetrahedra. Old and new ones must fill the same space with positive volumes, but for boundary
   /// triangles that change. Vertices of old tetrahedra only become unused. `placed` receives the slots of the
   /// new ones.
@@ -152,7 +156,9 @@ private:
   };
 
   void match_all_faces();
-  void match_triangles();
+  void match_triangles(bool boundary_may_change);
+  void part_at_baffles(std::span<const std::array<LocalIndex, 3>> keys, std::span<const LocalIndex> triangles,
+                       bool boundary_may_change);
   void open_boundary(const FaceRecord& record, LocalIndex triangle);
   void match_boundary(const CavityReplacement& cavity);
   void fix_vertices();
@@ -174,6 +180,7 @@ private:
   std::vector<LocalIndex>
       _place;  ///< of slots beyond the original ones: the original slot that they follow in order
   LocalIndex _original_count = 0;
+  std::vector<std::array<LocalIndex, 3>> _baffles;  ///< triangles between two tetrahedra, ascending
   std::int64_t _changed_triangles = 0;
   bool _dead_triangles = false;  ///< triangles that vanished have -1 as first vertex
   std::vector<std::uint32_t> _tet_mark;

@@ -15,8 +15,8 @@ constexpr int others[6][2] = {{2, 3}, {3, 1}, {1, 2}, {0, 3}, {2, 0}, {0, 1}};
 
 }  // namespace
 
-// The open side of a face that is a boundary triangle gets the triangle's number.
-void TetMesh::match_triangles() {
+// The open side of a face that is a boundary triangle gets the triangle's number, if it may change.
+void TetMesh::match_triangles(bool boundary_may_change) {
   struct Named {
     std::array<LocalIndex, 3> key;
     LocalIndex triangle;
@@ -28,12 +28,61 @@ void TetMesh::match_triangles() {
   }
   const auto before = [](const Named& a, const Named& b) { return a.key < b.key; };
   std::sort(named.begin(), named.end(), before);
+  std::vector<std::uint8_t> matched(named.size(), 0);
   for (std::size_t h = 0; h < _twins.size() && !named.empty(); ++h) {
     if (_twins[h] >= 0) continue;
     const Named wanted{face_key(static_cast<HalfFace>(h)), 0};
     const auto found = std::lower_bound(named.begin(), named.end(), wanted, before);
-    if (found != named.end() && found->key == wanted.key) _twins[h] = -2 - found->triangle;
+    if (found == named.end() || found->key != wanted.key) continue;
+    matched[static_cast<std::size_t>(found - named.begin())] = 1;
+    if (boundary_may_change) _twins[h] = -2 - found->triangle;
   }
+  std::vector<std::array<LocalIndex, 3>> keys;
+  std::vector<LocalIndex> triangles;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (matched[i] || (!keys.empty() && keys.back() == named[i].key)) continue;
+    keys.push_back(named[i].key);
+    triangles.push_back(named[i].triangle);
+  }
+  if (!keys.empty()) part_at_baffles(keys, triangles, boundary_may_change);
+}
+
+// Triangles that no open side has lie between two tetrahedra, or beside none.
+void TetMesh::part_at_baffles(std::span<const std::array<LocalIndex, 3>> keys,
+                              std::span<const LocalIndex> triangles, bool boundary_may_change) {
+  std::vector<std::uint8_t> there(_incident.size(), 0);
+  for (const auto& key : keys) {
+    for (const LocalIndex v : key) there[v] = 1;
+  }
+  for (std::size_t h = 0; h < _twins.size(); ++h) {
+    const HalfFace other = _twins[h];
+    if (other < static_cast<HalfFace>(h)) continue;
+    const auto key = face_key(static_cast<HalfFace>(h));
+    if (!there[key[0]] || !there[key[1]] || !there[key[2]]) continue;
+    const auto found = std::lower_bound(keys.begin(), keys.end(), key);
+    if (found == keys.end() || *found != key) continue;
+    _twins[h] = _twins[other] = boundary_may_change ? -2 - triangles[found - keys.begin()] : -1;
+    _baffles.push_back(key);
+  }
+  std::sort(_baffles.begin(), _baffles.end());
+}
+
+bool TetMesh::keeps_baffles(const CavityReplacement& cavity) const {
+  if (_baffles.empty()) return true;
+  const auto sides_at_baffles = [&](const auto& tets, const auto& corners_of) {
+    std::vector<std::array<LocalIndex, 3>> sides;
+    for (const auto& tet : tets) {
+      const Corners& c = corners_of(tet);
+      for (const auto& face : tetrahedron_faces) {
+        const auto key = sorted(c[face[0]], c[face[1]], c[face[2]]);
+        if (std::binary_search(_baffles.begin(), _baffles.end(), key)) sides.push_back(key);
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    return sides;
+  };
+  return sides_at_baffles(cavity.old_tets, [&](LocalIndex t) -> const Corners& { return _cells[t]; }) ==
+         sides_at_baffles(cavity.new_tets, [](const Corners& c) -> const Corners& { return c; });
 }
 
 std::array<LocalIndex, 3> TetMesh::triangle(LocalIndex i) const {

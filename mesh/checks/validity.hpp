@@ -20,12 +20,13 @@ struct ValidityReport {
 
 /// Checks a volume mesh of any cells: positive volumes (tetrahedra exactly; pyramids and prisms by their
 /// bilinear volume, and exactly at their corners), every face in one cell plus one boundary face of an outer
-/// CAD face or in two cells, and there with one boundary face of an inner CAD face exactly where the cells'
-/// regions differ, boundary faces between the regions their CAD face lies between, a closed boundary around
-/// each region, no orphan vertices, identical coordinates of shared vertices, equal volumes of each region
-/// (1e-10), a patch and a CAD face for every boundary face, and, when `surface` is given, that the boundary
-/// triangles are exactly its triangles (by coordinate bits). Memory per rank is bounded by its share of the
-/// faces. Throws CollectiveError when arrays or numbering do not fit the mesh. Collective.
+/// CAD face or in two cells, and there with one boundary face of an inner CAD face wherever the cells'
+/// regions differ and on baffles alone where not, boundary faces between the regions of their CAD face, a
+/// closed boundary around each region, no orphan vertices, identical coordinates of shared vertices, equal
+/// volumes of each region (1e-10), a patch and a CAD face for every boundary face, and, when `surface` is
+/// given, that the boundary triangles are exactly its triangles (by coordinate bits). Memory per rank is
+/// bounded by its share of the faces. Throws CollectiveError when arrays or numbering do not fit the mesh.
+/// Collective.
 ValidityReport check_volume_mesh(const NumberedMesh& mesh, const DistributedMesh* surface);
 
 /// Checks a surface mesh: around each region every edge in exactly two triangles with opposite directions (an

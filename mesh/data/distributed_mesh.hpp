@@ -13,7 +13,7 @@
 namespace aeroloom::mesh {
 
 /// The regions on either side of a CAD face: the one its triangles are seen from outside of, and the one
-/// beyond, which an inner face alone has.
+/// beyond, which an inner face alone has. They are the same on a baffle, which lies inside of a region.
 struct FaceSides {
   RegionId front = 0, back = no_region;
   bool is_inner() const { return back != no_region; }

@@ -56,6 +56,14 @@ std::vector<std::int32_t> LocalSurface::around(std::int32_t triangle) const {
   return result;
 }
 
+std::optional<mesh::RegionId> LocalSurface::common_region(std::span<const std::int32_t> triangles) const {
+  const mesh::RegionId region = _inside[triangles.front()];
+  for (const std::int32_t t : triangles) {
+    if (_inside[t] != region || _outside[t] != region) return std::nullopt;
+  }
+  return region;
+}
+
 std::optional<LocalSurface::Sight> LocalSurface::first_on_way(
     Vec3 p, Vec3 q, std::int32_t target, std::span<const std::int32_t> candidates) const {
   Sight first{target, side_of(p, target)};
@@ -95,6 +103,7 @@ std::optional<mesh::RegionId> LocalSurface::region_at(Vec3 p,
     if (side != 0) return region_of({nearest.triangle, side});
   }
   const std::vector<std::int32_t> candidates = around(nearest.triangle);
+  if (const auto region = common_region(candidates)) return region;
   std::vector<std::int32_t> targets{nearest.triangle};
   constexpr double rounding = 1e-9;  // of distances to triangles that share the foot
   const double slack = nearest.distance * (1 + rounding);

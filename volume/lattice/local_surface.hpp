@@ -46,6 +46,8 @@ private:
   /// The triangle that the line from p to q crosses first; q is a point of `target`.
   std::optional<Sight> first_on_way(geometry::Vec3 p, geometry::Vec3 q, std::int32_t target,
                                     std::span<const std::int32_t> candidates) const;
+  /// The region on both sides of all these triangles, if they are of baffles in it.
+  std::optional<mesh::RegionId> common_region(std::span<const std::int32_t> triangles) const;
   int side_of(geometry::Vec3 p, std::int32_t triangle) const;
   std::vector<std::int32_t> around(std::int32_t triangle) const;
   mesh::RegionId region_of(const Sight& sight) const;
