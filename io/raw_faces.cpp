@@ -76,22 +76,24 @@ private:
   const LocalMesh& _local;
 };
 
+/// Whether all corners have a mark.
+bool are_marked(const FaceKey<LocalIndex>& key, const std::vector<std::uint8_t>& marks) {
+  return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || marks[v] != 0; });
+}
+
 /// Sides of cells that are not matched inside one region here, or that a cell on another rank may have, and
 /// all faces of the file.
 std::vector<FaceCandidate> candidates_of(const LocalMesh& local) {
   std::vector<FaceCandidate> candidates;
   const LocalCellSides faces(local);
   std::vector<FaceCandidate> met;
-  const auto may_be_on_another_rank = [&](const FaceKey<LocalIndex>& key) {
-    return std::all_of(key.begin(), key.end(), [&](LocalIndex v) { return v < 0 || local.shared[v] != 0; });
-  };
   mesh::match_faces(local.numbers.size(), faces,
                     [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
                       met.clear();
                       for (const FaceUser& user : users) met.push_back(faces.candidate(user));
                       const bool matched = met.size() == 2 && met[0].region == met[1].region &&
                                            mesh::opposite_direction(met[0].corners, met[1].corners) &&
-                                           !may_be_on_another_rank(key);
+                                           !are_marked(key, local.shared);
                       if (!matched) candidates.insert(candidates.end(), met.begin(), met.end());
                     });
   GlobalIndex count = 0;
@@ -109,6 +111,46 @@ std::vector<FaceCandidate> candidates_of(const LocalMesh& local) {
     }
   }
   return candidates;
+}
+
+/// A point of a face that met no cell, or of the cells on a rank.
+struct MetPoint {
+  GlobalIndex number;
+  LocalIndex index;  ///< of a point of cells here; -1 of a face
+  friend auto operator<=>(const MetPoint&, const MetPoint&) = default;
+};
+
+/// The faces of the file that met no cell, again, and the sides of cells that may be there: all corners are
+/// of such faces. Nothing where there are none. Collective.
+std::vector<FaceCandidate> second_candidates(const LocalMesh& local, std::vector<FaceCandidate> lonely) {
+  const parallel::Communicator& communicator = local.file.communicator;
+  if (communicator.sum(static_cast<std::int64_t>(lonely.size())) == 0) return {};
+  std::vector<MetPoint> points;
+  for (const FaceCandidate& face : lonely) {
+    for (const GlobalIndex v : face.key) {
+      if (v >= 0) points.push_back({v, -1});
+    }
+  }
+  geometry::sort_unique(points);
+  for (std::size_t v = 0; v < local.numbers.size(); ++v)
+    points.push_back({local.numbers[v], static_cast<LocalIndex>(v)});
+  const mesh::Rendezvous meeting(communicator, points, &MetPoint::number, &MetPoint::index);
+  points = {};
+  std::vector<std::uint8_t> marks(local.numbers.size(), 0);
+  for (const LocalIndex v : meeting.answer<LocalIndex>([](const auto&group, const auto&reply) {
+         if (group[0].item.index >= 0) return;
+         for (const auto& point : group) {
+           if (point.item.index >= 0) reply(point, point.item.index);
+         }
+       }))
+    marks[v] = 1;
+  const LocalCellSides faces(local);
+  mesh::match_faces(local.numbers.size(), faces,
+                    [&](const FaceKey<LocalIndex>& key, std::span<const FaceUser> users) {
+                      if (!are_marked(key, marks)) return;
+                      for (const FaceUser& user : users) lonely.push_back(faces.candidate(user));
+                    });
+  return lonely;
 }
 
 /// A boundary face and the regions on its sides, before it has a patch.
@@ -132,7 +174,17 @@ public:
                        [&](std::span<const FaceCandidate> group) { match_group(group); });
   }
 
+  /// With second candidates, for the lonely faces.
+  void match_lonely(const std::vector<FaceCandidate>& met) {
+    lonely.clear();
+    mesh::for_each_key(met, &FaceCandidate::key, [&](std::span<const FaceCandidate> group) {
+      if (!group[0].is_cell()) match_group(group);
+    });
+    left_out += static_cast<GlobalIndex>(lonely.size());
+  }
+
   std::vector<BoundaryFace> found;
+  std::vector<FaceCandidate> lonely;  ///< faces of the file that met no cell
   std::vector<UnmatchedFace> unmatched;
   GlobalIndex left_out = 0;
 
@@ -147,19 +199,25 @@ private:
       unmatched.push_back({group[0].key, static_cast<std::int64_t>(cells.size())});
       return;
     }
-    const bool bounds = cells.size() == 1 || (cells.size() == 2 && cells[0].region != cells[1].region);
-    left_out += static_cast<GlobalIndex>(bounds && faces > 0 ? faces - 1 : faces);
-    if (!bounds) return;
-    BoundaryFace& face = found.emplace_back();
-    face.corners = cells[0].corners;
-    face.piece = cells[0].piece;
-    face.region = cells[0].region;
-    face.other_region = cells.size() == 2 ? cells[1].region : none;
+    if (cells.empty()) {
+      lonely.insert(lonely.end(), group.begin(), group.end());
+      return;
+    }
+    const bool is_inside = cells.size() == 2 && cells[0].region == cells[1].region;
+    if (is_inside && faces == 0) return;
+    if (faces > 0) left_out += static_cast<GlobalIndex>(faces - 1);
     const FaceCandidate* given = faces > 0 ? &group[0] : nullptr;
     for (std::size_t f = 1; f < faces; ++f) {
       if (group[f].order < given->order) given = &group[f];
     }
-    if (given != nullptr) face.corners = oriented_like(given->corners, cells[0].corners);
+    // Of a baffle the file's direction says which side is in front.
+    const std::size_t front = is_inside && mesh::same_direction(given->corners, cells[1].corners) ? 1 : 0;
+    BoundaryFace& face = found.emplace_back();
+    face.corners = cells[front].corners;
+    face.piece = cells[front].piece;
+    face.region = cells[front].region;
+    face.other_region = cells.size() == 2 ? cells[1 - front].region : none;
+    if (given != nullptr) face.corners = oriented_like(given->corners, cells[front].corners);
     face.order = given != nullptr ? given->order : -1;
     face.patch = given != nullptr ? given->patch : none;
   }
@@ -283,8 +341,11 @@ void name_faces(const std::vector<ModelFace>& faces, mesh::DistributedMesh& name
 MatchedFaces match_boundary(const LocalMesh& local, std::vector<mesh::Patch> patches,
                             const std::vector<std::string>& regions) {
   const parallel::Communicator& communicator = local.file.communicator;
-  FaceMatch match(
-      mesh::meet_by_key(communicator, candidates_of(local), &FaceCandidate::key, &FaceCandidate::place));
+  const auto meet = [&](std::vector<FaceCandidate> candidates) {
+    return mesh::meet_by_key(communicator, std::move(candidates), &FaceCandidate::key, &FaceCandidate::place);
+  };
+  FaceMatch match(meet(candidates_of(local)));
+  match.match_lonely(meet(second_candidates(local, match.lonely)));
   require_fit(local.file, match.unmatched);
   PatchTable table(communicator, std::move(patches), regions, match.found);
   std::vector<ModelFace> of_found;

@@ -28,15 +28,16 @@ struct MatchedFaces {
   decltype(mesh::PieceItems::faces) items;
   mesh::DistributedMesh names;     ///< patches, types, faces of the model, their sides, regions
   mesh::GlobalIndex unnamed = 0;   ///< faces without a patch in the file
-  mesh::GlobalIndex left_out = 0;  ///< faces inside a region, of no cell, or repeated
+  mesh::GlobalIndex left_out = 0;  ///< faces of no cell, or repeated
 };
 
 /// Finds the piece of each boundary face, and directs the face out of its cell. Faces that are missing in the
 /// file get new patches, `boundary_of_REGION` and `REGION_to_REGION`. A patch with boundary faces and faces
 /// between regions is split. A patch is a face of the model for each region that it bounds, and for each pair
 /// of regions that it separates. Such a face has the name of the patch; if there are several, also of its
-/// regions. Throws CollectiveError (input) with the path where more than two cells have a common face, or two
-/// lie on the same side of it. Collective.
+/// regions. Faces of the file inside of a region are those of a baffle, with the region on both sides. Throws
+/// CollectiveError (input) with the path where more than two cells have a common face, or two lie on the same
+/// side of it. Collective.
 MatchedFaces match_boundary(const LocalMesh& local, std::vector<mesh::Patch> patches,
                             const std::vector<std::string>& regions);
 

@@ -37,7 +37,7 @@ struct Assembled {
   FileMesh mesh;
   mesh::GlobalIndex turned_cells = 0, dropped_points = 0;
   mesh::GlobalIndex unnamed_faces = 0;   ///< without a patch in the file
-  mesh::GlobalIndex left_out_faces = 0;  ///< inside a region, of no cell, or given twice
+  mesh::GlobalIndex left_out_faces = 0;  ///< of no cell, or given twice
 };
 /// Assembles a mesh of `parts` pieces (0: a suitable number) in the order of the file. Tetrahedra come first,
 /// then pyramids, then prisms. Each part gets an equal range of the cells, and owns an equal range of the

@@ -66,7 +66,7 @@ std::string describe(const Assembled& file) {
   add(file.turned_cells, "cells turned over");
   add(file.dropped_points, "points without a cell dropped");
   add(file.unnamed_faces, "boundary faces without a patch");
-  add(file.left_out_faces, "boundary faces inside a region or beside all cells left out");
+  add(file.left_out_faces, "boundary faces given twice or beside all cells left out");
   return text.empty() ? "nothing to mend" : text;
 }
 

@@ -33,7 +33,7 @@ void warn_of_losses(const FileMesh& mesh, const FormatContent& content, const st
   between.resize(std::min(all, shown));
   std::string lost = has_regions ? fmt::format("its {} regions", mesh.regions.size()) : "";
   if (all > 0) {
-    lost += fmt::format("{}{} patch(es) between regions: {}{}", has_regions ? " and " : "", all,
+    lost += fmt::format("{}{} patch(es) inside of the mesh: {}{}", has_regions ? " and " : "", all,
                         fmt::join(between, ", "), all > shown ? ", ..." : "");
   }
   parallel::log_warning(fmt::format(

@@ -157,7 +157,8 @@ def faces_among_cells(t):
 
 
 def equal_names(t):
-    """Conditions go by the places of patches: two of one name may have different ones."""
+    """Conditions go by the places of patches: two of one name may have different ones. The file has one region, so that
+    faces between the two regions of the sample lie inside of it."""
     grid = t.merged()
     volume_cells = len(t.grid["Types"])
     patch = np.concatenate([np.full(volume_cells, -1), 2 - np.arange(len(t.boundary["Types"])) % 3])
@@ -165,7 +166,8 @@ def equal_names(t):
     kinds = np.array(["wall", "farfield", "symmetry"], dtype=NAMES)
     t.expect(t.make("equal", grid, cells={"patch": patch}, fields={"patch_names": names, "patch_types": kinds}),
              lambda told: sorted(line.split()[1:3] for line in told if line.startswith("patch ")) ==
-             [["other", "symmetry"], ["same", "farfield"], ["same", "wall"]])
+             [["other", "symmetry"], ["other_interior", "interior"], ["same", "farfield"], ["same", "wall"],
+              ["same_interior", "interior"], ["same_interior_", "interior"]])
 
 
 def boundary_of_others(t):

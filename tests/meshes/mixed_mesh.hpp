@@ -195,12 +195,14 @@ private:
 /// A face of the model: a patch where it bounds one region, or lies between two.
 using ModelFace = std::array<std::int32_t, 3>;
 
-/// By face of the mesh: `interface` lies between both regions, others bound that of their cell.
+/// By face of the mesh: `interface` lies between both regions, or is a baffle in a single one; others bound
+/// that of their cell.
 inline std::vector<ModelFace> model_faces(const MixedMesh& whole) {
   std::vector<ModelFace> faces;
   for (const WholeFace& face : whole.faces) {
     const bool inner = face.patch == MixedMesh::interface;
-    faces.push_back({face.patch, whole.cells[face.cell].region, inner ? 1 : no_region});
+    const auto last = static_cast<std::int32_t>(whole.regions.size()) - 1;
+    faces.push_back({face.patch, whole.cells[face.cell].region, inner ? last : no_region});
   }
   return faces;
 }
