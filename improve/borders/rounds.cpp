@@ -175,6 +175,7 @@ CavityTable list_cavities(const mesh::DistributedMesh& mesh, const std::vector<W
     std::int64_t tets;
   };
   std::vector<CavityId> all;
+  all.reserve(tets.size());
   for (const WireTet& t : tets) all.push_back(t.cavity);
   std::sort(all.begin(), all.end());
   std::vector<CavitySize> rows;
