@@ -1,5 +1,6 @@
 #include "cad/domain/domain.hpp"
 
+#include "cad/domain/baffles.hpp"
 #include "cad/domain/domain_kind.hpp"
 #include "cad/domain/far_field.hpp"
 #include "cad/domain/far_field_shape.hpp"
@@ -57,8 +58,14 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
                     "not meet a fluid around them",
                     nested, all.size())};
   }
+  const auto inside = std::ranges::count(solids.loose, true, &LooseFace::in_solid);
+  if (inside > 0) {
+    return {DomainKind::fluid,
+            fmt::format("taken as the fluid: {} face(s) of its solids lie inside of them, as baffles do",
+                        inside)};
+  }
   hull = compare(solids, volumes);
-  return decide_kind(*hull);
+  return decide_kind(*hull, count_loose_inside(solids));
 }
 
 /// The solids that are meshed, the far field included.
@@ -111,6 +118,7 @@ FluidShape make_fluid(const DomainOptions& options, const std::string& distrust,
   const bool triangulated = hull.has_value();
   const bool single = solids_of(solids.shape).size() == 1;
   if (decision.kind == DomainKind::body) {
+    drop_loose(solids, changes);
     FluidShape fluid = surround_bodies(std::move(solids), options, distrust, volumes, changes);
     fluid.decision = std::move(decision), fluid.hull = hull;
     fluid.triangulated = triangulated && !fluid.mixed;
@@ -122,7 +130,10 @@ FluidShape make_fluid(const DomainOptions& options, const std::string& distrust,
     solids = close_noise(std::move(solids), options.smallest_size, changes);
     hull.reset();  // joined ones have other faces
   }
-  return {std::move(solids), std::move(decision), hull, triangulated, false, {}, std::move(names)};
+  const bool has_baffles = place_baffles(solids, options.baffles, volumes, changes);
+  if (has_baffles) hull.reset();
+  return {std::move(solids), std::move(decision), hull, triangulated && !has_baffles, false, {},
+          std::move(names)};
 }
 
 /// Tags of the faces as the case wants them.

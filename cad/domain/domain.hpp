@@ -59,6 +59,9 @@ struct TrailingEdgeOptions {
 /// patches `cap_1`, `cap_2`, ...
 enum class Caps { join, name };
 
+/// What happens to a baffle: a face inside of the fluid, which has the fluid on both sides.
+enum class Baffles { keep, refuse };
+
 /// A body of flat triangles beside the CAD geometry, such as a store or an ice shape.
 struct FacetedBody {
   std::string name;  ///< name of the part to which its faces belong
@@ -73,6 +76,7 @@ struct DomainOptions {
   std::optional<FarFieldOptions> far_field;  ///< as the user gives it; without, bodies get the default
   FarFieldOptions default_far_field = {};
   TrailingEdgeOptions trailing_edges = {};
+  Baffles baffles = Baffles::keep;
   /// For faceted files. Two triangles belong to different faces if the surface turns by more than this
   /// between them. Degrees.
   double feature_angle = 40;
@@ -107,12 +111,12 @@ struct Domain {
   DomainReport report;
 };
 
-/// Reads and repairs the geometry and makes the domain. Closed shells become solids. Faces that belong to no
-/// solid are dropped and listed.
-/// Not collective: one rank calls it and broadcasts model.serialise(). It runs in this process, so a crash in
-/// the CAD library ends the process. Throws CadError for what cannot be meshed: unreadable files, open
-/// shells, a far field that cuts the body, a boolean operation whose volumes do not add up. Throws
-/// std::ios_base::failure if the file cannot be opened.
+/// Reads and repairs the geometry and makes the domain. Closed shells become solids. Faces that bound no
+/// solid are baffles where they lie in the fluid, else dropped and listed. Not collective: one rank calls it
+/// and broadcasts model.serialise(). It runs in this process, so a crash in the CAD library ends the process.
+/// Throws CadError for what cannot be meshed: unreadable files, open shells, a far field that cuts the body,
+/// a boolean operation whose volumes do not add up. Throws std::ios_base::failure if the file cannot be
+/// opened.
 Domain prepare_domain(const DomainOptions& options);
 
 enum class ExportedShape {

@@ -146,12 +146,18 @@ HullComparison compare_with_hull(const Model& solids, double volume) {
   return result;
 }
 
-KindDecision decide_kind(const HullComparison& hull) {
+KindDecision decide_kind(const HullComparison& hull, int loose_inside) {
   const bool fluid = hull.fill > fluid_fill && hull.inner_faces > 0;
   const std::string figures = fmt::format(
       "it fills {:.0f} % of its convex hull, and {} of its faces have much of the hull in front of them",
       100 * hull.fill, hull.inner_faces);
   if (fluid) return {DomainKind::fluid, "taken as the fluid: " + figures + ", as around an obstacle"};
+  if (hull.fill > fluid_fill && loose_inside > 0) {
+    return {DomainKind::fluid,
+            fmt::format("taken as the fluid: it fills {:.0f} % of its convex hull, and {} loose face(s) lie "
+                        "inside of it, as baffles do",
+                        100 * hull.fill, loose_inside)};
+  }
   return {DomainKind::body,
           "taken as a body: " + figures +
               fmt::format(" (a fluid fills more than {:.0f} % and has such faces)", 100 * fluid_fill)};
@@ -167,6 +173,7 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     is_numbered = is_numbered || (found != nullptr && found->number >= 0);
   }
   InterfaceNames interfaces(region_names(domain));
+  const TopTools_IndexedMapOfShape baffles = faces_inside_solids(domain.shape);
   std::vector<FaceTag> tags;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const FaceLabel* found = domain.labels.Seek(faces(i));
@@ -185,6 +192,7 @@ std::vector<FaceTag> tag_faces(const NamedShape& domain, DomainKind kind, const 
     const std::vector<int>& around = solids[i - 1];
     const bool is_interface = tag.patch.empty() && around.size() == 2;
     if (is_interface) tag.patch = interfaces(around[0], around[1]);
+    if (tag.patch.empty() && baffles.Contains(faces(i))) tag.patch = "baffle";
     if (tag.patch.empty() && !fluid) tag.patch = label.solid;
     if (tag.patch.empty()) tag.patch = label.layer;
     if (tag.patch.empty()) tag.patch = label.colour;

@@ -25,8 +25,9 @@ struct KindDecision {
 };
 
 /// The solids are the fluid if they fill most of their hull and some faces lie deep inside it, as in a box
-/// minus an aircraft. Otherwise they are bodies.
-KindDecision decide_kind(const HullComparison& comparison);
+/// minus an aircraft, or in them, as baffles do: `loose_inside` faces that bound no solid. Otherwise they are
+/// bodies.
+KindDecision decide_kind(const HullComparison& comparison, int loose_inside = 0);
 
 /// "xmin", "xmax" and so on if the face is flat and lies on a side of the box; empty otherwise.
 std::string side_of_box(const Box& face, const Box& all);
@@ -34,6 +35,7 @@ std::string side_of_box(const Box& face, const Box& all);
 /// Names of all faces and of their patches, in the order of TopExp. A patch has the name of its face if the
 /// file names the face. For unnamed faces the patch is:
 /// - between two regions: "interface_<region>_<region>" (InterfaceNames);
+/// - inside of one region: "baffle";
 /// - of bodies: the name of the solid, the layer or the colour, else "body";
 /// - of a ready-made fluid: layer or colour; "xmin" to "zmax" on a side of the box; "outer" on the hull; else
 /// "body".

@@ -59,8 +59,8 @@ struct Face {
   /// As in the file, for the face or what contains it. Empty if there is none.
   std::string part, layer, colour;  ///< part: solid or product; colour: "#rrggbb"
   std::int32_t number = -1;         ///< in the file, from 0; -1 if the program made the face
-  /// Regions on the inner and the outer side of the oriented face. `back` is no_entity on the boundary of the
-  /// domain.
+  /// Regions on the inner and the outer side of the oriented face; `back` is no_entity on the boundary of the
+  /// domain. A baffle has one region on both sides.
   RegionId front = no_entity, back = no_entity;
 };
 

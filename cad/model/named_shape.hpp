@@ -9,6 +9,7 @@
 
 #include <NCollection_DataMap.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
 namespace aeroloom::cad {
@@ -47,13 +48,22 @@ inline void copy_label(FaceLabels& labels, const TopoDS_Shape& from, const TopoD
   labels.Bind(to, label);
 }
 
+/// A face that bounds no solid.
+struct LooseFace {
+  TopoDS_Face face;
+  bool in_solid = false;  ///< the file puts it inside of a solid
+  bool in_sheet = false;  ///< of an open shell
+};
+
 struct NamedShape {
   TopoDS_Shape shape;
   FaceLabels labels;
-  std::string unit_name;                         ///< "m", "mm", "in", ...; empty if none is declared
-  double unit_in_metres = 1;                     ///< lengths of `shape` are in this unit
-  double gap = 0;                                ///< widest gap closed by sewing or as noise
-  double precision = 0;                          ///< precision of points that the file states; 0: none
+  std::vector<LooseFace> loose;  ///< beside `shape`: baffles, if they lie in the fluid (domain/baffles.hpp)
+  std::string sheet_fault;       ///< why the open shells among them close to no body; empty without any
+  std::string unit_name;         ///< "m", "mm", "in", ...; empty if none is declared
+  double unit_in_metres = 1;     ///< lengths of `shape` are in this unit
+  double gap = 0;                ///< widest gap closed by sewing or as noise
+  double precision = 0;          ///< precision of points that the file states; 0: none
   std::vector<std::string> read_otherwise = {};  ///< names that are not UTF-8 in the file, a sentence each
   std::size_t cut_names = 0;  ///< labels with names that were too long (geometry::longest_name)
 };

@@ -1,6 +1,7 @@
 #include "cad/read/export.hpp"
 
 #include "cad/model/model.hpp"
+#include "cad/model/shape_map.hpp"
 #include "cad/read/length_unit.hpp"
 #include "cad/repair/heal.hpp"
 
@@ -8,12 +9,14 @@
 #include <fstream>
 #include <system_error>
 
+#include <BRep_Builder.hxx>
 #include <STEPConstruct.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_TransferWriter.hxx>
 #include <XSControl_WorkSession.hxx>
@@ -34,6 +37,19 @@ void set_name(const Handle(Transfer_FinderProcess) & process, const TopoDS_Shape
   if (!item.IsNull()) item->SetName(new TCollection_HAsciiString(name.c_str()));
 }
 
+/// STEP has no faces inside of solids: they stand beside them.
+TopoDS_Shape with_faces_apart(const NamedShape& named) {
+  const TopTools_IndexedMapOfShape inner = faces_inside_solids(named.shape);
+  if (inner.IsEmpty() && named.loose.empty()) return named.shape;
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const TopoDS_Solid& solid : solids_of(named.shape)) builder.Add(all, without_inner_faces(solid));
+  for (const TopoDS_Shape& face : shapes_in(inner)) builder.Add(all, face);
+  for (const LooseFace& loose : named.loose) builder.Add(all, loose.face);
+  return all;
+}
+
 /// The writer drops names; they go into the STEP entities after the transfer.
 void write_names(const NamedShape& named, const Handle(Transfer_FinderProcess) & process) {
   for (const TopoDS_Solid& solid : solids_of(named.shape)) {
@@ -46,12 +62,17 @@ void write_names(const NamedShape& named, const Handle(Transfer_FinderProcess) &
     }
     set_name(process, solid, solid_name);
   }
+  for (TopExp_Explorer faces(named.shape, TopAbs_FACE, TopAbs_SOLID); faces.More(); faces.Next()) {
+    if (const FaceLabel* label = named.labels.Seek(faces.Current()))
+      set_name(process, faces.Current(), label->name);
+  }
 }
 
 }  // namespace
 
-void write_step(const NamedShape& named, const std::string& file) {
+void write_step(NamedShape named, const std::string& file) {
   require_writable(file);
+  named.shape = with_faces_apart(named);
   STEPControl_Controller::Init();
   const LengthUnit* unit = find_length_unit(named.unit_name);
   set_cad_library_unit(unit ? *unit : millimetre());

@@ -7,8 +7,8 @@
 
 namespace aeroloom::cad {
 
-/// Writes a STEP file in the shape's unit, with the names of solids and faces. Throws CadError, and
-/// std::ios_base::failure if the file cannot be written.
-void write_step(const NamedShape& named, const std::string& file);
+/// Writes a STEP file in the shape's unit, with the names of solids and faces. Faces inside of solids stand
+/// beside them there. Throws CadError, and std::ios_base::failure if the file cannot be written.
+void write_step(NamedShape named, const std::string& file);
 
 }  // namespace aeroloom::cad

@@ -20,6 +20,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <fmt/format.h>
 
 namespace aeroloom::cad {
@@ -57,19 +58,24 @@ void add_faces(const TopoDS_Shape& shape, const FaceLabels& labels, TopTools_Ind
     if (!is_ignored(labels, each.Current())) faces.Add(each.Current());
 }
 
-Parts take_apart(const TopoDS_Shape& shape, const FaceLabels& labels, Changes& changes) {
+Parts take_apart(const TopoDS_Shape& shape, const FaceLabels& labels, std::vector<LooseFace>& loose,
+                 Changes& changes) {
   Parts parts;
   const TopTools_IndexedMapOfShape solids = map_of(shape, TopAbs_SOLID);
   TopTools_IndexedMapOfShape shells;
+  const TopTools_IndexedMapOfShape inner = faces_inside_solids(shape);
+  for (const TopoDS_Shape& face : shapes_in(inner))
+    if (!is_ignored(labels, face)) loose.push_back({TopoDS::Face(face), true});
   for (int i = 1; i <= solids.Extent(); ++i) {
-    const std::vector<TopoDS_Shell> bounds = shells_of(solids(i));
+    const TopoDS_Shape solid = inner.IsEmpty() ? solids(i) : without_inner_faces(solids(i));
+    const std::vector<TopoDS_Shell> bounds = shells_of(solid);
     const bool closed = !bounds.empty() && std::all_of(bounds.begin(), bounds.end(), is_closed) &&
-                        !has_ignored(labels, solids(i));
+                        !has_ignored(labels, solid);
     if (closed) {
-      parts.solids.push_back(TopoDS::Solid(solids(i).Oriented(TopAbs_FORWARD)));
+      parts.solids.push_back(TopoDS::Solid(solid.Oriented(TopAbs_FORWARD)));
     } else {
       changes.push_back({fmt::format("solid {} is not closed: its faces are sewn anew", i - 1)});
-      add_faces(solids(i), labels, parts.open_faces);
+      add_faces(solid, labels, parts.open_faces);
     }
   }
   // A compound may list the shells and faces of its solids once more.
@@ -116,15 +122,31 @@ double largest_sewing_tolerance(double smallest_size) {
                            : std::numeric_limits<double>::infinity();
 }
 
-void drop_faces(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
-                Changes& changes) {
+/// Loose faces that no solid has wait for the fluid.
+void keep_loose(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoDS_Solid>& solids,
+                std::vector<LooseFace>& loose) {
   TopTools_IndexedMapOfShape used;
   for (const TopoDS_Solid& solid : solids) TopExp::MapShapes(solid, TopAbs_FACE, used);
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    if (used.Contains(faces(i))) continue;
-    changes.push_back({fmt::format("a loose face around {} belongs to no solid: dropped",
-                                   geometry::place_text(tight_box(faces(i)).center()))});
+  for (const LooseFace& each : loose)
+    used.Add(each.face);  // a compound may list the faces inside of its solids
+  for (const TopoDS_Shape& face : shapes_in(faces)) {
+    if (!used.Contains(face)) loose.push_back({TopoDS::Face(face)});
   }
+}
+
+/// Sews open faces to shells. Where there are bodies without them, sheets that do not close are loose faces.
+std::vector<TopoDS_Shell> sew_open_faces(const TopTools_IndexedMapOfShape& faces, bool has_bodies,
+                                         double largest_tolerance, NamedShape& named, Changes& changes) {
+  try {
+    const SewnShells sewn = sew(faces, largest_tolerance, named.labels, changes, has_bodies);
+    named.gap = sewn.gap;
+    return sewn.shells;
+  } catch (const CadError& error) {
+    if (!has_bodies || !are_sheets(faces)) throw;
+    named.sheet_fault = error.what();
+  }
+  for (const TopoDS_Shape& face : shapes_in(faces)) named.loose.push_back({TopoDS::Face(face), false, true});
+  return {};
 }
 
 /// `boxes`: of the solids.
@@ -150,6 +172,22 @@ std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape) {
   return solids;
 }
 
+TopoDS_Shape without_inner_faces(const TopoDS_Shape& solid) {
+  TopoDS_Shape bare = solid.EmptyCopied();
+  BRep_Builder builder;
+  for (TopoDS_Iterator parts(solid, false, false); parts.More(); parts.Next()) {
+    if (parts.Value().ShapeType() != TopAbs_SHELL || !bounds_material(parts.Value())) continue;
+    TopoDS_Shape shell = parts.Value().EmptyCopied();
+    for (TopoDS_Iterator faces(parts.Value(), false, false); faces.More(); faces.Next()) {
+      if (bounds_material(faces.Value())) builder.Add(shell, faces.Value());
+    }
+    if (!TopoDS_Iterator(shell).More()) continue;
+    shell.Closed(is_closed(TopoDS::Shell(shell)));
+    builder.Add(bare, shell);
+  }
+  return bare;
+}
+
 TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
   TopoDS_Compound compound;
   BRep_Builder builder;
@@ -161,7 +199,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
   report_step("healing the shape");
   trim_spindle_tori(named, changes);
-  Parts parts = take_apart(named.shape, named.labels, changes);
+  Parts parts = take_apart(named.shape, named.labels, named.loose, changes);
   std::vector<TopoDS_Solid> solids;
   for (std::size_t i = 0; i < parts.solids.size(); ++i)
     split_solid(parts.solids[i], i, volumes, solids, changes);
@@ -172,15 +210,15 @@ NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes,
     parts.loose_faces.Clear();
   }
   if (!parts.open_faces.IsEmpty()) {
-    const SewnShells sewn = sew(parts.open_faces, largest_sewing_tolerance(smallest_size), named.labels,
-                                changes, !solids.empty() || !shells.empty());
-    shells.insert(shells.end(), sewn.shells.begin(), sewn.shells.end());
-    named.gap = sewn.gap;
+    const bool has_bodies = !solids.empty() || !shells.empty();
+    const std::vector<TopoDS_Shell> sewn =
+        sew_open_faces(parts.open_faces, has_bodies, largest_sewing_tolerance(smallest_size), named, changes);
+    shells.insert(shells.end(), sewn.begin(), sewn.end());
   }
   const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);
   solids.insert(solids.end(), promoted.begin(), promoted.end());
   if (solids.empty()) throw CadError("there are no faces to make a solid of");
-  drop_faces(parts.loose_faces, solids, changes);
+  keep_loose(parts.loose_faces, solids, named.loose);
   named.shape = make_compound(solids);
   std::vector<Box> boxes;
   Box all;

@@ -15,11 +15,15 @@ namespace aeroloom::cad {
 std::vector<TopoDS_Solid> solids_of(const TopoDS_Shape& shape);
 TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids);
 
+/// The solid without the faces inside of it.
+TopoDS_Shape without_inner_faces(const TopoDS_Shape& solid);
+
 /// Makes a compound of closed solids with outward orientation. Solids of the file are kept and closed shells
 /// become solids. Open and loose faces are sewn (sewing.hpp), with tolerances up to a tenth of
 /// `smallest_size`; 0: no limit. Noise is closed (noise.hpp). Labels follow. Every change is appended to
-/// `changes`. Throws CadError that lists open edges if no closed solid results, and for solids without
-/// volume.
+/// `changes`. Faces that bound no solid are in `loose` of the result: those inside of solids, loose ones, and
+/// open shells beside solids, which are sheets (sewing.hpp). Throws CadError that lists open edges if no
+/// closed solid results, and for solids without volume.
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes);
 
 }  // namespace aeroloom::cad

@@ -1,5 +1,6 @@
 #include "cad/repair/sewing.hpp"
 
+#include "cad/model/evaluation/face_integrals.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
@@ -190,7 +191,7 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
 }
 
 /// Faces to sew, and how.
-struct Attempt {
+struct Attempt {  // NOLINT(bugprone-exception-escape): the CAD library's maps copy when they are moved
   TopTools_IndexedMapOfShape faces;
   double fraction = 0;
   std::vector<std::pair<int, NoiseFace>> left_out;  ///< numbers of faces that are noise
@@ -317,6 +318,29 @@ std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
       open.push_back(edge);
   }
   return open;
+}
+
+bool are_sheets(const TopTools_IndexedMapOfShape& faces) {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& face : shapes_in(faces)) builder.Add(all, face);
+  TopTools_ListOfShape pieces;
+  BOPTools_AlgoTools::MakeConnexityBlocks(all, TopAbs_EDGE, TopAbs_FACE, pieces);
+  for (const TopoDS_Shape& piece : pieces) {
+    double area = 0;
+    Vec3 opening;  // the flux through it is that through the faces
+    for (TopExp_Explorer each(piece, TopAbs_FACE); each.More(); each.Next()) {
+      const TopoDS_Face face = TopoDS::Face(each.Current());
+      const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+      if (surface.IsNull()) return false;
+      const FaceIntegrals sums = integrate_face(face, SurfaceEvaluator(surface), {});
+      area += sums.area;
+      opening += (face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0) * sums.area_vector;
+    }
+    if (norm(opening) <= widest_opening * area) return false;
+  }
+  return true;
 }
 
 SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,

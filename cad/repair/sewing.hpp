@@ -15,6 +15,10 @@ namespace aeroloom::cad {
 /// Edges of one face only, without seams and poles, in order.
 std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape);
 
+/// Whether each connected part of the faces is a sheet: it is open wider than half of its area, and what
+/// closes it would be no opening of a body.
+bool are_sheets(const TopTools_IndexedMapOfShape& faces);
+
 struct SewnShells {
   std::vector<TopoDS_Shell> shells;
   double gap = 0;  ///< width of the widest gap that was closed

@@ -115,6 +115,14 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
            common("What the solids of the file are. `fluid`: the space to mesh. `body`: bodies in a far "
                   "field that the program adds. `auto` decides and says why ([Fluid or "
                   "body](configuration/geometry.md#fluid-or-body)). Set it where `auto` is wrong.")));
+  keys.choice<cad::Baffles>(
+      "baffles", draft.result.domain.baffles,
+      {{"keep", cad::Baffles::keep}, {"refuse", cad::Baffles::refuse}},
+      sets("DomainOptions::baffles",
+           "What becomes of a face inside of the fluid, which has the fluid on both sides. `keep`: it is "
+           "meshed "
+           "once, as an inner patch of its name ([Baffles](real_cad.md#baffles)). `refuse`: it is an error, "
+           "with name and place."));
   keys.choice<NarrowFaces>(
       "narrow_faces", draft.result.narrow_faces, {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}},
       "`join`: a face narrower than `sizing.minimum` becomes part of a neighbour that continues it smoothly "

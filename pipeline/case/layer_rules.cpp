@@ -71,6 +71,11 @@ std::size_t patch_of_rule(const LayerRule& rule, const std::vector<std::string>&
         fmt::format("{}: there is no such patch{}. Remedy: `aeroloom check` lists the patches",
                     place_of_rule(rule), nearest ? fmt::format("; the nearest name is '{}'", *nearest) : ""));
   }
+  if (types.at(patch) == mesh::PatchType::interior && rule.count != 0)
+    throw std::invalid_argument(
+        fmt::format("layers.patches.{}: layers stand on walls, and this patch has cells on both sides. "
+                    "Remedy: no layers on it",
+                    rule.name));
   if (types.at(patch) != mesh::PatchType::wall && rule.count != 0)
     throw std::invalid_argument(
         fmt::format("{}: layers stand on walls, and this patch is of type {}. Remedy: "

@@ -152,7 +152,7 @@ void warn(TypedPatches& patches, const PatchSetting& rule, const std::vector<cha
   }
   if (inner > 0 && rule.type && *rule.type != PatchType::interior)
     patches.warnings.push_back(
-        fmt::format("{}: {} of its faces lie between two regions and have no condition: the type "
+        fmt::format("{}: {} of its faces have a fluid on both sides and no condition: the type "
                     "'{}' is not theirs",
                     rule.key, inner, mesh::name_of(*rule.type)));
   if (left > 0)

@@ -221,13 +221,17 @@ std::vector<std::vector<Coedge>> add_uses(const Maps& maps, Model::Data& data, F
   return loops;
 }
 
-/// Which solids lie on either side of each face, from the way each solid orients it.
+/// Which solids lie on either side of each face, from the way each solid orients it. A face inside of a solid
+/// has it on both sides.
 void add_regions(const Maps& maps, Model::Data& data) {
   for (int region = 1; region <= maps.solids.Extent(); ++region) {
     for (TopExp_Explorer faces(maps.solids(region), TopAbs_FACE); faces.More(); faces.Next()) {
-      if (!bounds_material(faces.Current())) continue;
       const int id = maps.faces.FindIndex(faces.Current()) - 1;
       Face& face = data.faces[id];
+      if (!bounds_material(faces.Current())) {
+        face.front = face.back = region - 1;
+        continue;
+      }
       const bool reversed = faces.Current().Orientation() == TopAbs_REVERSED;
       if (face.front == no_entity) {
         face.front = region - 1;

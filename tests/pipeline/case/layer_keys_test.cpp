@@ -12,8 +12,9 @@ namespace {
 
 using mesh::PatchType;
 
-const std::vector<std::string> patches{"wing", "fan", "farfield"};
-const std::vector<PatchType> types{PatchType::wall, PatchType::wall, PatchType::farfield};
+const std::vector<std::string> patches{"wing", "fan", "farfield", "vane"};
+const std::vector<PatchType> types{PatchType::wall, PatchType::wall, PatchType::farfield,
+                                   PatchType::interior};
 
 class LayerKeys : public CaseTest {
 protected:
@@ -60,7 +61,7 @@ TEST_F(LayerKeys, ComeBack) {
 
 TEST_F(LayerKeys, WallsGetThemAndNothingElse) {
   const layers::LayerOptions options = options_of(with_layers("first: 1e-3, growth: 1.3, count: 9"));
-  ASSERT_EQ(options.patches.size(), 3u);
+  ASSERT_EQ(options.patches.size(), 4u);
   for (const int wall : {0, 1}) {
     EXPECT_EQ(options.patches[wall].first, 1e-3);
     EXPECT_EQ(options.patches[wall].growth, 1.3);
@@ -99,6 +100,8 @@ TEST_F(LayerKeys, PatchesMustBeWallsOfThisModel) {
   EXPECT_NE(message("wign: {count: 3}").find("case.yaml:2:"), std::string::npos)
       << message("wign: {count: 3}");
   EXPECT_NE(message("farfield: {count: 3}").find("is of type farfield"), std::string::npos);
+  EXPECT_NE(message("vane: {count: 3}").find("has cells on both sides. Remedy: no layers"),
+            std::string::npos);
   EXPECT_EQ(message("farfield: {count: 0}"), "");
 }
 
