@@ -116,8 +116,10 @@ TEST_F(InfoCommandLocal, FacesKeepTheirNamesWhereAPlaneCuts) {
   std::map<std::string, std::map<std::string, Json>> seen;
   for (const std::string symmetry : {"none", "y"}) {
     const std::string position = symmetry == "y" ? ", symmetry_position: " + Json(middle).dump() : "";
-    write("cut.yaml", "geometry: {file: \"" + file + "\"}\nfarfield: {shape: box, extent: 3, symmetry: " +
-                          symmetry + position + "}\nsizing: {target_tetrahedra: 5000}\n");
+    write("cut.yaml",
+          "geometry: {file: \"" + file + "\"}\nfarfield: {shape: box, extent: 3, symmetry: " + symmetry +
+              position +
+              "}\nsizing: {minimum: 10, maximum: 100, growth: 2.5, curvature_angle: 90, proximity: 0}\n");
     expect(0, "check cut.yaml");
     const Json checked = read_json("out/check.json");
     for (const Json& row : checked["domain"]["faces"])
