@@ -1,5 +1,6 @@
 #include "pipeline/case/given_lengths.hpp"
 
+#include "pipeline/case/case_keys.hpp"
 #include "pipeline/case/yaml_reader.hpp"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "cad/tolerances.hpp"
 #include "geometry/place_text.hpp"
+#include "sizing/choice/coincident_faces.hpp"
 #include "sizing/choice/field_factory.hpp"
 
 #include <algorithm>
