@@ -22,11 +22,10 @@
 #include "pipeline/write_outputs.hpp"
 
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 namespace {
@@ -144,12 +143,8 @@ private:
       _record.input_bytes = _identity.bytes;
     }
     _checkpoints.emplace(_communicator, _input, _identity);
-    if (!_input.domain.file.empty() && _identity.is_known) {
-      const std::size_t parts = _input.domain.parts.size();
-      parallel::log_info(fmt::format("geometry: '{}'{}, {} bytes, hash {}", _input.domain.file,
-                                     parts > 0 ? fmt::format(" and {} parts", parts) : "", _identity.bytes,
-                                     _record.input_hash));
-    }
+    if (const std::string text = text_of_files(_identity, _input); !text.empty())
+      parallel::log_info("geometry: " + text);
     const cad::Domain domain = find_or_load_domain();
     domain::require_lengths_of_model(_communicator, domain.model, _input);
     cases::TypedPatches patches = domain::find_patches(_communicator, domain, _input);

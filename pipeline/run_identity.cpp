@@ -10,6 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include <fmt/format.h>
+
 namespace aeroloom::pipeline {
 namespace {
 
@@ -87,6 +89,13 @@ void require_same_file(const RunIdentity& identity, const cases::Case& input) {
   const char* const what =
       files.size() == 1 ? "the file was changed while it was read" : "a file was changed while it was read";
   throw std::filesystem::filesystem_error(what, files.front(), std::make_error_code(std::errc::interrupted));
+}
+
+std::string text_of_files(const RunIdentity& identity, const cases::Case& input) {
+  const cad::DomainOptions& domain = input.domain;
+  if (domain.file.empty() || !identity.is_known) return {};
+  const std::string parts = domain.parts.empty() ? "" : fmt::format(" and {} parts", domain.parts.size());
+  return fmt::format("'{}'{}, {} bytes, hash {}", domain.file, parts, identity.bytes, identity.digest.text());
 }
 
 }  // namespace aeroloom::pipeline

@@ -28,4 +28,7 @@ RunIdentity identify_run(const parallel::Communicator& communicator, const cases
 /// after the geometry was read.
 void require_same_file(const RunIdentity& identity, const cases::Case& input);
 
+/// What the log says of the files of the geometry; empty without any, or where one is unreadable.
+std::string text_of_files(const RunIdentity& identity, const cases::Case& input);
+
 }  // namespace aeroloom::pipeline
