@@ -1,6 +1,7 @@
 #include "cad/builtin/transport.hpp"
 
 #include "cad/builtin/transport_components.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/named_shape.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/repair/volumes.hpp"
@@ -153,7 +154,7 @@ void check_union(const TopoDS_Shape& shape, const std::vector<Component>& compon
     throw CadError(
         fmt::format("transport: the dimensions do not unite to one valid body (fuselage {:.6g} m^3, sum of "
                     "parts {:.6g} m^3, union {:.6g} m^3)",
-                    fuselage, sum, total));
+                    in_file(fuselage, 3), in_file(sum, 3), in_file(total, 3)));
   }
 }
 

@@ -1,12 +1,12 @@
 #include "cad/domain/baffles.hpp"
 
 #include "cad/domain/booleans.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +161,7 @@ void refuse_baffles(const NamedShape& fluid, const FusedFluid& fused) {
     if (count++ > 0) continue;
     const TopoDS_Face& face = fluid.loose[i].face;
     first = fmt::format("{} around {}", describe_loose(fluid.labels, face),
-                        geometry::place_text(tight_box(face).center()));
+                        place_in_file(tight_box(face).center()));
   }
   throw CadError(
       fmt::format("{} lies inside of the fluid and bounds no solid{}. Remedy: keep it as a baffle "
@@ -182,7 +182,7 @@ FusedFluid fuse_with_cuts(const NamedShape& fluid) {
       throw CadError(fmt::format(
           "a baffle ends inside of a face near {}, which lines there do not divide. Remedy: divide that "
           "face along the baffle in the CAD program",
-          geometry::place_text(to_vec(line.Value(line.FirstParameter())))));
+          place_in_file(to_vec(line.Value(line.FirstParameter())))));
     }
     cuts.insert(cuts.end(), more.begin(), more.end());
     fused = fuse_loose(fluid, cuts);
@@ -197,13 +197,13 @@ void require_same_volume(const std::vector<TopoDS_Solid>& before, const std::vec
   throw CadError(fmt::format(
       "placing baffles in the fluid changes its volume from {:.9g} to {:.9g}. Remedy: keep baffles clearly "
       "apart from walls, or have them share their edges in the CAD program",
-      wanted, found));
+      in_file(wanted, 3), in_file(found, 3)));
 }
 
 void drop(const LooseFace& loose, Changes& changes) {
   const Vec3 center = tight_box(loose.face).center();
   changes.push_back(
-      {fmt::format("a loose face around {} belongs to no solid: dropped", geometry::place_text(center))});
+      {fmt::format("a loose face around {} belongs to no solid: dropped", place_in_file(center))});
 }
 
 std::string describe_placed(const PlacedFace& placed) {

@@ -10,7 +10,9 @@
 #include "cad/domain/trailing_edges.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
 #include "cad/read/ignored_faces.hpp"
@@ -79,11 +81,12 @@ struct FluidShape {
   std::vector<std::string> names = {};  ///< in the file
 };
 
-/// Of a file of triangles, which has parts.
-FluidShape make_fluid_around_facets(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+/// Of a file of triangles, which has parts. `none` has no shape, but a unit.
+FluidShape make_fluid_around_facets(NamedShape none, const DomainOptions& options, Volumes& volumes,
+                                    Changes& changes) {
   FluidShape fluid;
   fluid.decision = {DomainKind::body, "taken as bodies: there are parts"};
-  fluid.mixed = surround_mixed({}, {}, options, volumes, changes);
+  fluid.mixed = surround_mixed(std::move(none), {}, options, volumes, changes);
   return fluid;
 }
 
@@ -107,9 +110,35 @@ FluidShape surround_bodies(NamedShape solids, const DomainOptions& options, cons
   return fluid;
 }
 
-FluidShape make_fluid(const DomainOptions& options, const std::string& distrust, Volumes& volumes,
-                      Changes& changes) {
-  NamedShape source = read_source(options, changes);
+/// The options with lengths in the unit of the shapes. Those of trailing edges stay: the model is scaled
+/// then.
+DomainOptions in_unit(DomainOptions options, double unit) {
+  const auto convert = [&](FarFieldOptions& far_field) {
+    far_field.unit_length /= unit;
+    if (far_field.symmetry_position) *far_field.symmetry_position /= unit;
+  };
+  convert(options.default_far_field);
+  if (options.far_field) convert(*options.far_field);
+  options.smallest_size /= unit;
+  for (FacetedBody& part : options.parts) part.scale /= unit;
+  return options;
+}
+
+bool has_facets(const DomainOptions& options) {
+  return !options.transport && is_faceted_file(options.file);
+}
+
+/// The unit alone of a file of triangles.
+NamedShape read_shape(const DomainOptions& options, Changes& changes) {
+  if (!has_facets(options)) return read_source(options, changes);
+  NamedShape none;
+  none.unit = library_unit(largest_extent(box_of_points(read_facets(options.file).points).size()));
+  return none;
+}
+
+FluidShape make_fluid(NamedShape source, const DomainOptions& options, const std::string& distrust,
+                      Volumes& volumes, Changes& changes) {
+  if (has_facets(options)) return make_fluid_around_facets(std::move(source), options, volumes, changes);
   if (source.cut_names > 0) changes.push_back({geometry::long_names_text(source.cut_names), {}, 0, true});
   std::vector<std::string> names = names_of_file(source);
   NamedShape solids = make_solids(std::move(source), options.smallest_size, volumes, changes);
@@ -179,7 +208,7 @@ void require_representable(const Box& box) {
                   "the CAD library tells points {:.0g} apart. Remedy: a larger unit, a model near the "
                   "origin, or a far field "
                   "that is nearer (FarFieldOptions::extent)",
-                  farthest, spacing, tolerances::library_length));
+                  in_file(farthest), in_file(spacing), in_file(tolerances::library_length)));
 }
 
 /// Triangulates every face coarsely, where nobody did: what the CAD library cannot triangulate is found here,
@@ -191,8 +220,11 @@ void try_facets(const Model& model) {
     model.facets(f, deflection * model.bounds().diagonal(), angle);
 }
 
-bool has_facets(const DomainOptions& options) {
-  return !options.transport && is_faceted_file(options.file);
+NamedShape make_geometry(const DomainOptions& options, Volumes& volumes, Changes& changes) {
+  NamedShape source = read_source(options, changes);
+  const InLibraryUnit at_hand(source.unit);
+  const double smallest_size = options.smallest_size / source.unit;
+  return make_solids(std::move(source), smallest_size, volumes, changes);
 }
 
 Domain prepare(const DomainOptions& options, const std::string& distrust = {});
@@ -209,13 +241,20 @@ Domain prepare_anew(const DomainOptions& options, const std::string& fault) {
 Domain prepare(const DomainOptions& options, const std::string& distrust) {
   DomainReport report;
   Volumes volumes;
-  const FluidShape fluid = has_facets(options) ? make_fluid_around_facets(options, volumes, report.changes)
-                                               : make_fluid(options, distrust, volumes, report.changes);
+  NamedShape source = read_shape(options, report.changes);
+  const double unit = source.unit;
+  const auto [fluid, shapes] = [&] {
+    const InLibraryUnit at_hand(unit);
+    FluidShape made =
+        make_fluid(std::move(source), in_unit(options, unit), distrust, volumes, report.changes);
+    Model within = build_domain(made, options, volumes, report.changes);
+    require_representable(within.bounds());
+    return std::pair(std::move(made), std::move(within));
+  }();
   report.kind = fluid.decision.kind;
   report.reason = fluid.decision.reason;
-  Model model = build_domain(fluid, options, volumes, report.changes);
-  model = sharpen_trailing_edges(std::move(model), options.trailing_edges, report.changes);
-  require_representable(model.bounds());
+  for (Change& change : report.changes) change = in_file_unit(std::move(change), unit);
+  Model model = sharpen_trailing_edges(in_file_unit(shapes, unit), options.trailing_edges, report.changes);
   try {
     if (!fluid.triangulated) try_facets(model);
   } catch (const CadError& error) {
@@ -265,10 +304,11 @@ void export_step(const DomainOptions& options, ExportedShape shape, const std::s
     if (has_facets(options) || !options.parts.empty()) refuse_facets();
     Changes changes;
     Volumes volumes;
-    if (shape == ExportedShape::geometry)
-      return write_step(make_solids(read_source(options, changes), options.smallest_size, volumes, changes),
-                        file);
-    const FluidShape fluid = make_fluid(options, {}, volumes, changes);
+    if (shape == ExportedShape::geometry) return write_step(make_geometry(options, volumes, changes), file);
+    NamedShape source = read_source(options, changes);
+    const InLibraryUnit at_hand(source.unit);
+    const DomainOptions within = in_unit(options, source.unit);
+    const FluidShape fluid = make_fluid(std::move(source), within, {}, volumes, changes);
     if (fluid.mixed) refuse_facets();
     write_step(fluid.shape, file);
   });

@@ -2,6 +2,7 @@
 
 #include "cad/domain/far_field_shape.hpp"
 #include "cad/domain/symmetry.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/heal.hpp"
@@ -75,7 +76,7 @@ void require_sum_of_volumes(double far_field, double body, double fluid) {
       fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; the body's "
                   "shells cross or are turned "
                   "inside out",
-                  far_field, body, fluid));
+                  in_file(far_field, 3), in_file(body, 3), in_file(fluid, 3)));
 }
 
 std::vector<TopoDS_Face> faces_of(const TopoDS_Shape& shape) {
@@ -117,7 +118,7 @@ void add_plane(const SymmetryPlane& symmetry, const std::vector<TopoDS_Face>& fa
     throw CadError(
         fmt::format("the body's section at the plane of symmetry has an outline that is no simple "
                     "closed loop: repair the body near coordinate {} = {:.6g}",
-                    symmetry.axis, symmetry.position));
+                    symmetry.axis, in_file(symmetry.position)));
   }
   std::vector<TopoDS_Wire> outlines;
   for (std::size_t i = 0; i < loops->size(); ++i) {

@@ -1,5 +1,6 @@
 #include "cad/domain/far_field_shape.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 
@@ -116,7 +117,7 @@ void require_clearance(const FarFieldOptions& options, const Box& body, const gp
   throw CadError(
       fmt::format("the far field cuts the body: its extent of {:.4g} {} ({:.6g}) must exceed "
                   "{:.4g} for this body",
-                  options.extent, name_of_unit(options.unit), reference, least_clearance * needed));
+                  options.extent, name_of_unit(options.unit), in_file(reference), least_clearance * needed));
 }
 
 void label_far_field(const TopoDS_Solid& far_field, FaceLabels& labels) {

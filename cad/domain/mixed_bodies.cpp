@@ -6,11 +6,11 @@
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/faceted/make_facet_complex.hpp"
 #include "cad/faceted/shape_facets.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +70,7 @@ public:
         });
         if (found.meeting != FacetMeeting::near) continue;
         throw CadError(fmt::format("{}; nor do their triangles tell whether they touch near {}",
-                                   refused.reason, geometry::place_text(found.at)));
+                                   refused.reason, place_in_file(found.at)));
       }
     }
     for (CadBody& body : bodies) take(body, refused.reason);
@@ -167,7 +167,7 @@ private:
           fmt::format("the bodies '{}' and '{}' are so near each other at {} that triangles do not tell "
                       "whether they touch. "
                       "Remedy: move one of them so that they overlap clearly or stay apart",
-                      name_of_soup(body.facets.soup), name_of_soup(soup), geometry::place_text(found.at)));
+                      name_of_soup(body.facets.soup), name_of_soup(soup), place_in_file(found.at)));
     }
     return std::nullopt;
   }
@@ -176,7 +176,7 @@ private:
     const ShapeFacets& facets = triangulate(body, finer[0]);
     _changes.push_back(
         {fmt::format("body '{}' became {} triangles, at most {:.3g} off its faces: {}",
-                     name_of_soup(facets.soup), facets.soup.triangles.size(), facets.deviation, why),
+                     name_of_soup(facets.soup), facets.soup.triangles.size(), in_file(facets.deviation), why),
          body.box.center(), facets.deviation, true});
     _facets.push_back(facets.soup);
     _any_taken = true;
@@ -202,10 +202,11 @@ std::optional<FacetComplex> make_walls(FacetSoup facets, const DomainOptions& op
   return outer_walls(complex, changes);
 }
 
-void gather_facets(BodyMixer& mixer, const std::vector<RefusedUnion>& refused, bool has_cad,
+/// `unit` is that of shapes where the file holds triangles.
+void gather_facets(BodyMixer& mixer, const std::vector<RefusedUnion>& refused, std::optional<double> unit,
                    const DomainOptions& options, Changes& changes) {
   report_step("reading the triangles");
-  if (!has_cad) mixer.add(read_bodies({"", options.file, 1}, options, changes));
+  if (unit) mixer.add(read_bodies({"", options.file, 1 / *unit}, options, changes));
   for (const FacetedBody& part : options.parts) mixer.add(read_part(part, options, changes));
   for (const RefusedUnion& each : refused) mixer.add_refused(each);
 }
@@ -217,7 +218,7 @@ MixedFluid surround_mixed(NamedShape bodies, const std::vector<RefusedUnion>& re
   const FarFieldOptions far_field = options.far_field.value_or(options.default_far_field);
   const bool has_cad = !bodies.shape.IsNull();
   BodyMixer mixer(bodies, options, changes);
-  gather_facets(mixer, refused, has_cad, options, changes);
+  gather_facets(mixer, refused, has_cad ? std::nullopt : std::optional(bodies.unit), options, changes);
   report_step("finding bodies that overlap triangles");
   mixer.absorb();
   mixer.drop_buried();
@@ -230,6 +231,7 @@ MixedFluid surround_mixed(NamedShape bodies, const std::vector<RefusedUnion>& re
     refuse_symmetry(far_field, "bodies of triangles");
     fluid.shape = far_field_around(*walls, far_field);
     fluid.shape.unit_name = bodies.unit_name, fluid.shape.unit_in_metres = bodies.unit_in_metres;
+    fluid.shape.unit = bodies.unit;
   } else {
     const Box beside = walls ? box_of_points(walls->points) : Box{};
     bodies.shape = make_compound(solids);
@@ -251,7 +253,7 @@ void require_mixed_volume(const Model& model, const MixedFluid& fluid, Volumes& 
   throw CadError(fmt::format(
       "the volumes do not add up: without bodies of triangles {:.9g}, these {:.9g}, fluid {:.9g}; "
       "the triangles are turned inside out",
-      outer, body, found));
+      in_file(outer, 3), in_file(body, 3), in_file(found, 3)));
 }
 
 }  // namespace aeroloom::cad

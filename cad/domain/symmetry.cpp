@@ -1,11 +1,11 @@
 #include "cad/domain/symmetry.hpp"
 
 #include "cad/domain/booleans.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 
 #include <cmath>
 #include <limits>
@@ -75,7 +75,7 @@ SymmetryPlane plane_at(int axis, double position, const Box& box, std::string re
     throw CadError(
         fmt::format("the plane of symmetry {} = {:.6g} misses the body, which reaches from {:.6g} to "
                     "{:.6g}: give FarFieldOptions::symmetry_position",
-                    axis_names[axis], position, box.low[axis], box.high[axis]));
+                    axis_names[axis], in_file(position), in_file(box.low[axis]), in_file(box.high[axis])));
   }
   const bool positive = box.high[axis] - position > tolerance;
   return {axis, position, positive, tolerance, std::move(reason)};
@@ -114,7 +114,7 @@ SymmetryPlane find_on_axis(int axis, const FarFieldOptions& options, const TopoD
   throw CadError(
       fmt::format("no plane of symmetry: the body reaches from {} = {:.6g} to {:.6g} and ends at neither "
                   "in planar faces: give FarFieldOptions::symmetry_position",
-                  axis_names[axis], box.low[axis], box.high[axis]));
+                  axis_names[axis], in_file(box.low[axis]), in_file(box.high[axis])));
 }
 
 /// A box that holds what of the bodies lies on one side of the plane.
@@ -151,7 +151,7 @@ void require_section(const TopoDS_Solid& body, const SymmetryPlane& symmetry) {
   throw CadError(
       fmt::format("a body only touches the plane of symmetry {} = {:.6g}, near {}, and has no planar face "
                   "there: move FarFieldOptions::symmetry_position into the body",
-                  axis_names[symmetry.axis], symmetry.position, geometry::place_text(contact)));
+                  axis_names[symmetry.axis], in_file(symmetry.position), place_in_file(contact)));
 }
 
 }  // namespace
@@ -172,8 +172,8 @@ bool SymmetryPlane::holds(const TopoDS_Face& face) const {
 }
 
 std::string describe(const SymmetryPlane& symmetry) {
-  return fmt::format("plane of symmetry {} = {:.6g}: {}", axis_names[symmetry.axis], symmetry.position,
-                     symmetry.reason);
+  return fmt::format("plane of symmetry {} = {:.6g}: {}", axis_names[symmetry.axis],
+                     in_file(symmetry.position), symmetry.reason);
 }
 
 std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies) {
@@ -228,10 +228,10 @@ NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Vol
     }
     const double whole = volumes.of(body);
     if (inside.empty() || std::abs(parts - whole) > tolerances::integrated_volume * whole) {
-      throw CadError(
-          fmt::format("cutting a body at {} = {:.6g} went wrong: its halves have a volume of {:.9g}, the "
-                      "body has {:.9g}",
-                      axis_names[symmetry.axis], symmetry.position, parts, whole));
+      throw CadError(fmt::format(
+          "cutting a body at {} = {:.6g} went wrong: its halves have a volume of {:.9g}, the "
+          "body has {:.9g}",
+          axis_names[symmetry.axis], in_file(symmetry.position), in_file(parts, 3), in_file(whole, 3)));
     }
     kept.insert(kept.end(), inside.begin(), inside.end());
     ++cut;
@@ -242,7 +242,7 @@ NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Vol
     at[symmetry.axis] = symmetry.position;
     changes.push_back(
         {fmt::format("{} bodies cut at the plane of symmetry {} = {:.6g}, {} on its other side dropped", cut,
-                     axis_names[symmetry.axis], symmetry.position, dropped),
+                     axis_names[symmetry.axis], in_file(symmetry.position), dropped),
          at});
   }
   bodies.shape = make_compound(kept);

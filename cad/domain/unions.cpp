@@ -1,8 +1,8 @@
 #include "cad/domain/booleans.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,9 +40,11 @@ std::vector<Way> ways(double diagonal) {
                        {"one by one", false, true}};
   for (const double fraction : tolerances::uniting) {
     const double length = fraction * diagonal;
-    all.push_back({fmt::format("with points up to {:.3g} apart taken as one", length), false, false, length});
-    all.push_back({fmt::format("the other way round, with points up to {:.3g} apart taken as one", length),
-                   true, false, length});
+    all.push_back(
+        {fmt::format("with points up to {:.3g} apart taken as one", in_file(length)), false, false, length});
+    all.push_back(
+        {fmt::format("the other way round, with points up to {:.3g} apart taken as one", in_file(length)),
+         true, false, length});
   }
   all.push_back({"as shapes that share whole faces", false, false, 0, true});
   return all;
@@ -76,8 +78,8 @@ std::string find_fault(const Solids& united, const Solids& before, const TopoDS_
   if (std::abs(parts - whole) > tolerance) {
     const double common = common_volume(make_compound(before), solid, way.tolerance, volumes);
     if (std::abs(parts - common - whole) > tolerance) {
-      return fmt::format("parts of volume {:.9g} that share {:.3g} gave a union of {:.9g}", parts, common,
-                         whole);
+      return fmt::format("parts of volume {:.9g} that share {:.3g} gave a union of {:.9g}", in_file(parts, 3),
+                         in_file(common, 3), in_file(whole, 3));
     }
   }
   if (way.is_first)
@@ -116,7 +118,7 @@ std::string name_of_body(const TopoDS_Shape& body, const FaceLabels& labels) {
     if (const std::string name = shown_name(*label); !name.empty())
       return fmt::format("that with face '{}'", name);
   }
-  return fmt::format("that around {}", geometry::place_text(tight_box(body).center()));
+  return fmt::format("that around {}", place_in_file(tight_box(body).center()));
 }
 
 [[noreturn]] void refuse_union(const Solids& united, const TopoDS_Solid& solid, const FaceLabels& labels,
@@ -136,7 +138,7 @@ std::string name_of_body(const TopoDS_Shape& body, const FaceLabels& labels) {
       "the bodies {} and {} touch or overlap near {}, and no way of the CAD library unites them soundly: {}. "
       "Remedy: unite them in the CAD program, or move one so that they overlap clearly or stay apart",
       name_of_body(*nearest, labels), name_of_body(solid, labels),
-      geometry::place_text(meeting_place(box, tight_box(*nearest))), fault));
+      place_in_file(meeting_place(box, tight_box(*nearest))), fault));
 }
 
 }  // namespace

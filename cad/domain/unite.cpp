@@ -1,9 +1,9 @@
 #include "cad/domain/booleans.hpp"
 #include "cad/domain/far_field.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +97,8 @@ std::string name_overlaps(const std::vector<TopoDS_Solid>& group, Volumes& volum
       if (common <= tolerances::integrated_volume * std::min(volumes.of(group[i]), volumes.of(group[j])))
         continue;
       ++found;
-      text += fmt::format("; two share a volume of {:.6g} around {}", common,
-                          geometry::place_text(meeting_place(boxes[i], boxes[j])));
+      text += fmt::format("; two share a volume of {:.6g} around {}", in_file(common, 3),
+                          place_in_file(meeting_place(boxes[i], boxes[j])));
     }
   }
   return text;
@@ -124,7 +124,7 @@ NamedShape join_regions(NamedShape regions, Volumes& volumes, Changes& changes) 
       throw CadError(
           fmt::format("{} solids overlap: together they fill {:.9g}, apart {:.9g}{}. Remedy: make "
                       "them touch in the CAD program, or take them as bodies (DomainOptions::kind: body)",
-                      group.size(), whole, parts, name_overlaps(group, volumes)));
+                      group.size(), in_file(whole, 3), in_file(parts, 3), name_overlaps(group, volumes)));
     }
     changes.push_back({fmt::format("{} touching regions joined face to face", group.size())});
     result.insert(result.end(), joined.begin(), joined.end());

@@ -3,6 +3,7 @@
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/plane_graph.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
@@ -131,8 +132,9 @@ private:
       area += 0.5 * norm(area_vector2(corners_of(capped, capped.triangles.size() - 1)));
       capped.group_of.push_back(group);
     }
-    caps.push_back({fmt::format("a planar opening of area {:.6g} closed by a face named '{}'", area, name),
-                    first.middle, farthest});
+    caps.push_back(
+        {fmt::format("a planar opening of area {:.6g} closed by a face named '{}'", in_file(area, 2), name),
+         first.middle, farthest});
     return true;
   }
 

@@ -1,11 +1,11 @@
 #include "cad/faceted/close_facets.hpp"
 
 #include "cad/faceted/facet_sides.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "geometry/place_text.hpp"
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
@@ -133,7 +133,7 @@ void refuse_open_sides(const FacetSoup& soup) {
   throw CadError(fmt::format(
       "{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
       "length {:.6g}, passes {}; close the surface there and export it again",
-      soup.file, open.size(), loops, length[longest], geometry::place_text(soup.points[longest])));
+      soup.file, open.size(), loops, in_file(length[longest]), place_in_file(soup.points[longest])));
 }
 
 }  // namespace aeroloom::cad

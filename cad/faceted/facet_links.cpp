@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_links.hpp"
 
-#include "geometry/place_text.hpp"
+#include "cad/model/library_unit.hpp"
 #include "geometry/sort_by_number.hpp"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ std::vector<SideRow> list_sides(const FacetComplex& complex) {
   throw CadError(
       fmt::format("a side of {} triangles near {} does not lie between two triangles of one face. Remedy: "
                   "repair the triangles there in the program that made the file",
-                  users, geometry::place_text(at)));
+                  users, place_in_file(at)));
 }
 
 }  // namespace

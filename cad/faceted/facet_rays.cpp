@@ -1,7 +1,7 @@
 #include "cad/faceted/facet_rays.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
-#include "geometry/place_text.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -88,7 +88,7 @@ std::vector<std::int32_t> FacetRays::passed(Vec3 point, std::int32_t from, Vec3 
   throw CadError(
       fmt::format("{}: what encloses {} cannot be decided: all rays from there meet sides of triangles; "
                   "repair the triangles there",
-                  _soup.file, geometry::place_text(point)));
+                  _soup.file, place_in_file(point)));
 }
 
 }  // namespace aeroloom::cad

@@ -5,7 +5,9 @@
 #include "cad/domain/patch_names.hpp"
 #include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/faceted_geometry.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
@@ -77,11 +79,15 @@ double volume_of_regions(const Model& model) {
   return volume;
 }
 
-/// The fluid around bodies.
+/// The fluid around bodies. The far field is made by the CAD library, in a unit of its own.
 Model surround_facets(const FacetComplex& bodies, const DomainOptions& all, Changes& changes) {
-  const FarFieldOptions options = all.far_field.value_or(all.default_far_field);
+  FarFieldOptions options = all.far_field.value_or(all.default_far_field);
   refuse_symmetry(options, "a faceted file");
   FacetComplex walls = outer_walls(bodies, changes);
+  const double unit = library_unit(largest_extent(box_of_points(walls.points).size()));
+  const InLibraryUnit at_hand(unit);
+  options.unit_length /= unit;
+  for (Vec3& point : walls.points) point = point / unit;
   report_step("building the far field");
   const NamedShape far_field = far_field_around(walls, options);
   const double body = -enclosed_volume(walls);
@@ -92,16 +98,16 @@ Model surround_facets(const FacetComplex& bodies, const DomainOptions& all, Chan
   for (FaceTag& tag : facet_tags_for_case(faceted.complex(), nullptr, all, changes))
     tags.push_back(std::move(tag));
   separate_patches(tags, changes);
-  Model model = build_model(far_field, tags, &faceted);
+  const Model model = build_model(far_field, tags, &faceted);
   const double fluid = model.region_volume(0);
   const double error = std::abs(outer - body - fluid);
   if (!(body > 0) || error > tolerances::sum_of_volumes * body + tolerances::rounding * outer) {
     throw CadError(
         fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; "
                     "the triangles are turned inside out",
-                    outer, body, fluid));
+                    in_file(outer, 3), in_file(body, 3), in_file(fluid, 3)));
   }
-  return model;
+  return in_file_unit(model, unit);
 }
 
 KindDecision choose_faceted_kind(const DomainOptions& options, const FacetComplex& complex,

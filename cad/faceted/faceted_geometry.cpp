@@ -1,9 +1,9 @@
 #include "cad/faceted/faceted_geometry.hpp"
 
 #include "cad/faceted/facet_sheets.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/angle.hpp"
-#include "geometry/place_text.hpp"
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
@@ -155,7 +155,7 @@ void FacetedGeometry::trace_loops() {
         throw CadError(fmt::format(
             "face '{}' ends part of the way along the edge from {}. Remedy: repair the triangles "
             "there in the program that made the file",
-            _complex.faces[use.face].name, geometry::place_text(_complex.points[_edges[e].points.front()])));
+            _complex.faces[use.face].name, place_in_file(_complex.points[_edges[e].points.front()])));
       }
       geometry::HalfEdge h = use.reversed ? use.half_edges.back() : use.half_edges.front();
       if (seen[h]) continue;

@@ -2,9 +2,9 @@
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/facet_solids.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "geometry/imprint_triangles.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <set>
@@ -19,7 +19,7 @@ namespace {
 [[noreturn]] void refuse_pair(const FacetSoup& soup, const FacetSolids& solids, const FacetContact& pair,
                               std::size_t pairs, const std::string& why) {
   const std::int32_t first = solids.of[pair.first][0], second = solids.of[pair.second][0];
-  const std::string place = geometry::place_text(middle_of(soup, pair.first));
+  const std::string place = place_in_file(middle_of(soup, pair.first));
   if (first == second) {
     throw CadError(
         fmt::format("{}: the surface of {} crosses or touches itself at {}, in {} pairs of triangles; "

@@ -6,9 +6,9 @@
 #include "cad/faceted/facet_solids.hpp"
 #include "cad/faceted/features.hpp"
 #include "cad/faceted/unite_components.hpp"
+#include "cad/model/library_unit.hpp"
 #include "geometry/disjoint_sets.hpp"
 #include "geometry/long_names.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <map>
@@ -53,7 +53,7 @@ std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chamber
       throw CadError(fmt::format(
           "{}: the triangles at {} lie within '{}' and divide nothing; delete the sheet there, or "
           "give it thickness",
-          soup.file, geometry::place_text(middle_of(soup, static_cast<std::int32_t>(t))),
+          soup.file, place_in_file(middle_of(soup, static_cast<std::int32_t>(t))),
           chambers.chambers[ahead].name));
     }
     const bool turn =

@@ -4,13 +4,13 @@
 #include "cad/faceted/close_facets.hpp"
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_sides.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -187,7 +187,7 @@ ShapeFacets facets_of(const TopoDS_Solid& solid, const FaceLabels& labels, const
   throw CadError(
       fmt::format("the body around {} cannot be cut into triangles that close without crossing each other. "
                   "Remedy: repair the body in the CAD program",
-                  geometry::place_text(tight_box(solid).center())));
+                  place_in_file(tight_box(solid).center())));
 }
 
 }  // namespace aeroloom::cad

@@ -1,6 +1,6 @@
 #include "cad/faceted/facet_links.hpp"
 #include "cad/faceted/facet_sheets.hpp"
-#include "geometry/place_text.hpp"
+#include "cad/model/library_unit.hpp"
 
 #include <algorithm>
 #include <map>
@@ -210,11 +210,10 @@ void divide_at_sharp_seams(FacetComplex& complex) {
     if (passes.empty()) break;
     if (round == most_rounds) {
       const auto& [face, curve] = passes.begin()->first;
-      throw CadError(
-          fmt::format("a sharp edge from {} has face '{}' on both sides, which cannot be divided. Remedy: "
-                      "another geometry.feature_angle, or finer triangles there",
-                      geometry::place_text(complex.points[complex.curves[curve].points.front()]),
-                      complex.faces[face].name));
+      throw CadError(fmt::format(
+          "a sharp edge from {} has face '{}' on both sides, which cannot be divided. Remedy: "
+          "another geometry.feature_angle, or finer triangles there",
+          place_in_file(complex.points[complex.curves[curve].points.front()]), complex.faces[face].name));
     }
     std::vector<std::int32_t> label = label_by_side(complex, links, passes);
     straighten_borders(complex, links, passes, label);

@@ -1,7 +1,7 @@
 #include "cad/faceted/solid_nesting.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/patches.hpp"
-#include "geometry/place_text.hpp"
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
@@ -164,7 +164,7 @@ private:
           "{}: {} and {} overlap at {}. Remedy: make them touch in the CAD program, or take them as bodies "
           "(DomainOptions::kind: body)",
           _soup.file, solid_text(_solids, pair.first), solid_text(_solids, pair.second),
-          geometry::place_text(middle_of(_soup, at))));
+          place_in_file(middle_of(_soup, at))));
     }
   }
 

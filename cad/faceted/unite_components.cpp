@@ -2,10 +2,10 @@
 
 #include "cad/faceted/facet_contacts.hpp"
 #include "cad/faceted/facet_solids.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 #include "geometry/unite_surfaces.hpp"
 
 #include <algorithm>
@@ -147,8 +147,7 @@ private:
       throw CadError(fmt::format(
           "{}: {} and {} overlap or touch at {}, and their union is no sound body: {}. Remedy: unite them in "
           "the CAD program, or move one so that they overlap clearly or stay apart",
-          _soup.file, name(other), name(last), geometry::place_text(middle_of(_soup, found->first)),
-          error.what()));
+          _soup.file, name(other), name(last), place_in_file(middle_of(_soup, found->first)), error.what()));
     }
     throw CadError(fmt::format("{}: {}: {}", _soup.file, name(last), error.what()));
   }
@@ -180,10 +179,10 @@ bool unite_components(FacetSoup& soup, Changes& changes) {
   const auto own = std::find_if(meetings.begin(), meetings.end(), is_own);
   if (own != meetings.end()) {
     const std::int32_t at = own->second.first;
-    throw CadError(fmt::format(
-        "{}: {} crosses or touches itself at {} and cannot be united with what it overlaps. "
-        "Remedy: repair it there and export it again",
-        soup.file, component_name(soup, components, at), geometry::place_text(middle_of(soup, at))));
+    throw CadError(
+        fmt::format("{}: {} crosses or touches itself at {} and cannot be united with what it overlaps. "
+                    "Remedy: repair it there and export it again",
+                    soup.file, component_name(soup, components, at), place_in_file(middle_of(soup, at))));
   }
   turn_alike(soup);
   ComponentUnion(soup, components, std::move(meetings)).run(changes);

@@ -1,13 +1,14 @@
 #include "cad/faceted/faceted_bytes.hpp"
 #include "cad/model/evaluation/face_cache.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_bytes.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/model_topology.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -155,6 +156,7 @@ std::vector<std::byte> with_closed_edges(std::span<const std::byte> bytes,
 
 Model Model::from_bytes(std::span<const std::byte> bytes) {
   return guarded("rebuilding the model from its bytes", [&] {
+    if (are_of_scaled_model(bytes)) return scaled_from_bytes(bytes);
     ByteReader reader(bytes);
     if (reader.get<std::uint64_t>() != magic) throw CadError("these bytes are no model of this version");
     auto data = std::make_shared<Model::Data>();
@@ -196,7 +198,7 @@ std::string Model::Data::describe_face(FaceId id) const {
     at = face.surface.point(0.5 * (face.uv_low + face.uv_high));
   }
   const std::string& name = static_cast<std::size_t>(id) < faces.size() ? faces[id].name : std::string();
-  return fmt::format("face {} '{}' near {}", id, name, geometry::place_text(at));
+  return fmt::format("face {} '{}' near {}", id, name, place_in_file(at));
 }
 
 }  // namespace aeroloom::cad

@@ -124,6 +124,7 @@ class FaceCache;
 struct ClosedEdges;
 struct FaceIntegrals;
 struct JoinedModel;
+struct ScaledModel;
 
 struct Model::Data {
   /// Integrals over a face, relative to the middle of the model. The area is positive.
@@ -150,6 +151,8 @@ struct Model::Data {
       closed;  ///< for models with closed strips; their edges are not in the shape
   std::shared_ptr<const JoinedModel>
       joined;  ///< for models with joined faces; evaluators and snaps are in the base model
+  std::shared_ptr<const ScaledModel>
+      scaled;  ///< for models in a unit that is not that of shapes; all but topology is in it
 
   /// Faceted entities are numbered after those of the shape, beginning here. They have no evaluators.
   std::shared_ptr<const FacetedGeometry> faceted;

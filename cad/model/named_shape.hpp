@@ -61,9 +61,11 @@ struct NamedShape {
   std::vector<LooseFace> loose;  ///< beside `shape`: baffles, if they lie in the fluid (domain/baffles.hpp)
   std::string sheet_fault;       ///< why the open shells among them close to no body; empty without any
   std::string unit_name;         ///< "m", "mm", "in", ...; empty if none is declared
-  double unit_in_metres = 1;     ///< lengths of `shape` are in this unit
-  double gap = 0;                ///< widest gap closed by sewing or as noise
-  double precision = 0;          ///< precision of points that the file states; 0: none
+  double unit_in_metres = 1;     ///< lengths of the file are in this unit
+  /// Length in the file's unit of the unit of `shape`, `gap` and `precision` (library_unit.hpp).
+  double unit = 1;
+  double gap = 0;                                ///< widest gap closed by sewing or as noise
+  double precision = 0;                          ///< precision of points that the file states; 0: none
   std::vector<std::string> read_otherwise = {};  ///< names that are not UTF-8 in the file, a sentence each
   std::size_t cut_names = 0;  ///< labels with names that were too long (geometry::longest_name)
 };

@@ -4,6 +4,7 @@
 #include "cad/faceted/faceted_domain.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/read/cad_reader.hpp"
 
@@ -34,8 +35,8 @@ void list_labels(const NamedShape& named, CadFacts& facts) {
     ++names[label->name];
     ++layers[label->layer];
     ++colours[label->colour];
-    facts.face_table.push_back(
-        {shown_name(*label), label->solid, label->layer, label->colour, place_of(TopoDS::Face(faces(i)))});
+    facts.face_table.push_back({shown_name(*label), label->solid, label->layer, label->colour,
+                                scaled(place_of(TopoDS::Face(faces(i))), named.unit)});
   }
   facts.parts = listed(parts);
   facts.face_names = listed(names);
@@ -53,7 +54,7 @@ CadFacts look_at_cad_file(const std::string& file) {
     const NamedShape named = read_cad_file(file);
     facts.unit_name = named.unit_name;
     facts.unit_in_metres = named.unit_in_metres;
-    facts.bounds = tight_box(named.shape);
+    facts.bounds = scaled(tight_box(named.shape), named.unit);
     facts.solids = map_of(named.shape, TopAbs_SOLID).Extent();
     facts.shells = map_of(named.shape, TopAbs_SHELL).Extent();
     facts.faces = map_of(named.shape, TopAbs_FACE).Extent();

@@ -1,16 +1,21 @@
 #include "cad/read/cad_reader.hpp"
 
+#include "cad/model/library_unit.hpp"
+#include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
+#include "cad/model/to_vec.hpp"
 #include "cad/read/iges_columns.hpp"
 #include "cad/read/memory_file.hpp"
+#include "cad/read/scale_shape.hpp"
 #include "geometry/input_file.hpp"
 #include "geometry/long_names.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <exception>
 #include <fstream>
 #include <iostream>
 #include <optional>
@@ -176,16 +181,22 @@ Format recognise(const Ends& ends) {
       file, excerpt(ends.head)));
 }
 
-NamedShape read_by_content(const std::string& file, const Ends& ends, const std::string& encoding) {
+/// What a reader is told: the encoding of names, and the length that is the unit of the shapes.
+struct Reading {
+  const std::string& encoding;
+  double unit;
+};
+
+NamedShape read_by_content(const std::string& file, const Ends& ends, const Reading& as) {
   switch (recognise(ends)) {
     case Format::step:
       require(contains(ends.tail, "END-ISO-10303-21"), file,
               "a STEP file that ends too early: no END-ISO-10303-21");
-      return read_step(file, encoding);
+      return read_step(file, as.encoding, as.unit);
     case Format::iges:
       require(iges_is_complete(ends.tail), file,
               "an IGES file that ends too early: its last line is no T section");
-      return read_iges(file, encoding);
+      return read_iges(file, as.encoding);
     case Format::brep:
       return read_brep(file, false);
     case Format::binary_brep:
@@ -207,16 +218,65 @@ std::optional<std::string> readable_text(const std::string& file, const Ends& en
 
 /// Messages name the file that the user knows.
 NamedShape read_from_memory(const std::string& file, const std::string& text, const Ends& ends,
-                            const std::string& encoding) {
+                            const Reading& as) {
   const MemoryFile copy(text);
   try {
-    return read_by_content(copy.path(), ends, encoding);
+    return read_by_content(copy.path(), ends, as);
   } catch (const CadError& error) {
     std::string message = error.what();
     const std::size_t at = message.find(copy.path());
     if (at != std::string::npos) message.replace(at, copy.path().size(), file);
     throw CadError(message);
   }
+}
+
+/// The extent of the corners, which no tolerance widens; of the whole where there is one corner at most.
+double extent_of(const TopoDS_Shape& shape) {
+  const TopTools_IndexedMapOfShape vertices = map_of(shape, TopAbs_VERTEX);
+  Box corners;
+  for (int i = 1; i <= vertices.Extent(); ++i)
+    corners.add(to_vec(BRep_Tool::Pnt(TopoDS::Vertex(vertices(i)))));
+  const auto largest = [](const Box& box) {
+    const Vec3 size = box.empty() ? Vec3{} : box.size();
+    return std::max({size.x, size.y, size.z});
+  };
+  return largest(corners) > 0 ? largest(corners) : largest(tight_box(shape));
+}
+
+/// In the file's unit. Where nothing comes of a STEP file, as if it were tiny. Throws as the first reading.
+template <class Read>
+NamedShape read_at_first(const Read& read, bool is_step) {
+  constexpr double tiny = 1.0 / (1 << 30);  // the library's precision is then 1e-16
+  std::exception_ptr why;
+  NamedShape first;
+  try {
+    first = read(1.0);
+    if (!is_step || extent_of(first.shape) > 0) return first;
+  } catch (const CadError&) {
+    if (!is_step) throw;
+    why = std::current_exception();
+  }
+  try {
+    NamedShape named = read(tiny);
+    if (extent_of(named.shape) > 0) return named;
+  } catch (const CadError&) {  // the first reading says why
+  }
+  if (why) std::rethrow_exception(why);
+  return first;
+}
+
+/// In the unit for its extent. Tiny STEP files are read in it: in the file's unit the library would take
+/// places for one. Other shapes are scaled as they were read.
+template <class Read>
+NamedShape read_in_own_unit(const Read& read, bool is_step) {
+  constexpr int most_readings = 4;  // what the first one makes of a tiny file may lack parts
+  NamedShape named = read_at_first(read, is_step);
+  double unit = library_unit(named.unit * extent_of(named.shape));
+  for (int reading = 1; is_step && unit < 1 && unit != named.unit && reading < most_readings; ++reading) {
+    named = read(unit);
+    unit = library_unit(named.unit * extent_of(named.shape));
+  }
+  return unit == named.unit ? named : scaled(named, unit);
 }
 
 /// In the order of the file, which no repair, cut or far field changes.
@@ -254,8 +314,12 @@ NamedShape read_cad_file(const std::string& file, const std::string& encoding) {
   report_step("reading the file");
   return guarded(fmt::format("reading '{}'", file), [&] {
     const std::optional<std::string> text = readable_text(file, ends);
-    NamedShape named =
-        text ? read_from_memory(file, *text, ends, encoding) : read_by_content(file, ends, encoding);
+    NamedShape named = read_in_own_unit(
+        [&](double unit) {
+          const Reading as{encoding, unit};
+          return text ? read_from_memory(file, *text, ends, as) : read_by_content(file, ends, as);
+        },
+        recognise(ends) == Format::step);
     number_faces(named);
     return named;
   });

@@ -3,6 +3,7 @@
 #include "cad/model/model.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/read/length_unit.hpp"
+#include "cad/read/scale_shape.hpp"
 #include "cad/repair/heal.hpp"
 
 #include <filesystem>
@@ -73,9 +74,11 @@ void write_names(const NamedShape& named, const Handle(Transfer_FinderProcess) &
 void write_step(NamedShape named, const std::string& file) {
   require_writable(file);
   named.shape = with_faces_apart(named);
+  named.loose.clear();
+  if (named.unit != 1) named = scaled(std::move(named), 1);
   STEPControl_Controller::Init();
   const LengthUnit* unit = find_length_unit(named.unit_name);
-  set_cad_library_unit(unit ? *unit : millimetre());
+  set_cad_library_unit(unit ? *unit : millimetre(), 1);
   STEPControl_Writer writer;
   if (writer.Transfer(named.shape, STEPControl_AsIs) != IFSelect_RetDone) {
     throw CadError("the CAD library cannot turn this shape into STEP");

@@ -1,5 +1,7 @@
 #include "cad/read/length_unit.hpp"
 
+#include "cad/tolerances.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <utility>
@@ -50,11 +52,19 @@ const LengthUnit* find_length_unit(int iges_flag) {
   return nullptr;
 }
 
-void set_cad_library_unit(const LengthUnit& unit) {
+void set_cad_library_unit(const LengthUnit& unit, double factor) {
   Interface_Static::SetCVal("xstep.cascade.unit", unit.cad_name);
   Interface_Static::SetCVal("write.step.unit", unit.cad_name);
   Interface_Static::SetCVal("write.iges.unit", unit.cad_name);
-  UnitsMethods::SetCasCadeLengthUnit(unit.metres, UnitsMethods_LengthUnit_Meter);
+  UnitsMethods::SetCasCadeLengthUnit(unit.metres * factor, UnitsMethods_LengthUnit_Meter);
+}
+
+void set_cad_library_precision(double factor, double stated) {
+  constexpr int of_file = 0, given = 1;
+  Interface_Static::SetIVal("read.precision.mode", factor == 1 ? of_file : given);
+  if (factor == 1) return;
+  Interface_Static::SetRVal("read.precision.val",
+                            std::clamp(stated, tolerances::library_length, tolerances::most_stated));
 }
 
 }  // namespace aeroloom::cad

@@ -18,8 +18,12 @@ const LengthUnit& millimetre();
 const LengthUnit* find_length_unit(std::string name);
 const LengthUnit* find_length_unit(int iges_flag);
 
-/// Makes the CAD library read and write lengths in this unit. Lengths of files in the same unit are not
-/// converted.
-void set_cad_library_unit(const LengthUnit& unit);
+/// Makes the CAD library read and write files in this unit. Shapes are in `factor` of it; lengths of files in
+/// the same unit are not converted for a factor of 1.
+void set_cad_library_unit(const LengthUnit& unit, double factor);
+
+/// The precision that the CAD library reads with: for a factor of 1 that of the file. Elsewhere `stated`, in
+/// shapes' units, within bounds: files state absolute ones whatever their size.
+void set_cad_library_precision(double factor, double stated);
 
 }  // namespace aeroloom::cad

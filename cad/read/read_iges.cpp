@@ -89,7 +89,7 @@ std::string refusals_in(IGESControl_Reader& reader) {
 
 /// The document with the shapes of the file. Throws CadError with what the library says.
 Handle(TDocStd_Document) transfer_iges(IGESCAFControl_Reader& reader, const std::string& file) {
-  Handle(TDocStd_Document) document = make_document();
+  Handle(TDocStd_Document) document = make_document(millimetre(), 1);
   std::string why = "without shapes";
   try {
     if (reader.Transfer(document)) return document;
@@ -116,7 +116,8 @@ NamedShape read_iges(const std::string& file, const std::string& encoding) {
   }
   const LengthUnit* declared = unit_of_section(reader.IGESModel()->GlobalSection());
   const LengthUnit& unit = declared ? *declared : millimetre();
-  set_cad_library_unit(unit);
+  set_cad_library_unit(unit, 1);
+  set_cad_library_precision(1, 0);
   const Handle(TDocStd_Document) document = transfer_iges(reader, file);
   std::vector<std::string> read_otherwise;
   NamedShape named = collect_parts(document, names_in_iges(reader, encoding, read_otherwise));

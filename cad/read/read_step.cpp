@@ -2,6 +2,7 @@
 #include "cad/model/shape_map.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/length_unit.hpp"
+#include "cad/read/scale_shape.hpp"
 #include "cad/read/step_text.hpp"
 #include "cad/read/xde_document.hpp"
 
@@ -122,7 +123,7 @@ void refuse_inner_tori(STEPControl_Reader& reader, const std::string& file) {
 
 }  // namespace
 
-NamedShape read_step(const std::string& file, const std::string& encoding) {
+NamedShape read_step(const std::string& file, const std::string& encoding, double in_unit) {
   STEPControl_Controller::Init();
   STEPCAFControl_Reader reader;
   reader.SetColorMode(true);
@@ -135,15 +136,18 @@ NamedShape read_step(const std::string& file, const std::string& encoding) {
   refuse_inner_tori(reader.ChangeReader(), file);
   const LengthUnit* declared = first_declared_unit(reader.ChangeReader());
   const LengthUnit& unit = declared ? *declared : millimetre();
-  set_cad_library_unit(unit);
-  reader.ChangeReader().SetSystemLengthUnit(unit.metres * 1000);
-  Handle(TDocStd_Document) document = make_document();
+  set_cad_library_unit(unit, in_unit);
+  reader.ChangeReader().SetSystemLengthUnit(unit.metres * 1000 * in_unit);
+  const double precision = precision_in(in_unit, stated_uncertainty(reader.ChangeReader()));
+  set_cad_library_precision(in_unit, precision);
+  Handle(TDocStd_Document) document = make_document(unit, in_unit);
   if (!reader.Transfer(document)) throw CadError(fmt::format("'{}': a STEP file without shapes", file));
   NamedShape named = collect_parts(document, names_in_step(reader.ChangeReader()));
   if (decoded) named.read_otherwise = changes_of_names(named, *decoded);
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
-  named.precision = stated_uncertainty(reader.ChangeReader());
+  named.unit = in_unit;
+  named.precision = precision;
   document->Close();
   return named;
 }

@@ -140,9 +140,10 @@ private:
 
 }  // namespace
 
-Handle(TDocStd_Document) make_document() {
+Handle(TDocStd_Document) make_document(const LengthUnit& unit, double factor) {
   Handle(TDocStd_Document) document;
   XCAFApp_Application::GetApplication()->NewDocument("MDTV-XCAF", document);
+  if (factor != 1) XCAFDoc_DocumentTool::SetLengthUnit(document, unit.metres * factor);
   return document;
 }
 

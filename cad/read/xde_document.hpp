@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cad/model/named_shape.hpp"
+#include "cad/read/length_unit.hpp"
 
 #include <string>
 
@@ -15,7 +16,8 @@ namespace aeroloom::cad {
 /// Names that the file gives to faces, shells and solids. Keys have no location.
 using EntityNames = NCollection_DataMap<TopoDS_Shape, std::string, TopTools_ShapeMapHasher>;
 
-Handle(TDocStd_Document) make_document();
+/// An empty document for shapes in `factor` of the unit.
+Handle(TDocStd_Document) make_document(const LengthUnit& unit, double factor);
 
 /// All parts of the document at their positions, with labels on their faces. `names` takes precedence over
 /// names in the document.

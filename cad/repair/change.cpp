@@ -6,6 +6,12 @@
 
 namespace aeroloom::cad {
 
+Change in_file_unit(Change change, double unit) {
+  if (change.where) change.where = unit * *change.where;
+  change.how_much *= unit;
+  return change;
+}
+
 std::string describe(const Change& change) {
   std::string text = change.what;
   if (change.where) {

@@ -21,6 +21,9 @@ struct Change {
 
 using Changes = std::vector<Change>;
 
+/// A change whose lengths were in a unit of this length.
+Change in_file_unit(Change change, double unit);
+
 /// One line for the log.
 std::string describe(const Change& change);
 

@@ -2,8 +2,10 @@
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/faceted_domain.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/read/cad_reader.hpp"
 #include "cad/repair/noise_faces.hpp"
@@ -41,7 +43,8 @@ void find_open_edges(const TopoDS_Shape& shape, Diagnosis& diagnosis) {
   for (const TopoDS_Edge& edge : open_edges(shape)) {
     if (++diagnosis.counts.open_edges > shown_of_a_kind) continue;
     const MeasuredEdge found = measure(edge);
-    diagnosis.findings.push_back({fmt::format("an open edge of length {:.6g}", found.length), found.middle});
+    diagnosis.findings.push_back(
+        {fmt::format("an open edge of length {:.6g}", in_file(found.length)), found.middle});
   }
 }
 
@@ -54,7 +57,8 @@ void find_short_edges(const TopoDS_Shape& shape, double diagonal, Diagnosis& dia
     const MeasuredEdge found = measure(edge);
     if (found.length >= tolerances::short_edge * diagonal || ++diagnosis.counts.short_edges > shown_of_a_kind)
       continue;
-    diagnosis.findings.push_back({fmt::format("a short edge of length {:.3g}", found.length), found.middle});
+    diagnosis.findings.push_back(
+        {fmt::format("a short edge of length {:.3g}", in_file(found.length)), found.middle});
   }
 }
 
@@ -77,13 +81,15 @@ void find_slivers(const NamedShape& named, double diagonal, Diagnosis& diagnosis
     // Areas of such faces are inexact.
     if (const auto strip = examine_noise(TopoDS::Face(faces(i)), tolerances::sliver_width * diagonal))
       width = strip->widest;
-    diagnosis.findings.push_back({fmt::format("a sliver face '{}' {:.3g} wide and {:.3g} long",
-                                              shown_or_numbered(named, faces(i), i - 1), width, length),
-                                  tight_box(faces(i)).center()});
+    diagnosis.findings.push_back(
+        {fmt::format("a sliver face '{}' {:.3g} wide and {:.3g} long",
+                     shown_or_numbered(named, faces(i), i - 1), in_file(width), in_file(length)),
+         tight_box(faces(i)).center()});
   }
 }
 
 void examine(const NamedShape& named, Diagnosis& diagnosis) {
+  const InLibraryUnit at_hand(named.unit);
   diagnosis.unit_name = named.unit_name;
   diagnosis.bounds = tight_box(named.shape);
   diagnosis.counts.solids = map_of(named.shape, TopAbs_SOLID).Extent();
@@ -94,6 +100,8 @@ void examine(const NamedShape& named, Diagnosis& diagnosis) {
   find_open_edges(named.shape, diagnosis);
   find_short_edges(named.shape, diagonal, diagnosis);
   find_slivers(named, diagonal, diagnosis);
+  diagnosis.bounds = scaled(diagnosis.bounds, named.unit);
+  for (Change& finding : diagnosis.findings) finding = in_file_unit(std::move(finding), named.unit);
 }
 
 /// Adds what a part brings to that of the file.

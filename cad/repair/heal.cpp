@@ -1,5 +1,6 @@
 #include "cad/repair/heal.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
@@ -9,7 +10,6 @@
 #include "cad/repair/shells.hpp"
 #include "cad/repair/spindle_tori.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +159,7 @@ void require_volume(const std::vector<TopoDS_Solid>& solids, const std::vector<B
     throw CadError(
         fmt::format("solid {} around {} encloses next to no volume ({:.3g} in a box of diagonal {:.6g}): "
                     "what is as thin as that, a sheet or a wire, cannot be meshed as a body",
-                    i, geometry::place_text(box.center()), volume, box.diagonal()));
+                    i, place_in_file(box.center()), in_file(volume, 3), in_file(box.diagonal())));
   }
 }
 

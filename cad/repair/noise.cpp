@@ -1,5 +1,6 @@
 #include "cad/repair/noise.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
@@ -87,28 +88,31 @@ void report_closed(const std::vector<NoiseItem>& closed, double tolerance, Chang
   std::size_t edges = 0;
   for (const NoiseItem& item : closed) {
     if (item.face) {
-      changes.push_back({fmt::format("strip '{}', {:.4g} long and at most {:.4g} wide, is below the noise of "
-                                     "{:.3g}: closed",
-                                     item.name, item.length, item.width, tolerance),
-                         item.place, item.width});
+      changes.push_back(
+          {fmt::format("strip '{}', {:.4g} long and at most {:.4g} wide, is below the noise of "
+                       "{:.3g}: closed",
+                       item.name, in_file(item.length), in_file(item.width), in_file(tolerance)),
+           item.place, item.width});
     } else if (++edges <= most_edges_listed) {
       changes.push_back(
           {fmt::format("an edge of length {:.4g} is below the noise of {:.3g}: closed to a vertex",
-                       item.width, tolerance),
+                       in_file(item.width), in_file(tolerance)),
            item.place, item.width});
     }
   }
   if (edges > most_edges_listed) {
     changes.push_back({fmt::format("{} more edges below the noise of {:.3g}: closed to vertices",
-                                   edges - most_edges_listed, tolerance)});
+                                   edges - most_edges_listed, in_file(tolerance))});
   }
 }
 
 void report_left(const NoiseItem& item, double tolerance, const char* reason, Changes& changes) {
-  const std::string what = item.face ? fmt::format("strip '{}', at most {:.4g} wide", item.name, item.width)
-                                     : fmt::format("an edge of length {:.4g}", item.width);
+  const std::string what =
+      item.face ? fmt::format("strip '{}', at most {:.4g} wide", item.name, in_file(item.width))
+                : fmt::format("an edge of length {:.4g}", in_file(item.width));
   changes.push_back(
-      {fmt::format("{}, is below the noise of {:.3g}, but stays: {}", what, tolerance, reason), item.place});
+      {fmt::format("{}, is below the noise of {:.3g}, but stays: {}", what, in_file(tolerance), reason),
+       item.place});
 }
 
 bool is_among(const std::vector<NoiseItem>& items, const NoiseItem& wanted) {

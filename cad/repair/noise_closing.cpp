@@ -1,12 +1,12 @@
 #include "cad/repair/noise_closing.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/edge_on_face.hpp"
 #include "cad/repair/edge_pieces.hpp"
 #include "cad/repair/sampled_edge.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <deque>
@@ -62,7 +62,7 @@ public:
 
 private:
   [[noreturn]] static void refuse(Vec3 at, const char* why) {
-    throw CadError(fmt::format("{} at {}", why, geometry::place_text(at)));
+    throw CadError(fmt::format("{} at {}", why, place_in_file(at)));
   }
 
   TopoDS_Edge edge(int e) const { return TopoDS::Edge(_edges(e + 1).Oriented(TopAbs_FORWARD)); }

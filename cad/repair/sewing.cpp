@@ -1,6 +1,7 @@
 #include "cad/repair/sewing.hpp"
 
 #include "cad/model/evaluation/face_integrals.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/step_trace.hpp"
@@ -11,7 +12,6 @@
 #include "cad/repair/plane_loops.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -61,7 +61,7 @@ void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_S
 }
 
 Sewn sew_once(const TopTools_IndexedMapOfShape& faces, double tolerance, const FaceLabels& labels) {
-  report_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), tolerance));
+  report_step(fmt::format("sewing {} faces with tolerance {:.3g}", faces.Extent(), in_file(tolerance)));
   BRepBuilderAPI_Sewing sewing(tolerance);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();
@@ -122,10 +122,11 @@ double report_sewn(const Sewn& sewn, int face_count, Changes& changes) {
   const Gap gap = largest_gap(sewn.shape, tolerances::foot_that_measures * sewn.tolerance);
   const char* caution =
       sewn.fraction > tolerances::cautioned_sewing ? "; such gaps are wide: look at the mesh there" : "";
-  changes.push_back({fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the "
-                                 "diagonal){}",
-                                 face_count, sewn.closed.size(), sewn.tolerance, sewn.fraction, caution),
-                     gap.where, gap.width});
+  changes.push_back(
+      {fmt::format("{} faces sewn to {} closed shells with tolerance {:.3g} ({:.0e} of the "
+                   "diagonal){}",
+                   face_count, sewn.closed.size(), in_file(sewn.tolerance), sewn.fraction, caution),
+       gap.where, gap.width});
   return gap.width;
 }
 
@@ -181,9 +182,9 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
     label.cap = true;
     labels.Bind(caps[i].face, label);
     faces.Add(caps[i].face);
-    caps_made.push_back(
-        {fmt::format("a planar opening of area {:.6g} closed by a face named '{}'", caps[i].area, label.name),
-         caps[i].center, caps[i].deviation});
+    caps_made.push_back({fmt::format("a planar opening of area {:.6g} closed by a face named '{}'",
+                                     in_file(caps[i].area, 2), label.name),
+                         caps[i].center, caps[i].deviation});
   }
   Sewn capped = sew_once(faces, sewn.tolerance, labels);
   capped.fraction = sewn.fraction;
@@ -251,8 +252,8 @@ std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels)
   for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {
     const BRepAdaptor_Curve curve(edges[i]);
     const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    text += fmt::format("{} at {} length {:.6g}", i == 0 ? ":" : ";", geometry::place_text(to_vec(middle)),
-                        GCPnts_AbscissaPoint::Length(curve));
+    text += fmt::format("{} at {} length {:.6g}", i == 0 ? ":" : ";", place_in_file(to_vec(middle)),
+                        in_file(GCPnts_AbscissaPoint::Length(curve)));
     const std::string name = name_around(edges[i], shape, labels);
     if (!name.empty()) text += fmt::format(" of '{}'", name);
   }
@@ -294,14 +295,14 @@ std::vector<std::string> stray_names(const Sewn& sewn) {
   if (faces.Extent() == 1) {
     const Box box = tight_box(faces(1));
     throw CadError(fmt::format("a single face '{}', around {}, bounds no volume: {}. {}",
-                               shown_name(labels, faces(1)), geometry::place_text(box.center()),
+                               shown_name(labels, faces(1)), place_in_file(box.center()),
                                list_open_edges(faces(1), labels),
                                remedy.empty() ? "Add the faces that close it in the CAD program" : remedy));
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
                   "the diagonal), and their openings are no small planar ones: {}. {}",
-                  last.tolerance, last.fraction,
+                  in_file(last.tolerance), last.fraction,
                   last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels),
                   remedy.empty() ? "Close the gaps in the CAD program" : remedy));
 }
@@ -360,7 +361,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
       changes.push_back(
           {fmt::format("strip '{}', {:.4g} long and at most {:.4g} wide, is below the noise: left out and "
                        "its sides sewn",
-                       shown_name(labels, faces(index)), noise.length, noise.widest),
+                       shown_name(labels, faces(index)), in_file(noise.length), in_file(noise.widest)),
            noise.place, noise.widest});
     }
     const double gap = report_sewn(sewn, attempt.faces.Extent(), changes);

@@ -1,5 +1,6 @@
 #include "cad/repair/spindle_tori.hpp"
 
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/tolerances.hpp"
@@ -71,7 +72,8 @@ void trim_spindle_tori(NamedShape& named, Changes& changes) {
     made.push_back(
         {fmt::format("face '{}' is a torus that crosses itself, of radii {:.6g} and {:.6g}: its outer "
                      "part was kept",
-                     shown_name(named.labels, before(i)), torus->MajorRadius(), torus->MinorRadius()),
+                     shown_name(named.labels, before(i)), in_file(torus->MajorRadius()),
+                     in_file(torus->MinorRadius())),
          tight_box(before(i)).center()});
   }
   if (made.empty()) return;

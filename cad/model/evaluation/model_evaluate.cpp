@@ -3,6 +3,7 @@
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/sheets.hpp"
@@ -95,6 +96,7 @@ std::vector<std::byte> Model::serialise() const {
 }
 
 Vec3 Model::edge_point(EdgeId id, double parameter) const {
+  if (_data->scaled) return _data->scaled->edge_point(id, parameter);
   const Edge& edge = _data->edges.at(id);
   if (edge.degenerate) return vertex(edge.first);
   if (const FacetedGeometry* faceted = _data->faceted_edge(id))
@@ -103,6 +105,7 @@ Vec3 Model::edge_point(EdgeId id, double parameter) const {
 }
 
 Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
+  if (_data->scaled) return _data->scaled->edge_tangent(id, parameter);
   if (_data->edges.at(id).degenerate) return {};
   if (const FacetedGeometry* faceted = _data->faceted_edge(id))
     return faceted->edge_tangent(id - _data->first_faceted_edge, parameter);
@@ -113,6 +116,7 @@ Vec3 Model::edge_tangent(EdgeId id, double parameter) const {
 }
 
 double Model::edge_curvature(EdgeId id, double parameter) const {
+  if (_data->scaled) return _data->scaled->edge_curvature(id, parameter);
   if (const FacetedGeometry* faceted = _data->faceted_edge(id))
     return faceted->edge_curvature(id - _data->first_faceted_edge, parameter);
   const EdgeEvaluator& evaluator = _data->edge_evaluators.at(id);
@@ -128,6 +132,7 @@ double Model::edge_curvature(EdgeId id, double parameter) const {
 // Curve and parameter curve of an edge trace the same line, in many files not at the same pace: the parameter
 // curve gives a guess, the point of the edge decides.
 Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
+  if (_data->scaled) return _data->scaled->model.edge_uv(face, use, parameter);
   if (const JoinedModel* joined = _data->joined.get()) {
     const JoinedFace& all = joined->faces.at(face);
     if (all.sheets.size() == 1) return joined->base.edge_uv(all.sheets.front().face, use, parameter);
@@ -159,6 +164,7 @@ Vec2 Model::edge_uv(FaceId face, const Coedge& use, double parameter) const {
 }
 
 std::vector<double> Model::edge_breaks(EdgeId id) const {
+  if (_data->scaled) return _data->scaled->model.edge_breaks(id);
   const Edge& edge = _data->edges.at(id);
   if (edge.degenerate || _data->faceted_edge(id)) return {edge.first_parameter, edge.last_parameter};
   return guarded("splitting an edge where it is not smooth", [&] {
@@ -173,6 +179,7 @@ std::vector<double> Model::edge_breaks(EdgeId id) const {
 }
 
 Vec3 Model::face_point(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->face_point(id, uv);
   if (_data->joined) return _data->joined->evaluate(&Model::face_point, id, uv);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->face_point(id - _data->first_faceted_face, uv);
@@ -180,6 +187,7 @@ Vec3 Model::face_point(FaceId id, Vec2 uv) const {
 }
 
 SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->face_frame(id, uv);
   if (_data->joined) return _data->joined->evaluate(&Model::face_frame, id, uv);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->face_frame(id - _data->first_faceted_face, uv);
@@ -195,6 +203,7 @@ SurfaceFrame Model::face_frame(FaceId id, Vec2 uv) const {
 }
 
 PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->face_curvatures(id, uv);
   if (_data->joined) return _data->joined->evaluate(&Model::face_curvatures, id, uv);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->face_curvatures(id - _data->first_faceted_face, uv);
@@ -204,6 +213,7 @@ PrincipalCurvatures Model::face_curvatures(FaceId id, Vec2 uv) const {
 }
 
 CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->face_curved_point(id, uv);
   if (_data->joined) return _data->joined->evaluate(&Model::face_curved_point, id, uv);
   if (_data->faceted_face(id)) return {face_point(id, uv), face_curvatures(id, uv)};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -213,6 +223,7 @@ CurvedPoint Model::face_curved_point(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->model.parameter_periods(id, uv);
   if (_data->joined) return _data->joined->evaluate(&Model::parameter_periods, id, uv);
   if (_data->faceted_face(id)) return {};
   const FaceEvaluator& face = _data->face_evaluators.at(id);
@@ -220,6 +231,7 @@ Vec2 Model::parameter_periods(FaceId id, Vec2 uv) const {
 }
 
 Vec2 Model::wrap(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->model.wrap(id, uv);
   if (const JoinedModel* joined = _data->joined.get()) {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->faces[id].from_member(at.sheet, joined->base.wrap(at.face, at.uv));
@@ -230,6 +242,7 @@ Vec2 Model::wrap(FaceId id, Vec2 uv) const {
 }
 
 bool Model::is_planar(FaceId id) const {
+  if (_data->scaled) return _data->scaled->model.is_planar(id);
   if (const JoinedModel* joined = _data->joined.get()) {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() == 1 && joined->base.is_planar(sheets.front().face);
@@ -240,6 +253,7 @@ bool Model::is_planar(FaceId id) const {
 }
 
 bool Model::is_exact_plane(FaceId id) const {
+  if (_data->scaled) return _data->scaled->model.is_exact_plane(id);
   if (const JoinedModel* joined = _data->joined.get()) {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() == 1 && joined->base.is_exact_plane(sheets.front().face);
@@ -249,12 +263,14 @@ bool Model::is_exact_plane(FaceId id) const {
 }
 
 bool Model::is_faceted(FaceId id) const {
+  if (_data->scaled) return _data->scaled->model.is_faceted(id);
   if (const JoinedModel* joined = _data->joined.get())
     return joined->base.is_faceted(joined->faces.at(id).sheets.front().face);
   return _data->faceted_face(id) != nullptr;
 }
 
 std::vector<FaceId> Model::members(FaceId id) const {
+  if (_data->scaled) return _data->scaled->model.members(id);
   if (!_data->joined) return {id};
   std::vector<FaceId> faces;
   for (const Sheet& sheet : _data->joined->faces.at(id).sheets) faces.push_back(sheet.face);
@@ -262,6 +278,7 @@ std::vector<FaceId> Model::members(FaceId id) const {
 }
 
 std::int32_t Model::sheet_count(FaceId id) const {
+  if (_data->scaled) return _data->scaled->model.sheet_count(id);
   if (const JoinedModel* joined = _data->joined.get()) {
     const auto& sheets = joined->faces.at(id).sheets;
     return sheets.size() > 1 ? static_cast<std::int32_t>(sheets.size())
@@ -272,6 +289,7 @@ std::int32_t Model::sheet_count(FaceId id) const {
 }
 
 std::int32_t Model::sheet(FaceId id, Vec2 uv) const {
+  if (_data->scaled) return _data->scaled->model.sheet(id, uv);
   if (const JoinedModel* joined = _data->joined.get()) {
     const JoinedModel::Place at = joined->locate(id, uv);
     return joined->faces[id].sheets.size() > 1 ? at.sheet : joined->base.sheet(at.face, at.uv);
@@ -289,6 +307,7 @@ bool Model::is_seam(EdgeId id) const {
 }
 
 double Model::face_area(FaceId id) const {
+  if (_data->scaled) return _data->scaled->face_area(id);
   if (const JoinedModel* joined = _data->joined.get()) {
     double area = 0;
     for (const Sheet& sheet : joined->faces.at(id).sheets) area += joined->base.face_area(sheet.face);
@@ -298,6 +317,7 @@ double Model::face_area(FaceId id) const {
 }
 
 Vec3 Model::face_area_vector(FaceId id) const {
+  if (_data->scaled) return _data->scaled->face_area_vector(id);
   const FaceIntegrals& sums = _data->integrals(id);
   return _data->is_reversed(id) ? -sums.area_vector : sums.area_vector;
 }
@@ -309,6 +329,7 @@ FacePlace place_of(const TopoDS_Face& face) {
 }
 
 FacePlace Model::face_place(FaceId id) const {
+  if (_data->scaled) return _data->scaled->face_place(id);
   if (const JoinedModel* joined = _data->joined.get()) {
     FacePlace whole;
     Vec3 moment;
@@ -328,6 +349,7 @@ FacePlace Model::face_place(FaceId id) const {
 }
 
 double Model::region_volume(RegionId id) const {
+  if (_data->scaled) return _data->scaled->region_volume(id);
   if (const JoinedModel* joined = _data->joined.get()) return joined->base.region_volume(id);
   // Seen from the middle of the region: from far off, what integrals lack is a part of areas times distances,
   // which may be more than the volume of a small region.

@@ -1,5 +1,6 @@
 #include "cad/faceted/faceted_geometry.hpp"
 #include "cad/model/model_data.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "cad/tolerances.hpp"
 
@@ -227,6 +228,7 @@ Vec2 find_parameters(const FaceEvaluator& face, Vec3 point, Vec2 guess, double t
 }
 
 Projection Model::project(FaceId id, Vec3 point, Vec2 guess) const {
+  if (_data->scaled) return _data->scaled->project(id, point, guess);
   if (_data->joined) return _data->joined->project(id, point, guess);
   if (const FacetedGeometry* faceted = _data->faceted_face(id))
     return faceted->project(id - _data->first_faceted_face, point, guess);

@@ -2,13 +2,14 @@
 #include "cad/model/evaluation/face_cache.hpp"
 #include "cad/model/facets/corner_parameters.hpp"
 #include "cad/model/facets/facet_refinement.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "cad/tolerances.hpp"
-#include "geometry/place_text.hpp"
 #include "geometry/predicates.hpp"
 
 #include <algorithm>
@@ -156,7 +157,7 @@ std::string find_defect(const Facets& facets) {
   for (const FacetSide& side : open_sides(facets)) {
     if (!std::binary_search(boundary.begin(), boundary.end(),
                             FacetSide(std::minmax(side.first, side.second)))) {
-      return fmt::format("a hole at {}", geometry::place_text(facets.points[side.first]));
+      return fmt::format("a hole at {}", place_in_file(facets.points[side.first]));
     }
   }
   return {};
@@ -200,6 +201,7 @@ Facets make_facets(const Model& model, FaceId id, double deflection, double angl
 }  // namespace
 
 Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) const {
+  if (_data->scaled) return _data->scaled->facets(id, deflection, angle, keep);
   if (_data->joined) return _data->joined->facets(id, deflection, angle, keep);
   if (const FacetedGeometry* faceted = _data->faceted_face(id)) {
     Facets facets = faceted->facets(id - _data->first_faceted_face);
@@ -219,6 +221,7 @@ Facets Model::facets(FaceId id, double deflection, double angle, Keep keep) cons
 
 std::vector<std::array<Vec2, 3>> corner_parameters(const Model& model, FaceId faceted) {
   const Model::Data& data = model.data();
+  if (data.scaled) return corner_parameters(data.scaled->model, faceted);
   if (data.joined) return corner_parameters(data.joined->base, model.members(faceted).front());
   const FacetedGeometry& all = *data.faceted;
   const FacetedFace& face = all.faces().at(faceted - data.first_faceted_face);

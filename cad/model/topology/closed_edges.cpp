@@ -2,14 +2,15 @@
 #include "cad/model/evaluation/face_corners.hpp"
 #include "cad/model/evaluation/face_width.hpp"
 #include "cad/model/evaluation/plane_snap.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/occ_guard.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/topology/blunt_edges.hpp"
 #include "cad/model/topology/border_path.hpp"
 #include "cad/model/topology/closed_edges_data.hpp"
 #include "cad/model/topology/middle_curves.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +176,7 @@ private:
         const auto opening = open_corner(_base, corner, away * move);
         if (!opening || opening->width > narrow * move) continue;
         throw CadError(fmt::format("face '{}' beside it runs out to a point at {}", _base.face(id).name,
-                                   geometry::place_text(at)));
+                                   place_in_file(at)));
       }
     }
   }
@@ -317,7 +318,7 @@ private:
     for (const auto& [v, visits] : now) {
       if (visits <= std::max(1, allowed[v])) continue;
       throw CadError(fmt::format("face '{}' would touch itself at {}", _data->faces[id].name,
-                                 geometry::place_text(_places[v])));
+                                 place_in_file(_places[v])));
     }
   }
 
@@ -361,6 +362,14 @@ private:
 }  // namespace
 
 Model close_blunt_edges(const Model& model, const std::vector<BluntEdge>& strips) {
+  if (const ScaledModel* scaled = model.data().scaled.get()) {
+    const InLibraryUnit at_hand(scaled->unit);
+    const Model inner = within(model);
+    std::vector<BluntEdge> same;
+    same.reserve(strips.size());
+    for (const BluntEdge& strip : strips) same.push_back(examine_blunt_edge(inner, strip.face, 0).edge);
+    return in_file_unit(close_blunt_edges(inner, same), scaled->unit);
+  }
   if (model.data().joined || model.data().closed)
     throw std::invalid_argument("edges of this model are closed or faces joined already");
   return guarded("closing blunt edges", [&] {

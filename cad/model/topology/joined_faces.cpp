@@ -1,6 +1,7 @@
 #include "cad/model/topology/joined_faces.hpp"
 
 #include "cad/model/model_data.hpp"
+#include "cad/model/scaled_model.hpp"
 #include "cad/model/topology/sheet_interior.hpp"
 #include "cad/model/topology/sheets.hpp"
 #include "geometry/sort_unique.hpp"
@@ -103,6 +104,8 @@ void sample_borders(const Model& base, JoinedFace& joined) {
 }  // namespace
 
 Model join_faces(const Model& model, const std::vector<std::vector<FaceId>>& groups) {
+  if (const ScaledModel* scaled = model.data().scaled.get())
+    return in_file_unit(join_faces(within(model), groups), scaled->unit);
   if (model.data().joined) throw std::invalid_argument("faces of this model are joined already");
   std::vector<std::vector<FaceId>> members(model.face_count());
   std::vector<char> taken(model.face_count(), 0);

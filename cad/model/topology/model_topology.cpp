@@ -1,11 +1,11 @@
 #include "cad/model/topology/model_topology.hpp"
 
 #include "cad/model/evaluation/plane_snap.hpp"
+#include "cad/model/library_unit.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/disjoint_sets.hpp"
-#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -114,8 +114,8 @@ void add_edges(const Maps& maps, Model::Data& data) {
       double low, high;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(evaluator.shape, low, high);
       if (curve.IsNull()) {
-        throw CadError(fmt::format("edge {} at {} has no curve", i - 1,
-                                   geometry::place_text(data.vertices[edge.first])));
+        throw CadError(
+            fmt::format("edge {} at {} has no curve", i - 1, place_in_file(data.vertices[edge.first])));
       }
       evaluator.curve.Load(curve, low, high);
       edge.first_parameter = low, edge.last_parameter = high;
