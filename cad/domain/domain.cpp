@@ -16,6 +16,7 @@
 #include "cad/read/cad_reader.hpp"
 #include "cad/read/export.hpp"
 #include "cad/read/ignored_faces.hpp"
+#include "cad/repair/crossing_borders.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
@@ -40,8 +41,9 @@ NamedShape read_source(const DomainOptions& options, Changes& changes) {
 }
 
 HullComparison compare(const NamedShape& solids, Volumes& volumes) {
-  return compare_with_hull(build_model(solids, tag_faces(solids, DomainKind::body, nullptr)),
-                           volumes.of(solids.shape));
+  const Model model = build_model(solids, tag_faces(solids, DomainKind::body, nullptr));
+  refuse_border_crossings(model);
+  return compare_with_hull(model, volumes.of(solids.shape));
 }
 
 /// `hull` receives the comparison where one was made.
@@ -249,6 +251,7 @@ Domain prepare(const DomainOptions& options, const std::string& distrust) {
         make_fluid(std::move(source), in_unit(options, unit), distrust, volumes, report.changes);
     Model within = build_domain(made, options, volumes, report.changes);
     require_representable(within.bounds());
+    if (!made.triangulated) refuse_border_crossings(within);
     return std::pair(std::move(made), std::move(within));
   }();
   report.kind = fluid.decision.kind;
