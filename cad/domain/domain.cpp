@@ -17,6 +17,7 @@
 #include "cad/read/export.hpp"
 #include "cad/read/ignored_faces.hpp"
 #include "cad/repair/crossing_borders.hpp"
+#include "cad/repair/crossing_faces.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/shells.hpp"
@@ -260,6 +261,7 @@ Domain prepare(const DomainOptions& options, const std::string& distrust) {
   Model model = sharpen_trailing_edges(in_file_unit(shapes, unit), options.trailing_edges, report.changes);
   try {
     if (!fluid.triangulated) try_facets(model);
+    refuse_face_crossings(model);
   } catch (const CadError& error) {
     if (fluid.united && distrust.empty()) return prepare_anew(options, error.what());
     throw;
