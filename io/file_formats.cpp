@@ -178,6 +178,7 @@ constexpr FormatRow format_rows[] = {
      .folder = "openfoam",
      .renamed = renamed_in_openfoam,
      .in_metres = true,
+     .cell_centred = true,
      .scaling = openfoam_scaling},
 };
 

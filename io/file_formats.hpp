@@ -74,6 +74,8 @@ struct FormatRow {
   std::vector<RenamedName> (*renamed)(const FileMesh& mesh) = nullptr;
   /// Whether the solvers that read the files take lengths for metres.
   bool in_metres = false;
+  /// Whether the solvers that read the files have their unknowns in the centres of cells.
+  bool cell_centred = false;
   /// The command of the format that scales a mesh by a factor. Null: there is none.
   std::string (*scaling)(double factor) = nullptr;
 };

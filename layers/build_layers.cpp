@@ -58,7 +58,7 @@ Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
   layers.report.validity_rounds = shrink_to_good(walls, directions, limits);
   layers.cap = CapClearing(walls, directions, remesh_planes).run(limits, layers.report);
   layers.columns = make_columns(walls, directions, limits);
-  layers.report.patches = report_patches(walls, limits, options.elements);
+  layers.report.patches = report_patches(walls, directions, limits, options);
   return layers;
 }
 

@@ -86,6 +86,8 @@ struct PatchLayers {
   double empty_area = 0;       ///< without layers
   double isotropic_area = 0;   ///< full, and the last layer is at least 0.35 of the mean edge high
   double compressed_area = 0;  ///< with a growth below the requested one
+  static constexpr double low = 0.8;
+  double low_first_area = 0;  ///< with a first layer, along the wall's normal, below `low` of the requested
   /// Area that is not full, or is compressed, by the limit that acted last (a LayerLimit).
   std::array<double, layer_limit_count> limited_area{};
   double layers_area = 0;  ///< sum of areas times layers; over `area`: mean number of layers

@@ -1,6 +1,7 @@
 #include "layers/layer_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace aeroloom::layers {
 namespace {
@@ -37,22 +38,29 @@ void add_cells(const std::array<std::int32_t, 3>& counts, LayerElements elements
   patch.tetrahedra += counts[2] - counts[1];
 }
 
-void add_triangle(const LocalWall& wall, const ColumnLimits& limits, std::int32_t t, LayerElements elements,
-                  PatchLayers& patch) {
+void add_triangle(const LocalWall& wall, const Directions& directions, const ColumnLimits& limits,
+                  const LayerOptions& options, std::int32_t t, PatchLayers& patch) {
   const auto& [a, b, c] = wall.triangles[t];
-  const double area = 0.5 * norm(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]));
+  const geometry::Vec3 twice = cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]);
+  const double area = 0.5 * norm(twice), asked = options.patches[wall.patches[t]].first;
   std::array<std::int32_t, 3> counts{limits.count(a), limits.count(b), limits.count(c)};
   std::sort(counts.begin(), counts.end());
   ++patch.triangles;
   patch.area += area;
-  add_cells(counts, elements, patch);
-  for (const std::int32_t v : {a, b, c}) add_column(limits, v, area / 3, patch);
+  add_cells(counts, options.elements, patch);
+  for (const std::int32_t v : {a, b, c}) {
+    add_column(limits, v, area / 3, patch);
+    if (limits.count(v) == 0) continue;
+    const double lean = std::abs(dot(directions.smoothed[v], normalized(twice)));
+    if (lean * limits.heights(v).first < PatchLayers::low * asked) patch.low_first_area += area / 3;
+  }
 }
 
 void add_row(const PatchLayers& row, PatchLayers& sum) {
   for (double PatchLayers::*member :
        {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
-        &PatchLayers::isotropic_area, &PatchLayers::compressed_area, &PatchLayers::layers_area})
+        &PatchLayers::isotropic_area, &PatchLayers::compressed_area, &PatchLayers::low_first_area,
+        &PatchLayers::layers_area})
     sum.*member += row.*member;
   for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
   for (std::int64_t PatchLayers::*member :
@@ -63,14 +71,14 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 
 }  // namespace
 
-std::vector<PatchLayers> report_patches(const LocalWall& wall, const ColumnLimits& limits,
-                                        LayerElements elements) {
+std::vector<PatchLayers> report_patches(const LocalWall& wall, const Directions& directions,
+                                        const ColumnLimits& limits, const LayerOptions& options) {
   std::vector<PieceRow> rows;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     std::vector<PatchLayers> patches(wall.mesh.patches.size());
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
       if (wall.roles[t] == WallRole::layered)
-        add_triangle(wall, limits, t, elements, patches[wall.patches[t]]);
+        add_triangle(wall, directions, limits, options, t, patches[wall.patches[t]]);
     }
     for (std::size_t i = 0; i < patches.size(); ++i) {
       if (patches[i].triangles > 0)

@@ -71,24 +71,24 @@ RunForecast forecast_run(const cases::TypedPatches& patches, const cases::Case& 
   if (sized.level)
     forecast.levels = forecast_levels(*sized.level, sized.findings.counts, input.sizing, communicator.size());
   clock.end();
-  const double triangles = forecast.findings.counts.triangles,
-               tetrahedra = forecast.findings.counts.tetrahedra;
-  forecast.seconds = predicted_seconds(forecast.findings.counts);
-  forecast.bytes = predicted_bytes(forecast.findings.counts, communicator.size());
+  sizing::PredictedCounts& counts = forecast.findings.counts;
   parallel::agree(communicator, [&] {
     if (!communicator.is_root()) return;
     forecast.family = forecast_family(scales, sized, patches.types, input, communicator.size());
     if (!input.layers.given) return;
     forecast.layers = forecast_layers(sized.model, patches.types, input, sized.field);
-    forecast.seconds += forecast.layers->seconds();
-    forecast.bytes += forecast.layers->bytes();
+    counts.tetrahedra = forecast.layers->tetrahedra_off_layers(counts.tetrahedra);
+    forecast.seconds = forecast.layers->seconds();
+    forecast.bytes = forecast.layers->bytes();
   });
+  forecast.seconds += predicted_seconds(counts);
+  forecast.bytes += predicted_bytes(counts, communicator.size());
   forecast.worthwhile = worthwhile_ranks(communicator, clock, forecast, input);
   const double pieces = pieces_per_rank * communicator.size();
   forecast.piece_triangles =
-      std::clamp<std::int64_t>(std::llround(triangles / pieces), least_triangles, most_triangles);
+      std::clamp<std::int64_t>(std::llround(counts.triangles / pieces), least_triangles, most_triangles);
   forecast.piece_tets =
-      std::clamp<std::int64_t>(std::llround(tetrahedra / pieces), least_tetrahedra, most_tetrahedra);
+      std::clamp<std::int64_t>(std::llround(counts.tetrahedra / pieces), least_tetrahedra, most_tetrahedra);
   return forecast;
 }
 
@@ -321,15 +321,17 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
   if (!meshable) clock.end();
   if (meshable) {
     cad::Domain domain{domain::broadcast_model(communicator, std::move(bytes)), {}};
-    if (communicator.is_root()) domain.report.removed = record.diagnosis.domain->report.removed;
+    if (communicator.is_root()) domain.report = record.diagnosis.domain->report;
     domain::require_lengths_of_model(communicator, domain.model, input);
     cases::TypedPatches patches = domain::find_patches(communicator, domain, input);
     clock.end();
     const cad::Model& model = patches.model;
-    if (communicator.is_root()) warn_of_units(model.unit_name(), model.unit_in_metres(), input.output);
     record.patch_types = patches.types;
-    if (communicator.is_root())
+    if (communicator.is_root()) {
+      warn_of_units(model.unit_name(), model.unit_in_metres(), input.output);
+      warn_of_solver_points(input);
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
+    }
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
     record.forecast = forecast_run(patches, input, scales, clock, communicator);

@@ -32,12 +32,22 @@ cases::Case relevant_part(const cases::Case& input, SavedStage stage) {
   part.domain = input.domain;
   if (!part.domain.file.empty()) part.domain.file = std::filesystem::path(input.domain.file).filename();
   for (cad::FacetedBody& body : part.domain.parts) body.file = std::filesystem::path(body.file).filename();
+  // What patches are to a solver is for the output. But openings tell a duct from a body.
+  const auto is_opening = [&](const auto& rule) {
+    return input.domain.kind == cad::DomainKind::automatic &&
+           (rule.type == mesh::PatchType::inlet || rule.type == mesh::PatchType::outlet);
+  };
+  part.groups.rules = input.groups.rules;
+  part.patches = input.patches;
+  if (stage < SavedStage::sizing) {
+    std::erase_if(part.groups.rules, [&](const cases::GroupRule& rule) { return !is_opening(rule); });
+    std::erase_if(part.patches, [&](const cases::PatchRule& rule) { return !is_opening(rule); });
+  }
+  for (cases::GroupRule& rule : part.groups.rules)
+    if (!is_opening(rule)) rule.type.reset();
+  for (cases::PatchRule& rule : part.patches)
+    if (!is_opening(rule)) rule.type.reset();
   if (stage >= SavedStage::sizing) {
-    part.groups.rules = input.groups.rules;
-    for (cases::GroupRule& rule : part.groups.rules) rule.type.reset();
-    part.patches = input.patches;
-    for (cases::PatchRule& rule : part.patches)
-      rule.type.reset();  // what they are to a solver is for the output
     part.narrow_faces = input.narrow_faces;
     part.sizing = input.sizing;
   } else {

@@ -7,6 +7,7 @@
 #include "pipeline/domain/size_domain.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,12 @@ inline constexpr std::int64_t most_family_levels = 10;
 struct FamilyLevel {
   double scale = 1;                 ///< value of `sizing.scale`, as it is printed
   double minimum = 0, maximum = 0;  ///< sizes
-  sizing::PredictedCounts counts;   ///< without layers
+  sizing::PredictedCounts counts;   ///< tetrahedra off the layers
   double layer_cells = 0;           ///< 0 without layers
   double first = 0, total = 0;      ///< of the layers: lowest first height, greatest total; 0 without layers
-  double seconds = 0;               ///< of one core, layers included
-  double bytes = 0;                 ///< of memory, all ranks together, layers included
+  std::optional<double> y_plus_node;  ///< of that first height; empty where the flow is not known
+  double seconds = 0;                 ///< of one core, layers included
+  double bytes = 0;                   ///< of memory, all ranks together, layers included
 };
 
 /// The scales of the levels, rounded to six digits. Throws std::invalid_argument for a ratio of 1, and where

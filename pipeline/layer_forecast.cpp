@@ -5,6 +5,7 @@
 #include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/layer_rules.hpp"
 #include "pipeline/report/change_json.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "sizing/features/model_sources.hpp"
 #include "sizing/features/ray_tree.hpp"
 
@@ -115,15 +116,29 @@ private:
     sum.most_total = std::max(sum.most_total, total);
     sum.area += area;
     const double gap = gap_before(facet, middle, layers::ample_gap(total, size));
+    layers::Heights made = heights;
     std::int32_t count = wanted;
     if (gap < layers::ample_gap(total, size)) {
       const double room = layers::room_in_gap(gap, size, wanted * heights.first);
-      count = layers::compress(heights, wanted, room).count;
+      const layers::Compressed fitted = layers::compress(heights, wanted, room);
+      count = fitted.count, made.growth = fitted.growth;
       if (room < total) (count < wanted ? sum.lacking_area : sum.compressed_area) += area;
       if (room < total && gap < sum.narrowest_gap) sum.narrowest_gap = gap, sum.narrowest_at = middle;
     }
     const int of_prism = _elements == layers::LayerElements::tets ? 3 : 1;
     sum.cells += triangles_per_area * area / (size * size) * count * of_prism;
+    sum.replaced += area * tetrahedra_on(middle, -facet.outward, made.total(count));
+  }
+
+  /// Tetrahedra that sizes ask for between a point and this height above it, per area.
+  double tetrahedra_on(Vec3 point, Vec3 inward, double height) const {
+    constexpr int steps = 3;  // sizes grow slowly over the height of layers
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double size = _field(point + (i + 0.5) / steps * height * inward);
+      sum += sizing::tetrahedra_per_volume * height / steps / (size * size * size);
+    }
+    return sum;
   }
 
   /// How far the next wall is in front of a facet, `reach` at most. Layers end on planes that are no walls,
@@ -192,6 +207,14 @@ double LayerForecast::bytes() const {
   return bytes_per_prism * cells() / cells_of_prism;
 }
 
+double LayerForecast::tetrahedra_off_layers(double everywhere) const {
+  double replaced = 0;
+  for (const PatchLayerForecast& patch : patches) replaced += patch.replaced;
+  if (!(everywhere > 0)) return everywhere;
+  // Layers of walls that meet in a corner count twice there, and stay lower in a run.
+  return everywhere / (1 + replaced / everywhere);
+}
+
 LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::PatchType>& types,
                               const cases::Case& input, const sizing::SizeField& field) {
   const layers::LayerOptions options = cases::layer_options(
@@ -217,8 +240,10 @@ std::string describe(const LayerForecast& forecast) {
   if (forecast.patches.size() > shown)
     text += fmt::format("layers on {} more patches, see check.json: forecast.layers\n",
                         forecast.patches.size() - shown);
-  return text + fmt::format("layers add: about {:.3g} cells, {:.0f} s on one core, {:.2g} GiB\n",
-                            forecast.cells(), forecast.seconds(), forecast.bytes() / parallel::gibibyte);
+  return text + fmt::format(
+                    "layers add: about {:.3g} cells, {:.0f} s on one core, {:.2g} GiB; the tetrahedra "
+                    "below are those off them\n",
+                    forecast.cells(), forecast.seconds(), forecast.bytes() / parallel::gibibyte);
 }
 
 nlohmann::ordered_json to_json(const LayerForecast& forecast) {

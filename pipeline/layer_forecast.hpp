@@ -23,6 +23,7 @@ struct PatchLayerForecast {
   std::int32_t least_count = 0, most_count = 0;  ///< number of layers wanted
   double least_total = 0, most_total = 0;        ///< total height wanted
   double cells = 0;
+  double replaced = 0;  ///< tetrahedra that sizes would make where the layers are
   double area = 0;
   double compressed_area = 0;  ///< gaps are narrower than the total height: growth is reduced
   double lacking_area = 0;     ///< gaps do not hold the wanted number of layers, even at the first height
@@ -38,6 +39,8 @@ struct LayerForecast {
   double cells() const;
   double seconds() const;
   double bytes() const;
+  /// Of the tetrahedra that sizes make in the whole fluid, those that are left off the layers.
+  double tetrahedra_off_layers(double everywhere) const;
 };
 
 /// The wanted layers follow from the sizes. A gap is the distance along the normal to the first wall; walls

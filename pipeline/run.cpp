@@ -148,10 +148,11 @@ private:
     const cad::Domain domain = find_or_load_domain();
     domain::require_lengths_of_model(_communicator, domain.model, _input);
     cases::TypedPatches patches = domain::find_patches(_communicator, domain, _input);
-    if (_communicator.is_root())
+    if (_communicator.is_root()) {
       warn_of_units(patches.model.unit_name(), patches.model.unit_in_metres(), _input.output);
-    if (_communicator.is_root())
+      warn_of_solver_points(_input);
       for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
+    }
     note_model(patches.model);
     log_geometry(patches.model, domain.report);
     return patches;
@@ -266,7 +267,10 @@ private:
     judge_chambers(finished, _input.chambers);
     static_cast<report::SurfaceFigures&>(_record) = finished.figures;
     log_surface(finished.report, finished.figures);
-    if (_communicator.is_root()) log_needles(finished.report, finished.figures.face_table);
+    if (_communicator.is_root()) {
+      log_needles(finished.report, finished.figures.face_table);
+      warn_of_lost_area(finished.figures.patches);
+    }
     return finished;
   }
 

@@ -9,6 +9,8 @@
 #include "pipeline/shown_changes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -75,6 +77,19 @@ void warn_of_units(const std::string& unit, double metres, const cases::OutputOp
       unit, formats, metres, command));
 }
 
+void warn_of_solver_points(const cases::Case& input) {
+  if (!input.layers.given || !input.layers.reynolds || input.sizing.solver != sizing::SolverPoints::vertex)
+    return;
+  for (const io::FileFormat format : input.output.formats) {
+    const io::FormatRow& row = io::row_of(format);
+    if (!row.cell_centred) continue;
+    parallel::log_warning(fmt::format(
+        "layers: y+ is that of the first node, but solvers that read {} have it at the first cell's centre, "
+        "where it is half of that. Remedy: sizing.solver: cell",
+        row.name));
+  }
+}
+
 namespace {
 
 void log_closed_cusps(const std::vector<surface::ClosedCusp>& cusps,
@@ -131,6 +146,27 @@ void log_needles(const surface::SurfaceReport& report, const std::vector<report:
   }
 }
 
+void warn_of_lost_area(const std::vector<report::PatchRow>& patches) {
+  constexpr double told = 0.02;  // of the area
+  constexpr std::size_t shown = 3;
+  std::vector<const report::PatchRow*> lost;
+  for (const report::PatchRow& patch : patches)
+    if (patch.type == mesh::PatchType::wall && std::abs(patch.area - patch.cad_area) > told * patch.cad_area)
+      lost.push_back(&patch);
+  if (lost.empty()) return;
+  const auto missing = [](const report::PatchRow* patch) { return std::abs(patch->area - patch->cad_area); };
+  std::ranges::stable_sort(lost, std::ranges::greater(), missing);
+  std::string names;
+  for (std::size_t i = 0; i < std::min(shown, lost.size()); ++i)
+    names += fmt::format("{}'{}' ({:.3g} %)", i > 0 ? ", " : "", lost[i]->name,
+                         100 * (lost[i]->area / lost[i]->cad_area - 1));
+  if (lost.size() > shown) names += fmt::format(" and {} more", lost.size() - shown);
+  parallel::log_warning(fmt::format(
+      "surface: the area of {} differs from the CAD's by more than {:g} %: holes, fillets or edges there are "
+      "coarse. Remedy: a smaller sizing.minimum or sizing.curvature_angle, or patches.NAME.size",
+      names, 100 * told));
+}
+
 void log_surface_again(const std::string& reason) {
   log_info(fmt::format("surface: with joined faces and closed trailing edges: {}; again without",
                        cases::with_keys(reason)));
@@ -140,14 +176,15 @@ void log_layers(const layers::LayerReport& report) {
   layers::PatchLayers all;
   for (const layers::PatchLayers& patch : report.patches) {
     all.area += patch.area, all.full_area += patch.full_area, all.empty_area += patch.empty_area;
+    all.low_first_area += patch.low_first_area;
     all.prisms += patch.prisms, all.pyramids += patch.pyramids, all.tetrahedra += patch.tetrahedra;
   }
   const double area = std::max(all.area, std::numeric_limits<double>::min());
   log_info(fmt::format(
-      "layers: {} prisms, {} pyramids and {} tetrahedra; {:.1f} % of the walls have all layers "
-      "asked "
-      "for, {:.1f} % none",
-      all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area));
+      "layers: {} prisms, {} pyramids and {} tetrahedra; {:.1f} % of the walls have all layers asked for, "
+      "{:.1f} % none; on {:.1f} % the first is lower than {:g} of what is asked for",
+      all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area,
+      100 * all.low_first_area / area, layers::PatchLayers::low));
 }
 
 void warn_of_missing_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches) {

@@ -19,7 +19,12 @@ void log_sizing(const domain::SizedDomain& sized);
 void warn_of_sizes(const domain::SizedDomain& sized);
 /// Warns of formats that assume metres where the model's `unit` is another. One rank calls.
 void warn_of_units(const std::string& unit, double metres, const cases::OutputOptions& output);
+/// Warns of a y+ at the first node where a format is for solvers that have it at the first cell's centre. One
+/// rank calls.
+void warn_of_solver_points(const cases::Case& input);
 void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigures& figures);
+/// Warns of walls whose triangles have clearly another area than the CAD. One rank calls.
+void warn_of_lost_area(const std::vector<report::PatchRow>& patches);
 /// Triangles below ten degrees: how many the CAD forces, and where the others are. `faces` by face id.
 void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces);
 /// Joined faces could not be meshed: the surface is meshed again without joining.

@@ -33,18 +33,22 @@
 namespace aeroloom::cad {
 namespace {
 
+constexpr const char* left_out = "the CAD library leaves out geometry of the file";
+
 NamedShape read_source(const DomainOptions& options, Changes& changes) {
   NamedShape source =
       options.transport ? make_transport(*options.transport) : read_cad_file(options.file, options.encoding);
-  for (const std::string& text : source.read_otherwise) changes.push_back({text});
+  if (!source.refused.empty()) changes.push_back({left_out + source.refused, {}, 0, true});
+  for (const std::string& text : source.read_otherwise) changes.push_back({text + encoding_hint});
   ignore_faces(source, options.ignore, changes);
   return source;
 }
 
-HullComparison compare(const NamedShape& solids, Volumes& volumes) {
-  const Model model = build_model(solids, tag_faces(solids, DomainKind::body, nullptr));
+/// Faces have the names that they have in a fluid, as cases know openings.
+HullComparison compare(const NamedShape& solids, const OpeningNames& openings, Volumes& volumes) {
+  const Model model = build_model(solids, tag_faces(solids, DomainKind::fluid, nullptr));
   refuse_border_crossings(model);
-  return compare_with_hull(model, volumes.of(solids.shape));
+  return compare_with_hull(model, volumes.of(solids.shape), openings);
 }
 
 /// `hull` receives the comparison where one was made.
@@ -69,7 +73,7 @@ KindDecision choose_kind(const DomainOptions& options, const NamedShape& solids,
             fmt::format("taken as the fluid: {} face(s) of its solids lie inside of them, as baffles do",
                         inside)};
   }
-  hull = compare(solids, volumes);
+  hull = compare(solids, options.openings, volumes);
   return decide_kind(*hull, count_loose_inside(solids));
 }
 
@@ -139,12 +143,24 @@ NamedShape read_shape(const DomainOptions& options, Changes& changes) {
   return none;
 }
 
+/// make_solids(); what is open may be so because something was left out.
+NamedShape make_solids_of_source(NamedShape source, double smallest_size, Volumes& volumes,
+                                 Changes& changes) {
+  const std::string refused = source.refused;
+  try {
+    return make_solids(std::move(source), smallest_size, volumes, changes);
+  } catch (const CadError& error) {
+    if (refused.empty()) throw;
+    throw CadError(fmt::format("{} ({}{})", error.what(), left_out, refused));
+  }
+}
+
 FluidShape make_fluid(NamedShape source, const DomainOptions& options, const std::string& distrust,
                       Volumes& volumes, Changes& changes) {
   if (has_facets(options)) return make_fluid_around_facets(std::move(source), options, volumes, changes);
   if (source.cut_names > 0) changes.push_back({geometry::long_names_text(source.cut_names), {}, 0, true});
   std::vector<std::string> names = names_of_file(source);
-  NamedShape solids = make_solids(std::move(source), options.smallest_size, volumes, changes);
+  NamedShape solids = make_solids_of_source(std::move(source), options.smallest_size, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
@@ -190,7 +206,7 @@ Model build_domain(const FluidShape& fluid, const DomainOptions& options, Volume
   if (fluid.mixed) return build_mixed(*fluid.mixed, options, volumes, changes);
   std::optional<HullComparison> hull = fluid.hull;
   const bool is_fluid = fluid.decision.kind == DomainKind::fluid;
-  if (is_fluid && !hull) hull = compare(fluid.shape, volumes);
+  if (is_fluid && !hull) hull = compare(fluid.shape, {}, volumes);
   std::vector<FaceTag> tags = tags_for_case(fluid.shape, is_fluid ? DomainKind::fluid : DomainKind::body,
                                             is_fluid ? &*hull : nullptr, options, changes);
   separate_patches(tags, changes);

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -62,6 +63,11 @@ enum class Caps { join, name };
 /// What happens to a baffle: a face inside of the fluid, which has the fluid on both sides.
 enum class Baffles { keep, refuse };
 
+/// Faces through which the fluid enters and leaves: name patterns (NamePattern) of faces or patches.
+struct OpeningNames {
+  std::vector<std::string> inlets, outlets;
+};
+
 /// A body of flat triangles beside the CAD geometry, such as a store or an ice shape.
 struct FacetedBody {
   std::string name;  ///< name of the part to which its faces belong
@@ -73,6 +79,7 @@ struct DomainOptions {
   std::string file;  ///< STEP, IGES or BREP, recognised by content; or triangles; empty for `transport`
   std::optional<TransportDimensions> transport;  ///< the built-in aircraft
   DomainKind kind = DomainKind::automatic;
+  OpeningNames openings = {};                ///< `automatic` takes solids with both for the fluid
   std::optional<FarFieldOptions> far_field;  ///< as the user gives it; without, bodies get the default
   FarFieldOptions default_far_field = {};
   TrailingEdgeOptions trailing_edges = {};
@@ -89,6 +96,13 @@ struct DomainOptions {
   Caps caps = Caps::join;
   std::string encoding =
       {};  ///< of names in files that are not UTF-8 (geometry::decode_names); empty: latin-1
+
+  static constexpr auto fields() {
+    using D = DomainOptions;
+    return std::tuple(&D::file, &D::transport, &D::kind, &D::openings, &D::far_field, &D::default_far_field,
+                      &D::trailing_edges, &D::baffles, &D::feature_angle, &D::voids, &D::smallest_size,
+                      &D::parts, &D::ignore, &D::caps, &D::encoding);
+  }
 };
 
 /// The name of a face, or of a patch, that the file has and the domain has not.

@@ -1,6 +1,7 @@
 #include "cad/domain/domain_kind.hpp"
 
 #include "cad/domain/patch_names.hpp"
+#include "cad/model/patches.hpp"
 #include "cad/model/shape_map.hpp"
 #include "cad/tolerances.hpp"
 
@@ -107,6 +108,19 @@ double distance_to_hull(const Facets& facets, const Polytope& hull) {
   return largest;
 }
 
+/// The name of the first face that one of the patterns names; empty if there is none.
+std::string first_on_hull(const Model& model, const std::vector<char>& on_hull,
+                          const std::vector<std::string>& patterns) {
+  const std::vector<NamePattern> names(patterns.begin(), patterns.end());
+  for (FaceId f = 0; f < model.face_count(); ++f) {
+    const std::string &face = model.face(f).name, &patch = model.patches()[model.face(f).patch];
+    const bool named = std::ranges::any_of(
+        names, [&](const NamePattern& name) { return name.matches(face) || name.matches(patch); });
+    if (named && on_hull[f]) return face;
+  }
+  return {};
+}
+
 /// As side_of_box(); the box of a face takes long where it is no plane, and its edges tell mostly that it is
 /// not flat.
 std::string side_of_face(const TopoDS_Shape& face, const Box& all) {
@@ -129,7 +143,7 @@ std::string side_of_box(const Box& face, const Box& all) {
   return {};
 }
 
-HullComparison compare_with_hull(const Model& solids, double volume) {
+HullComparison compare_with_hull(const Model& solids, double volume, const OpeningNames& openings) {
   const std::vector<Facets> facets = coarse_facets(solids);
   Polytope hull;
   for (const Facets& face : facets) {
@@ -143,6 +157,8 @@ HullComparison compare_with_hull(const Model& solids, double volume) {
     result.on_hull.push_back(outside <= hull_tolerance);
     result.inner_faces += outside > inner_distance;
   }
+  result.inlet = first_on_hull(solids, result.on_hull, openings.inlets);
+  result.outlet = first_on_hull(solids, result.on_hull, openings.outlets);
   return result;
 }
 
@@ -157,6 +173,12 @@ KindDecision decide_kind(const HullComparison& hull, int loose_inside) {
             fmt::format("taken as the fluid: it fills {:.0f} % of its convex hull, and {} loose face(s) lie "
                         "inside of it, as baffles do",
                         100 * hull.fill, loose_inside)};
+  }
+  if (!hull.inlet.empty() && !hull.outlet.empty()) {
+    return {DomainKind::fluid,
+            fmt::format("taken as the fluid: its faces '{}' and '{}' are an inlet and an outlet on the hull, "
+                        "as those of a duct (`geometry.domain: body` where they belong to a body)",
+                        hull.inlet, hull.outlet)};
   }
   return {DomainKind::body,
           "taken as a body: " + figures +

@@ -14,10 +14,11 @@ struct HullComparison {
   double fill = 0;            ///< volume of the solids over that of the hull
   std::vector<char> on_hull;  ///< per face: it lies on the surface of the hull
   int inner_faces = 0;        ///< faces deep inside the hull, as of an obstacle or a cavity
+  std::string inlet, outlet;  ///< the first of each that lies on the hull, as at the ends of a duct
 };
 
 /// The hull is that of coarse facets, approximated by about 200 half spaces. `volume` is that of all solids.
-HullComparison compare_with_hull(const Model& solids, double volume);
+HullComparison compare_with_hull(const Model& solids, double volume, const OpeningNames& openings);
 
 struct KindDecision {
   DomainKind kind;
@@ -25,8 +26,9 @@ struct KindDecision {
 };
 
 /// The solids are the fluid if they fill most of their hull and some faces lie deep inside it, as in a box
-/// minus an aircraft, or in them, as baffles do: `loose_inside` faces that bound no solid. Otherwise they are
-/// bodies.
+/// minus an aircraft, or in them, as baffles do: `loose_inside` faces that bound no solid. They are the
+/// fluid, too, if an inlet and an outlet lie on the hull. Those of engines lie inside of it. Otherwise the
+/// solids are bodies.
 KindDecision decide_kind(const HullComparison& comparison, int loose_inside = 0);
 
 /// "xmin", "xmax" and so on if the face is flat and lies on a side of the box; empty otherwise.

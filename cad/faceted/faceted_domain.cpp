@@ -162,7 +162,7 @@ Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& com
     faceted = make_faceted_geometry(with_named_regions(complex));
     Changes of_trial;
     const Model alone = fluid_model(*faceted, nullptr, options, of_trial);
-    hull = compare_with_hull(alone, volume_of_regions(alone));
+    hull = compare_with_hull(alone, volume_of_regions(alone), options.openings);
   }
   const KindDecision decision = choose_faceted_kind(options, complex, hull);
   report.kind = decision.kind, report.reason = decision.reason;

@@ -66,17 +66,23 @@ EntityNames names_in_iges(IGESControl_Reader& reader, const std::string& encodin
   return names;
 }
 
-/// What the CAD library says of entities that it refuses, the first few: "entity 12 (type 126): ...".
+/// Curves, surfaces and what is made of them; others are names, colours, dimensions, views.
+bool is_geometry(int type) {
+  return (type >= 100 && type < 200) || (type >= 500 && type < 520);
+}
+
+/// What the CAD library says of geometry that it refuses, the first few: "entity 12 (type 126): ...".
 std::string refusals_in(IGESControl_Reader& reader) {
   constexpr int most = 3;
   const Handle(IGESData_IGESModel) model = reader.IGESModel();
   std::string text;
   int refused = 0;
   const auto add = [&](int number, const Handle(Interface_Check) & check) {
-    if (check.IsNull() || !check->HasFailed() || ++refused > most) return;
+    if (check.IsNull() || !check->HasFailed()) return;
     const Handle(IGESData_IGESEntity) entity = model->Entity(number);
-    text += fmt::format("; entity {} (type {}): {}", number, entity.IsNull() ? 0 : entity->TypeNumber(),
-                        check->CFail(1));
+    const int type = entity.IsNull() ? 0 : entity->TypeNumber();
+    if ((type > 0 && !is_geometry(type)) || ++refused > most) return;
+    text += fmt::format("; entity {} (type {}): {}", number, type, check->CFail(1));
   };
   for (int i = 1; i <= model->NbEntities(); ++i) add(i, model->Check(i, true));
   if (refused == 0) {
@@ -122,6 +128,7 @@ NamedShape read_iges(const std::string& file, const std::string& encoding) {
   std::vector<std::string> read_otherwise;
   NamedShape named = collect_parts(document, names_in_iges(reader, encoding, read_otherwise));
   named.read_otherwise = std::move(read_otherwise);
+  named.refused = refusals_in(reader);
   named.unit_name = declared ? declared->name : "";
   named.unit_in_metres = unit.metres;
   named.precision = std::max(0.0, reader.IGESModel()->GlobalSection().Resolution());

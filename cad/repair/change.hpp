@@ -9,6 +9,9 @@
 
 namespace aeroloom::cad {
 
+/// After what is said of a name that was read in another encoding than UTF-8.
+inline constexpr const char* encoding_hint = " (DomainOptions::encoding names another)";
+
 using geometry::Vec3;
 
 /// One change to the geometry that was read.

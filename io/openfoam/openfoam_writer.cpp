@@ -321,7 +321,9 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
 }
 
 std::string openfoam_scaling(double factor) {
-  return fmt::format("transformPoints -scale '({:g} {:g} {:g})'", factor, factor, factor);
+  return fmt::format(
+      "transformPoints -scale '({:g} {:g} {:g})', by mpirun with -parallel where there are parts", factor,
+      factor, factor);
 }
 
 }  // namespace aeroloom::io

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace aeroloom::mesh {
 
@@ -27,6 +28,9 @@ inline std::optional<PatchType> patch_type_of(std::string_view name) {
 /// The type of a patch by its name alone, whatever else than letters is in it: that of a type ("far_field"),
 /// or one of its usual other names ("symmetry plane", "Inflow 2"). Empty: nothing to tell. Never `interior`.
 std::optional<PatchType> patch_type_by_name(std::string_view name);
+
+/// The names, in small letters alone, that patch_type_by_name() takes for this type.
+std::vector<std::string_view> usual_names_of(PatchType type);
 
 /// A patch as solvers know it.
 struct Patch {

@@ -6,6 +6,7 @@
 #include "pipeline/case/group_keys.hpp"
 #include "pipeline/case/layer_keys.hpp"
 #include "pipeline/case/level_keys.hpp"
+#include "pipeline/case/openings.hpp"
 #include "pipeline/case/scale_keys.hpp"
 #include "pipeline/case/source_keys.hpp"
 #include "pipeline/case/wall_keys.hpp"
@@ -138,6 +139,7 @@ Case finish(const KeyTable& keys, const CaseDraft& draft, const std::string& nam
     if (rule.size) result.sizing.patch_sizes.push_back({rule.name, *rule.size});
     if (rule.type) result.sizing.patch_types.emplace_back(rule.name, *rule.type);
   }
+  result.domain.openings = opening_names(result.groups, result.patches);
   if (draft.builtin == Builtin::transport) result.domain.transport = draft.dimensions;
   set_far_field(draft, result.domain);
   result.domain.trailing_edges.width = draft.sharpen_width.value_or(0);

@@ -53,12 +53,14 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
   keys.number("gap_proximity", sizing.gap_proximity, Range::between(0, 20, "elements"),
               {"The same across gaps alone: between walls with fluid between them, such as slat and wing.",
                "`proximity`", "4"});
-  keys.number("target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
-              common({"Number of tetrahedra that the chosen sizes aim at, without features finer than the "
-                      "minimum whose size is not given. The first key to change for a finer or coarser mesh. "
-                      "Given sizes stay; the others are chosen around them.",
-                      shortest(default_target) + "; any where `minimum` and `maximum` are given",
-                      shortest(default_target)}));
+  keys.number(
+      "target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
+      common({"Number of tetrahedra that the chosen sizes aim at, without features finer than the "
+              "minimum whose size is not given. The first key to change for a finer or coarser mesh. "
+              "Given sizes stay; the others are chosen around them. Cells of layers come on top, and take "
+              "the place of some tetrahedra.",
+              shortest(default_target) + "; any where `minimum` and `maximum` are given",
+              shortest(default_target)}));
   keys.number(
       "feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
       "Features finer than the minimum, then gaps between walls, come on top of the target, up to "

@@ -4,6 +4,7 @@
 #include "parallel/communication/packer.hpp"
 #include "parallel/observation/timers.hpp"
 #include "pipeline/case/box_sides.hpp"
+#include "pipeline/case/openings.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -35,8 +36,11 @@ cases::TypedPatches find_patches(const parallel::Communicator& communicator, con
                                  const cases::Case& input) {
   const cad::Model& model = domain.model;
   if (input.groups.rules.empty() && !input.groups.strict && input.patches.empty() &&
-      input.layers.patches.empty())
-    return cases::apply_patch_rules(model, {});
+      input.layers.patches.empty()) {
+    cases::TypedPatches patches = cases::apply_patch_rules(model, {});
+    patches.warnings = cases::warnings_of_openings(patches, input, domain.report.kind);
+    return patches;
+  }
   std::string refused;
   cases::FacePatches chosen;
   parallel::Bytes bytes;
@@ -54,7 +58,10 @@ cases::TypedPatches find_patches(const parallel::Communicator& communicator, con
   auto all = std::tie(refused, chosen.patch_of_face, chosen.taken);
   parallel::from_wire_into(bytes, all);
   if (!refused.empty()) throw std::invalid_argument(refused);
-  return cases::apply_patches(model, chosen, input.groups, input.patches);
+  cases::TypedPatches patches = cases::apply_patches(model, chosen, input.groups, input.patches);
+  for (std::string& warning : cases::warnings_of_openings(patches, input, domain.report.kind))
+    patches.warnings.push_back(std::move(warning));
+  return patches;
 }
 
 std::vector<std::string> warnings_of_lost_patches(const cases::TypedPatches& before, const cad::Model& model,

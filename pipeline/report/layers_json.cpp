@@ -34,6 +34,7 @@ Json patch_json(const std::string& name, const layers::WallLayers& asked, const 
                {"empty", fraction(patch.empty_area, patch.area)},
                {"squeezed", fraction(patch.compressed_area, patch.area)},
                {"isotropic", fraction(patch.isotropic_area, patch.area)},
+               {"low_first", fraction(patch.low_first_area, patch.area)},
                {"layers_mean", fraction(patch.layers_area, patch.area)},
                {"layers_max", patch.most_layers},
                {"prisms", patch.prisms},
@@ -48,17 +49,19 @@ Json patch_json(const std::string& name, const layers::WallLayers& asked, const 
 Json layers_json(const RunRecord& record) {
   if (!record.layers) return {};
   const layers::LayerReport& report = record.layers->report;
-  double area = 0, full = 0, empty = 0;
+  double area = 0, full = 0, empty = 0, low_first = 0;
   Json patches = Json::array();
   for (std::size_t p = 0; p < report.patches.size(); ++p) {
     const layers::WallLayers& asked = record.layers->asked.patches.at(p);
     if (asked.first <= 0) continue;
     const layers::PatchLayers& patch = report.patches[p];
     area += patch.area, full += patch.full_area, empty += patch.empty_area;
+    low_first += patch.low_first_area;
     patches.push_back(patch_json(record.patches.at(p).name, asked, patch));
   }
   return {{"full", fraction(full, area)},
           {"empty", fraction(empty, area)},
+          {"low_first", fraction(low_first, area)},
           {"validity_rounds", report.validity_rounds},
           {"crossing_rounds", report.crossing_rounds},
           {"crossings", report.crossings},

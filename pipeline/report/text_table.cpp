@@ -23,14 +23,15 @@ std::string report_table(const RunRecord& record, const std::vector<parallel::St
   const mesh::GlobalIndex layered = record.counts.prisms + record.counts.pyramids;
   text += fmt::format(
       "mesh: {} tetrahedra, {}{} points, {} boundary triangles, volume {:.10g}\n"
-      "quality: dihedral angles {:.2f} to {:.2f} degrees, mean ratio {:.3f} at least, {:.3f} on average\n"
+      "quality{}: dihedral angles {:.2f} to {:.2f} degrees, mean ratio {:.3f} at least, {:.3f} on average\n"
       "hash: {}\n",
       record.counts.cells - layered,
       layered > 0 ? fmt::format("{} prisms, {} pyramids, ", record.counts.prisms, record.counts.pyramids)
                   : "",
       record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
-      record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
-      record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
+      layered > 0 ? " off the layers" : "", record.quality->min_dihedral.minimum,
+      record.quality->max_dihedral.maximum, record.quality->mean_ratio.minimum,
+      record.quality->mean_ratio.mean, record.hash);
   for (const mesh::FlawedCell& place : worst_flaws(record))
     if (place.flaw != mesh::Flaw::small_angle)
       text += fmt::format("worst: {}, {}\n", text_of_place(place),

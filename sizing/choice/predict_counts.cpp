@@ -16,9 +16,6 @@ namespace {
 using geometry::Vec3;
 
 constexpr double triangles_per_square = 4 / std::numbers::sqrt3;  // times 1/h^2
-// Times 1/h^3: what meshes of ten models have on average, with edges of 0.98 h. Regular tetrahedra of edges h
-// would be 6 sqrt(2) = 8.5 if they filled space, those of a body-centred lattice are 9.1.
-constexpr double tetrahedra_per_volume = 11.3;
 // Edges, over h, of a cube on the boundary that one value of h stands for; chosen, not measured.
 constexpr double cube_per_size = 1;
 constexpr int deepest_subdivision = 8;          // halvings; chosen, not measured

@@ -1,4 +1,5 @@
 // CAD files as programs write them: marks before the text, columns of IGES.
+#include "cad/domain/domain.hpp"
 #include "cad/model/model.hpp"
 #include "cad/read/cad_facts.hpp"
 #include "cad/read/iges_columns.hpp"
@@ -132,20 +133,40 @@ TEST(CadFiles, FullLinesOfIgesAndTextsKeepTheirLetters) {
   EXPECT_NE(all.find(fmt::format("406/1/1.5/2.5/{}H{}/7#", words.size(), words)), std::string::npos) << all;
 }
 
-TEST(CadFiles, WhatTheLibraryRefusesOfIgesIsSaid) {
-  // The first parameter of every entity is no number.
+/// The file whose entities that begin like this have no number as their first parameter.
+std::string spoilt_iges(const std::string& begin) {
   std::istringstream lines(text_of("bracket.igs"));
   std::string text;
   int spoilt = 0;
   for (std::string line; std::getline(lines, line); text += line + '\n') {
-    if (line.size() < 73 || line[72] != 'P' || line.find(',') != 3) continue;
+    if (line.size() < 73 || line[72] != 'P' || line.find(',') != 3 || !line.starts_with(begin)) continue;
     line = fmt::format("{:<64}", line.substr(0, 4) + "x;") + line.substr(64);
     ++spoilt;
   }
-  ASSERT_GT(spoilt, 0);
-  const std::string message = refusal_of_text("spoilt.igs", text);
+  EXPECT_GT(spoilt, 0);
+  return text;
+}
+
+TEST(CadFiles, WhatTheLibraryRefusesOfIgesIsSaid) {
+  const std::string message = refusal_of_text("spoilt.igs", spoilt_iges(""));
   EXPECT_NE(message.find("; entity "), std::string::npos) << message;
   EXPECT_NE(message.find("(type "), std::string::npos) << message;
+}
+
+// One face of many: it is missed where the rest is open, and told where the rest closes.
+TEST(CadFiles, AFaceThatTheLibraryLeavesOutIsSaid) {
+  for (const std::string face : {"144,5,", "144,29,"}) {
+    const real::TemporaryFile file("left_out.igs", spoilt_iges(face));
+    DomainOptions options;
+    options.file = file.path();
+    std::string said;
+    try {
+      for (const Change& change : prepare_domain(options).report.changes) said += change.what + "\n";
+    } catch (const CadError& error) {
+      said = error.what();
+    }
+    EXPECT_NE(said.find("leaves out geometry of the file; entity "), std::string::npos) << said;
+  }
 }
 
 TEST(CadFiles, TheReportedFileIsRead) {

@@ -46,6 +46,22 @@ TEST(NestedSolids, WhatLiesInTheMaterialOfABodyIsNoRegion) {
   EXPECT_EQ(domain.report.kind, DomainKind::body) << domain.report.reason;
 }
 
+/// Openings that decide lie on the hull, as ends of a duct do, and not in it, as those of engines do.
+TEST(NestedSolids, AnInletAndAnOutletOnTheHullAreThoseOfADuct) {
+  const TopoDS_Shape bar = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 6, 1, 1).Shape();
+  const TopoDS_Shape recessed =
+      BRepAlgoAPI_Cut(bar, BRepPrimAPI_MakeBox(gp_Pnt(-1, 0.05, 0.05), 3, 0.9, 0.9).Shape()).Shape();
+  const auto kind_of = [](const TopoDS_Shape& shape, const OpeningNames& openings) {
+    DomainOptions options;
+    options.openings = openings;
+    return shapes::prepare(shape, options).report.kind;
+  };
+  EXPECT_EQ(kind_of(bar, {{"xmin"}, {"xmax"}}), DomainKind::fluid);
+  EXPECT_EQ(kind_of(bar, {{"xmin"}, {}}), DomainKind::body);
+  EXPECT_EQ(kind_of(bar, {{"xmin"}, {"no_such_face"}}), DomainKind::body);
+  EXPECT_EQ(kind_of(recessed, {{"body"}, {"xmax"}}), DomainKind::body) << "the recess is deep in the hull";
+}
+
 /// A ball in a cage of large tolerances, where the classifier is wrong about one of the ball's poles.
 TEST(NestedSolids, ABallInAnOpenCageMeetsTheFluid) {
   const std::string name = "parts/axom_boxed_sphere.step";

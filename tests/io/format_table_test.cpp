@@ -282,7 +282,8 @@ TEST_F(FormatTable, SolversOfTheseFormatsTakeLengthsForMetres) {
   for (const FileFormat format : {FileFormat::openfoam, FileFormat::su2, FileFormat::su2b, FileFormat::cgns})
     EXPECT_TRUE(row_of(format).in_metres) << name_of(format);
   EXPECT_FALSE(row_of(FileFormat::vtu).in_metres);
-  EXPECT_EQ(row_of(FileFormat::openfoam).scaling(0.001), "transformPoints -scale '(0.001 0.001 0.001)'");
+  EXPECT_EQ(row_of(FileFormat::openfoam).scaling(0.001),
+            "transformPoints -scale '(0.001 0.001 0.001)', by mpirun with -parallel where there are parts");
 }
 
 /// Each format has a row in the table of the page, which says whether it is read.

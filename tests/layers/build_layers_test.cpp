@@ -38,6 +38,7 @@ void expect_same(const Shapes& shapes, int pieces, const LayerOptions& options) 
     EXPECT_EQ(a.area, b.area);
     EXPECT_EQ(a.full_area, b.full_area);
     EXPECT_EQ(a.limited_area, b.limited_area);
+    EXPECT_EQ(a.low_first_area, b.low_first_area);
     EXPECT_EQ(a.prisms, b.prisms);
   }
 }
@@ -81,6 +82,7 @@ TEST(BuildLayers, CoverASphereInASphere) {
   expect_valid(mesh, layers);
   const PatchLayers& patch = layers.report.patches[1];
   EXPECT_EQ(patch.partial_area, 0);
+  EXPECT_EQ(patch.low_first_area, 0);
   EXPECT_GT(patch.isotropic_area, 0.9 * patch.area);
   EXPECT_EQ(patch.triangles, 12 * 12 * 12);
   EXPECT_EQ(layers.report.patches[0].area, 0);
@@ -111,6 +113,24 @@ TEST(BuildLayers, CoverTheEdgesAndCornersOfACube) {
       EXPECT_NEAR(layers.columns.pieces[p].first[v], std::sqrt(2.0) * 1e-4, 0.1e-4) << "on an edge they lean";
     }
   }
+}
+
+// At the acute edges of a sheared cube a column leans by 81 degrees off both walls. It is lengthened to twice
+// its height at most.
+TEST(BuildLayers, TellWhereTheFirstLayerIsLow) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = Shapes()
+                                         .add_sphere({2, 0.5, 0.5}, 20, 8, Fluid::inside)
+                                         .add_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, Fluid::outside,
+                                                  [](Vec3 p) {
+                                                    return Vec3{p.x + 3 * p.z, p.y, p.z};
+                                                  })
+                                         .distribute(world, 5);
+  const Layers layers = build(mesh, options_for({0, 1e-4}));
+  expect_valid(mesh, layers);
+  const PatchLayers& patch = layers.report.patches[1];
+  EXPECT_GT(patch.low_first_area, 0.01 * patch.area);
+  EXPECT_LT(patch.low_first_area, 0.2 * patch.area);
 }
 
 TEST(BuildLayers, FillTheCornersOfABox) {

@@ -62,6 +62,20 @@ TEST_F(StageLog, WarnsOfLengthsThatAreNoMetresWhereSolversExpectThem) {
   EXPECT_EQ(said_by([&] { warn_of_units("", 1, output); }).warnings, "");
 }
 
+TEST_F(StageLog, WarnsOfAYPlusThatIsNotWhereTheSolverHasIt) {
+  cases::Case input;
+  input.layers.given = true, input.layers.reynolds = 1e6, input.layers.length = 1;
+  input.output.formats = {io::FileFormat::vtu, io::FileFormat::su2};
+  EXPECT_EQ(said_by([&] { warn_of_solver_points(input); }).warnings, "");
+  input.output.formats.push_back(io::FileFormat::openfoam);
+  EXPECT_TRUE(has(said_by([&] { warn_of_solver_points(input); }).warnings, "Remedy: sizing.solver: cell"));
+  input.sizing.solver = sizing::SolverPoints::cell;
+  EXPECT_EQ(said_by([&] { warn_of_solver_points(input); }).warnings, "");
+  input.sizing.solver = sizing::SolverPoints::vertex;
+  input.layers.reynolds.reset(), input.layers.first = 1e-5;
+  EXPECT_EQ(said_by([&] { warn_of_solver_points(input); }).warnings, "") << "a height is a height";
+}
+
 // What a user should act on: two elements around an edge, or much of the body. Else it is a fact.
 TEST_F(StageLog, WarnsOfShapesThatAreLost) {
   sizing::SizingOptions sizes;
@@ -73,6 +87,17 @@ TEST_F(StageLog, WarnsOfShapesThatAreLost) {
   EXPECT_EQ(text.find("elements turn by 180 degrees and more, most on 'wing'"), 0u) << text;
   EXPECT_TRUE(has(text, "2 % of the body. Remedy: a smaller sizing.minimum")) << text;
   EXPECT_LT(text.size(), 400u);
+}
+
+TEST_F(StageLog, WarnsOfWallsThatLoseTheirArea) {
+  std::vector<report::PatchRow> patches(2);
+  patches[0] = {.name = "far", .type = mesh::PatchType::farfield, .area = 90, .cad_area = 100};
+  patches[1] = {.name = "wing", .area = 98.1, .cad_area = 100};
+  EXPECT_EQ(said_by([&] { warn_of_lost_area(patches); }).warnings, "");
+  patches[1].area = 97.5;
+  patches.push_back({.name = "rail", .area = 91.6, .cad_area = 100});
+  const Said said = said_by([&] { warn_of_lost_area(patches); });
+  EXPECT_TRUE(has(said.warnings, "the area of 'rail' (-8.4 %), 'wing' (-2.5 %) differs")) << said.warnings;
 }
 
 TEST_F(StageLog, WarnsOfPoorCells) {
