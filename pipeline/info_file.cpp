@@ -65,7 +65,7 @@ void show_case(const InfoRequest& request) {
 }
 
 void show_cad(const InfoRequest& request) {
-  const cad::CadFacts facts = domain::look_sandboxed(request.file);
+  const cad::CadFacts facts = domain::look_sandboxed(request.file, request.encoding);
   show(request, info_json(facts), info_text(facts));
 }
 

@@ -10,6 +10,7 @@ namespace aeroloom::pipeline {
 struct InfoRequest {
   std::string file;
   bool print_json = false;  ///< instead of text
+  std::string encoding;     ///< of names in files of geometry that are not UTF-8; empty: latin-1
 };
 
 /// Reads the file and prints its facts on rank 0. Meshes are recognised by extension and read by all ranks

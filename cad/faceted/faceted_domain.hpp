@@ -36,6 +36,6 @@ std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered, const D
 
 /// Fills in counts, bounds and defects of a faceted file as it is.
 void examine_facets(const std::string& file, Diagnosis& diagnosis);
-CadFacts look_at_faceted_file(const std::string& file);
+CadFacts look_at_faceted_file(const std::string& file, const std::string& encoding);
 
 }  // namespace aeroloom::cad

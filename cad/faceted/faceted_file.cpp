@@ -17,7 +17,7 @@ namespace aeroloom::cad {
 namespace {
 
 void say_names(const FacetSoup& soup, Changes& changes) {
-  for (const std::string& text : soup.read_otherwise) changes.push_back({text});
+  for (const std::string& text : soup.read_otherwise) changes.push_back({text + encoding_hint});
 }
 
 struct PreparedTriangles {
@@ -120,8 +120,8 @@ void examine_facets(const std::string& file, Diagnosis& diagnosis) {
   add(facts.misoriented_sides, "sides whose triangles are turned against each other");
 }
 
-CadFacts look_at_faceted_file(const std::string& file) {
-  const FacetFacts found = look_at_facets(read_facets(file));
+CadFacts look_at_faceted_file(const std::string& file, const std::string& encoding) {
+  const FacetFacts found = look_at_facets(read_facets(file, encoding));
   CadFacts facts;
   facts.format = found.format;
   facts.bounds = found.bounds;

@@ -62,7 +62,7 @@ std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chamber
     sides.cavity = sides.back == no_entity && enclosed[turn ? behind : ahead] != 0;
     auto corners = soup.triangles[t];
     if (turn) std::swap(corners[1], corners[2]);
-    turned += turn;
+    turned += turn && sides.back == no_entity;  // which side of two is the front is chosen here
     soup.triangles[count] = corners;
     owners[count] = owners[t];
     soup.group_of[count++] = soup.group_of[t];
@@ -76,7 +76,7 @@ std::vector<FacetRegions> orient_facets(FacetSoup& soup, const Chambers& chamber
   return regions;
 }
 
-/// Regions have the names of region points, and several regions those of their solids.
+/// Regions have the names of region points, else those of their solids.
 std::vector<std::string> name_regions(const Chambers& chambers, const FacetSolids& solids) {
   std::vector<std::string> names;
   std::vector<std::int32_t> solid_of;
@@ -86,7 +86,6 @@ std::vector<std::string> name_regions(const Chambers& chambers, const FacetSolid
     names.resize(count), solid_of.resize(count, -1);
     names[chamber.region] = chamber.name, solid_of[chamber.region] = chamber.solid;
   }
-  if (names.size() < 2) return names;
   std::map<std::string, int> uses;
   for (std::size_t r = 0; r < names.size(); ++r) {
     if (!names[r].empty() || solid_of[r] < 0) continue;

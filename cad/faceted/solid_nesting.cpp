@@ -161,8 +161,8 @@ private:
       if (shared.first == std::min(_inside[pair.first], _inside[pair.second])) continue;
       const std::int32_t at = _doors[_from[shared.second].front()].triangle;
       throw CadError(fmt::format(
-          "{}: {} and {} overlap at {}. Remedy: make them touch in the CAD program, or take them as bodies "
-          "(DomainOptions::kind: body)",
+          "{}: {} and {} overlap at {}. Remedy: unite them, or make them touch, in the program that "
+          "made the file; or take them as bodies (DomainOptions::kind: body)",
           _soup.file, solid_text(_solids, pair.first), solid_text(_solids, pair.second),
           place_in_file(middle_of(_soup, at))));
     }

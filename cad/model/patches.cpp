@@ -65,6 +65,12 @@ std::int32_t patch_number(std::vector<std::string>& patches, const std::string& 
   return number;
 }
 
+bool is_around_bodies(const Model& model) {
+  for (FaceId f = 0; f < model.face_count(); ++f)
+    if (model.is_far_field(f)) return true;
+  return false;
+}
+
 Model with_patches(const Model& model, const std::vector<std::string>& patch_of_face) {
   auto data = std::make_shared<Model::Data>(model.data());
   if (patch_of_face.size() != data->faces.size())

@@ -26,6 +26,9 @@ private:
 /// Whether a name matches a pattern.
 bool matches_pattern(const std::string& name, const std::string& pattern);
 
+/// Whether the program has added a far field to it.
+bool is_around_bodies(const Model& model);
+
 /// The model with other patches. One name per face; patches are numbered in the order of faces. serialise()
 /// still writes the old patches.
 Model with_patches(const Model& model, const std::vector<std::string>& patch_of_face);

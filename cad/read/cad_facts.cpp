@@ -46,12 +46,12 @@ void list_labels(const NamedShape& named, CadFacts& facts) {
 
 }  // namespace
 
-CadFacts look_at_cad_file(const std::string& file) {
-  if (is_faceted_file(file)) return look_at_faceted_file(file);
+CadFacts look_at_cad_file(const std::string& file, const std::string& encoding) {
+  if (is_faceted_file(file)) return look_at_faceted_file(file, encoding);
   CadFacts facts;
   facts.format = format_of_cad_file(file);
   guarded("looking at the geometry", [&] {
-    const NamedShape named = read_cad_file(file);
+    const NamedShape named = read_cad_file(file, encoding);
     facts.unit_name = named.unit_name;
     facts.unit_in_metres = named.unit_in_metres;
     facts.bounds = scaled(tight_box(named.shape), named.unit);

@@ -52,6 +52,6 @@ struct CadFacts {
 /// Reads the file. Not collective. It runs in this process, so a crash in the CAD library ends the process.
 /// Throws CadError for files that are damaged, empty or of an unknown format, and std::ios_base::failure if
 /// the file cannot be opened.
-CadFacts look_at_cad_file(const std::string& file);
+CadFacts look_at_cad_file(const std::string& file, const std::string& encoding = "");
 
 }  // namespace aeroloom::cad

@@ -11,19 +11,13 @@ namespace {
 
 constexpr std::array box_sides{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
-bool is_around_bodies(const cad::Model& model) {
-  for (cad::FaceId f = 0; f < model.face_count(); ++f)
-    if (model.is_far_field(f)) return true;
-  return false;
-}
-
 }  // namespace
 
 std::string hint_on_box_sides(const cad::Model& model, const std::string& pattern) {
   const cad::NamePattern sides(pattern);
   const bool names_a_side =
       std::ranges::any_of(box_sides, [&](const char* side) { return sides.matches(side); });
-  if (!names_a_side || !is_around_bodies(model)) return {};
+  if (!names_a_side || !cad::is_around_bodies(model)) return {};
   return "; the solids of the file were taken as a body in a far field, and only a fluid has the patches "
          "'xmin' to 'zmax'. `geometry.domain: fluid` takes the solids as the space to mesh";
 }

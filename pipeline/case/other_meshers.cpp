@@ -203,6 +203,14 @@ constexpr std::array words_of_keys{
                "mshfileversion fileformat format saveformat exportformat outputformat writeformat"},
 };
 
+constexpr std::array words_of_paths{
+    OtherWords{
+        "unit of the geometry",
+        "lengths stay in the unit of the file: scale the file, or the mesh before a solver reads it",
+        "geometryscale geometryunit geometryunits geometryscaling geometryfactor outputscale outputunit "
+        "outputunits"},
+};
+
 constexpr std::array words_of_values{
     OtherWords{"symmetry", "the type is 'symmetry'", "symmetryplane symm mirror"},
     OtherWords{"inlet", "the type is 'inlet'", "velocityinlet massflowinlet pressureinlet"},
@@ -214,15 +222,18 @@ constexpr std::array words_of_values{
                "fluent starccm ccm nastran abaqus ansys cfx bdf inp unv exodus comsol"},
 };
 
-/// Letters and digits of the last part of a name, in lower case.
-std::string bare(const std::string& word) {
+/// Letters and digits, in lower case.
+std::string bare_path(std::string_view word) {
   std::string letters;
-  const std::size_t last = word.find_last_of("./");
-  for (std::size_t i = last == std::string::npos ? 0 : last + 1; i < word.size(); ++i) {
-    const auto c = static_cast<unsigned char>(word[i]);
+  for (const unsigned char c : word)
     if (std::isalnum(c) != 0) letters += static_cast<char>(std::tolower(c));
-  }
   return letters;
+}
+
+/// The same of the last part of a name.
+std::string bare(std::string_view word) {
+  const std::size_t last = word.find_last_of("./");
+  return bare_path(last == std::string_view::npos ? word : word.substr(last + 1));
 }
 
 bool has_word(std::string_view words, const std::string& word) {
@@ -251,6 +262,10 @@ std::span<const OtherWords> named_otherwise() {
   return words_of_keys;
 }
 
+std::span<const OtherWords> paths_otherwise() {
+  return words_of_paths;
+}
+
 std::span<const OtherWords> values_otherwise() {
   return words_of_values;
 }
@@ -260,6 +275,10 @@ std::optional<std::string> answer_to_key(const std::string& key) {
   for (const auto table : {out_of_scope(), named_otherwise(), values_otherwise()})
     if (const auto answer = answer_of(table, letters)) return answer;
   return std::nullopt;
+}
+
+std::optional<std::string> answer_to_path(const std::string& path) {
+  return answer_of(words_of_paths, bare_path(path));
 }
 
 std::optional<std::string> answer_to_value(const std::string& value) {

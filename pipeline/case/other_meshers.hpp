@@ -22,13 +22,17 @@ inline constexpr std::string_view page_of_other_words = "docs/out_of_scope.md";
 std::span<const OtherWords> out_of_scope();
 /// What it does, under another key.
 std::span<const OtherWords> named_otherwise();
+/// The same for keys that another section has; words are whole paths.
+std::span<const OtherWords> paths_otherwise();
 /// Values of its keys that others name otherwise.
 std::span<const OtherWords> values_otherwise();
 
 /// The answer to a key that no case has, whatever its capitals, underscores, hyphens and blanks; of a name
 /// with dots or slashes the last part counts. Empty if the word is not known.
 std::optional<std::string> answer_to_key(const std::string& key);
-/// The same for a value that its key does not accept.
+/// The answer to a key by its whole path, "geometry.scale".
+std::optional<std::string> answer_to_path(const std::string& path);
+/// The same as answer_to_key() for a value that its key does not accept.
 std::optional<std::string> answer_to_value(const std::string& value);
 
 /// Throws CaseError, with advice, if the name says that the file is a geometry.

@@ -300,6 +300,7 @@ std::string KeyTable::advice(const std::string& unknown, const KeyTable& root) c
     const auto found = std::find(last_names.begin(), last_names.end(), name) - last_names.begin();
     return "did you mean '" + everywhere[static_cast<std::size_t>(found)] + "'?";
   };
+  if (const auto answer = answer_to_path(path_of(unknown))) return *answer;
   const bool is_elsewhere = std::find(last_names.begin(), last_names.end(), unknown) != last_names.end();
   const auto answer = is_elsewhere ? std::nullopt : answer_to_key(unknown);
   if (answer) return *answer;

@@ -1,8 +1,11 @@
+#include "geometry/name_text.hpp"
 #include "pipeline/commands/commands.hpp"
 #include "pipeline/commands/help.hpp"
 #include "pipeline/info_file.hpp"
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +18,17 @@ Command add_info(CLI::App& program) {
                   "a mesh in any format that is read (docs/formats.md), CAD, triangles, or a case")
       ->required()
       ->type_name(file_kind::any);
+  app->add_option("--encoding", request->encoding,
+                  "of names in CAD and triangles that are not UTF-8, as `geometry.encoding` of a case")
+      ->type_name("NAME")
+      ->check([](const std::string& name) {
+        try {
+          geometry::require_encoding(name);
+        } catch (const std::invalid_argument& error) {
+          return std::string(error.what());
+        }
+        return std::string();
+      });
   app->add_flag("--json", request->print_json, "print JSON (docs/usage.md)")->group(option_group::output);
   add_help_footer(*app,
                   {{"aeroloom info out/mesh.pvtu", "cells, patches, regions, box of a mesh"},

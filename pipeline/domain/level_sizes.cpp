@@ -1,5 +1,6 @@
 #include "pipeline/domain/level_sizes.hpp"
 
+#include "cad/model/patches.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
 #include "sizing/lifting/level_requests.hpp"
@@ -77,10 +78,12 @@ public:
     if (coarsest > budget)
       throw parallel::CollectiveError(
           parallel::FailureKind::input,
-          fmt::format("sizing.budget: {:.3g} tetrahedra do not hold level {}, which takes about {:.2g}. "
-                      "Remedy: a larger budget, sizing.solver: cell, a nearer far field (farfield.extent), "
-                      "or sizes of your own in place of the level",
-                      budget, sizing::name_of(all.front()), coarsest));
+          fmt::format(
+              "sizing.budget: {:.3g} tetrahedra do not hold level {}, which takes about {:.2g}. "
+              "Remedy: a larger budget, sizing.solver: cell, {}"
+              "or sizes of your own in place of the level",
+              budget, sizing::name_of(all.front()), coarsest,
+              cad::is_around_bodies(_factory.model()) ? "a nearer far field (farfield.extent), " : ""));
     auto found = std::find(all.begin(), all.end(), *_request.level);
     const double factor = sizes(all.front()).factor;
     while (found != all.begin() && coarsest * std::pow(factor / sizes(*found).factor, 3) > budget) --found;

@@ -98,7 +98,7 @@ Bytes diagnose_domain(std::span<const std::byte> input) {
 
 Bytes look_at_file(std::span<const std::byte> input) {
   return answer(input, [](const DomainOptions& options) {
-    return parallel::to_wire(cad::look_at_cad_file(options.file));
+    return parallel::to_wire(cad::look_at_cad_file(options.file, options.encoding));
   });
 }
 
@@ -190,9 +190,9 @@ cad::Diagnosis diagnose_sandboxed(const DomainOptions& options) {
   return unpack_diagnosis(run_task(diagnose_task, options, parallel::requested_fault("domain").fault));
 }
 
-cad::CadFacts look_sandboxed(const std::string& file) {
+cad::CadFacts look_sandboxed(const std::string& file, const std::string& encoding) {
   DomainOptions options;
-  options.file = file;
+  options.file = file, options.encoding = encoding;
   return parallel::from_wire<cad::CadFacts>(run_task(look_task, options, Fault::none));
 }
 

@@ -20,6 +20,6 @@ cad::Diagnosis diagnose_sandboxed(const cad::DomainOptions& options);
 
 /// Inspects a file in a child of this rank. Not collective. Throws as cad::look_at_cad_file() and
 /// prepare_sandboxed().
-cad::CadFacts look_sandboxed(const std::string& file);
+cad::CadFacts look_sandboxed(const std::string& file, const std::string& encoding);
 
 }  // namespace aeroloom::domain

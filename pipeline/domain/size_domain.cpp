@@ -1,5 +1,6 @@
 #include "pipeline/domain/size_domain.hpp"
 
+#include "cad/model/patches.hpp"
 #include "cad/model/topology/joined_faces.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/log.hpp"
@@ -105,9 +106,11 @@ void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSi
   if (ratio < missed_target && ratio > 1 / missed_target) return;
   const std::string costs = describe_costs(sizing::costs_of_given(factory, chosen, request));
   if (!factory.sampled().communicator().is_root()) return;
-  const char* remedy = ratio > 1 ? "a far field that is nearer (farfield.extent), a larger sizing.growth or "
-                                   "larger sizes make it fewer"
-                                 : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
+  const bool has_far_field = cad::is_around_bodies(factory.model());
+  const std::string remedy =
+      ratio > 1 ? fmt::format("{}a larger sizing.growth or larger sizes make it fewer",
+                              has_far_field ? "a far field that is nearer (farfield.extent), " : "")
+                : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
   const bool has_features = chosen.features.ratio > some_features;
   parallel::log_warning(fmt::format(
       "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}{}: {}",

@@ -65,6 +65,11 @@ TEST_F(FacetedRegions, TouchingSolidsConformAtTheirInterface) {
   EXPECT_EQ(facts["doubled_nodes"]["nodes"], 0);
 }
 
+TEST_F(FacetedRegions, ASingleSolidHasItsName) {
+  write("solids.stl", box("room", {0, 0, 0}, {2, 1, 1}));
+  expect_volumes(volumes(", domain: fluid"), {{"room", 2}});
+}
+
 TEST_F(FacetedRegions, NestedSolidsAreRegionsOrVoids) {
   write("solids.stl", box("skull", {0, 0, 0}, {3, 3, 3}) + box("brain", {1, 1, 1}, {2, 2, 2}));
   expect_volumes(volumes(""), {{"skull", 26}, {"brain", 1}});

@@ -53,6 +53,7 @@ TEST_F(OtherMeshers, KeysOfOthersNameOurs) {
   expect("farfield: {locationInMesh: [1, 2, 3]}", "the key is 'geometry.domain'");
   expect("Mesh: {MeshSizeMax: 0.5}", "below 'sizing'");
   expect("improve: {optsteps3d: 3}", "below 'improve'");
+  expect("output: {scale: 0.001}", "lengths stay in the unit of the file");
 }
 
 TEST_F(OtherMeshers, ValuesAreAnswered) {
@@ -89,7 +90,7 @@ TEST_F(OtherMeshers, KeysOfThisProgramAreNotTakenForOthers) {
 
 TEST_F(OtherMeshers, NoWordHasTwoAnswers) {
   std::set<std::string> seen;
-  for (const auto table : {out_of_scope(), named_otherwise(), values_otherwise()}) {
+  for (const auto table : {out_of_scope(), named_otherwise(), paths_otherwise(), values_otherwise()}) {
     for (const OtherWords& each : table) {
       std::istringstream words{std::string(each.words)};
       for (std::string word; words >> word;) {
@@ -105,7 +106,7 @@ TEST_F(OtherMeshers, ThePageHasAllAnswers) {
   std::string page{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   for (char& c : page)
     if (c == '`') c = '\'';
-  for (const auto table : {out_of_scope(), named_otherwise(), values_otherwise()}) {
+  for (const auto table : {out_of_scope(), named_otherwise(), paths_otherwise(), values_otherwise()}) {
     for (const OtherWords& each : table) {
       std::string row = "| " + std::string(each.topic) + " | " + std::string(each.answer) + " |";
       for (char& c : row)
