@@ -101,7 +101,18 @@ public:
     std::vector<std::int32_t> component;
     const std::vector<std::int32_t> alike(whole.triangles.size(), 0);
     const std::int32_t count = label_components(twins, alike, component);
-    push(separate_parts(whole, twins, component, count), 0);
+    return run(separate_parts(whole, twins, component, count), 0);
+  }
+
+  /// Parts of a surface that was cut `depth` times.
+  std::vector<Chart> run(std::vector<ChartSurface> parts, int depth, JoinedVertices joined) {
+    _joined = std::move(joined);
+    return run(std::move(parts), depth);
+  }
+
+private:
+  std::vector<Chart> run(std::vector<ChartSurface> parts, int depth) {
+    push(std::move(parts), depth);
     while (!_waiting.empty()) {
       ChartDomain domain = std::move(_waiting.back());
       _waiting.pop_back();
@@ -110,7 +121,6 @@ public:
     return std::move(_charts);
   }
 
-private:
   void push(std::vector<ChartSurface> parts, int depth) {
     for (std::size_t i = parts.size(); i-- > 0;) _waiting.push_back({std::move(parts[i]), depth, {}});
   }
@@ -188,6 +198,12 @@ std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField&
                                const ChartSurface& surface, const ChartLimits& limits,
                                FaceVertices& vertices) {
   return ChartMaker(model, field, limits, vertices).run(surface);
+}
+
+std::vector<Chart> map_parts(const cad::Model& model, const sizing::SizeField& field,
+                             std::vector<ChartSurface> parts, const ChartLimits& limits,
+                             JoinedVertices joined, FaceVertices& vertices) {
+  return ChartMaker(model, field, limits, vertices).run(std::move(parts), 1, std::move(joined));
 }
 
 }  // namespace aeroloom::surface

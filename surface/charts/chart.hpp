@@ -8,6 +8,7 @@
 #include "geometry/plane_grid.hpp"
 #include "sizing/field/size_field.hpp"
 #include "surface/charts/chart_surface.hpp"
+#include "surface/charts/cut_curves.hpp"
 
 #include <vector>
 
@@ -70,5 +71,10 @@ struct ChartLimits {
 std::vector<Chart> make_charts(const cad::Model& model, const sizing::SizeField& field,
                                const ChartSurface& surface, const ChartLimits& limits,
                                FaceVertices& vertices);
+
+/// As make_charts() for parts of a surface that was cut. No further cut joins a pair in `joined`.
+std::vector<Chart> map_parts(const cad::Model& model, const sizing::SizeField& field,
+                             std::vector<ChartSurface> parts, const ChartLimits& limits,
+                             JoinedVertices joined, FaceVertices& vertices);
 
 }  // namespace aeroloom::surface

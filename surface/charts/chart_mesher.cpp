@@ -2,12 +2,15 @@
 
 #include "geometry/place_text.hpp"
 #include "surface/charts/chart.hpp"
+#include "surface/charts/chart_division.hpp"
+#include "surface/charts/surface_topology.hpp"
 #include "surface/front/front.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +19,9 @@ namespace aeroloom::surface {
 namespace {
 
 using geometry::Vec2;
+
+/// A chart that folds is divided in two, and its parts again, so often at most: 256 parts (docs/bounds.md).
+constexpr int most_divisions = 8;
 
 /// The loops of a chart as the front wants them, and where its vertices are known from.
 struct ChartBoundary {
@@ -84,9 +90,30 @@ ChartBoundary boundary_of(const Chart& chart) {
   return boundary;
 }
 
+/// The middle of the triangle of the surface on a loop edge.
+geometry::Vec3 place_of_triangle(const ChartSurface& surface, std::int32_t loop_edge) {
+  const std::int32_t from = surface.loop_edges[loop_edge][0];
+  const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
+  for (geometry::HalfEdge h = 0; h < static_cast<geometry::HalfEdge>(twins.size()); ++h) {
+    if (twins[h] >= 0 || start_of(surface, h) != from) continue;
+    const auto& [a, b, c] = surface.triangles[h / 3];
+    return (surface.points[a] + surface.points[b] + surface.points[c]) / 3;
+  }
+  return surface.points[from];
+}
+
+/// Names the triangles where the border meets itself.
+std::string reason_of(const ChartSurface& surface, const front::FrontError& error) {
+  if (error.crossings().empty()) return error.what();
+  const front::CrossingEdges& first = error.crossings().front();
+  return fmt::format("{} pair(s) of edges meet, the first of them on the triangles around {} and {}",
+                     error.crossings().size(), geometry::place_text(place_of_triangle(surface, first.first)),
+                     geometry::place_text(place_of_triangle(surface, first.second)));
+}
+
 /// Where loops cross, both curves are too coarse for the gap between them: half their length is field_size
 /// for.
-FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front::FrontError& error,
+FaceConflict conflict_of(const cad::Model& model, const ChartSurface& surface, const front::FrontError& error,
                          const ChartBoundary& boundary, const FaceVertices& vertices) {
   std::vector<sizing::SizeSource> remedy;
   std::vector<mesh::SharedVertexKey> named;
@@ -104,9 +131,11 @@ FaceConflict conflict_of(const cad::Model& model, cad::FaceId face, const front:
   std::string where = remedy.empty() ? std::string()
                                      : fmt::format(" near {}, size {:.4g} there",
                                                    geometry::place_text(remedy[0].point), 2 * remedy[0].size);
-  return {fmt::format("face '{}' (patch '{}'): its boundary curves cross or touch{}: {}",
-                      model.face(face).name, model.patches()[model.face(face).patch], where, error.what()),
-          std::move(remedy), std::move(named)};
+  const cad::FaceId face = surface.face;
+  return {
+      fmt::format("face '{}' (patch '{}'): its boundary curves cross or touch{}: {}", model.face(face).name,
+                  model.patches()[model.face(face).patch], where, reason_of(surface, error)),
+      std::move(remedy), std::move(named)};
 }
 
 /// Per point of the chart, the length over which the surface turns by an angle; infinite
@@ -156,33 +185,102 @@ private:
   std::vector<double> _turning;  // per point of the chart; empty: any
 };
 
-/// Appends the triangles of one chart to the mesh of the piece. Points the front placed return to the CAD
-/// surface.
-void fill_chart(const cad::Model& model, const sizing::SizeField& field, const Chart& chart,
-                const FaceVertices& vertices, const ChartMeshing& options, FaceMesh& mesh) {
-  const cad::FaceId face = chart.surface.face;
+/// What the front made of charts, until all cuts between them are known.
+struct ChartFilling {
+  std::vector<geometry::Vec3> points;
+  std::vector<Vec2> uv;
+  std::vector<std::array<std::int32_t, 3>> triangles;  // of vertices of the face, or -1 - an own point
+};
+
+/// Fills charts one by one, and divides those that fold.
+class ChartFiller {
+public:
+  ChartFiller(const cad::Model& model, const sizing::SizeField& field, const ChartMeshing& options,
+              FaceVertices& vertices)
+      : _model(model), _field(field), _options(options), _vertices(vertices) {}
+
+  void fill_all(const std::vector<Chart>& charts) {
+    _charts = &charts;
+    for (const Chart& chart : charts) fill(chart, 0);
+  }
+
+  /// Appends all to the mesh of the piece, behind the vertices of the face.
+  void append_to(FaceMesh& mesh) const {
+    const auto first = static_cast<std::int32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), _filling.points.begin(), _filling.points.end());
+    mesh.uv.insert(mesh.uv.end(), _filling.uv.begin(), _filling.uv.end());
+    for (auto triangle : _filling.triangles) {
+      for (std::int32_t& v : triangle) v = v < 0 ? first - 1 - v : v;
+      mesh.triangles.push_back(triangle);
+    }
+  }
+
+private:
+  void fill(const Chart& chart, int divisions);
+  bool divide(const Chart& chart, const front::FrontError& error, int divisions);
+  void add(const Chart& chart, const ChartLocator& locator, const ChartBoundary& boundary,
+           const front::FrontResult& filled);
+
+  const cad::Model& _model;
+  const sizing::SizeField& _field;
+  const ChartMeshing& _options;
+  FaceVertices& _vertices;
+  const std::vector<Chart>* _charts = nullptr;
+  std::optional<JoinedVertices> _joined;  // by edges of charts; made for the first that folds
+  ChartFilling _filling;
+};
+
+void ChartFiller::fill(const Chart& chart, int divisions) {
   const ChartBoundary boundary = boundary_of(chart);
   const ChartLocator locator(chart);
-  const ChartSizes sizes(model, field, chart, locator, options);
-  front::FrontResult filled;
+  const ChartSizes sizes(_model, _field, chart, locator, _options);
   try {
-    filled = front::fill_front(boundary.input,
-                               [&sizes](Vec2 point, std::int32_t& hint) { return sizes(point, hint); });
+    const front::FrontResult filled = front::fill_front(
+        boundary.input, [&sizes](Vec2 point, std::int32_t& hint) { return sizes(point, hint); });
+    add(chart, locator, boundary, filled);
   } catch (const front::FrontError& error) {
-    throw conflict_of(model, face, error, boundary, vertices);
+    if (!divide(chart, error, divisions))
+      throw conflict_of(_model, chart.surface, error, boundary, _vertices);
   }
+}
+
+/// Whether a chart that the front cannot fill was divided, and its parts filled.
+bool ChartFiller::divide(const Chart& chart, const front::FrontError& error, int divisions) {
+  if (!_options.divides_folds || divisions >= most_divisions || _model.is_planar(chart.surface.face))
+    return false;
+  std::vector<std::array<std::int32_t, 2>> chords;
+  for (const front::CrossingEdges& crossing : error.crossings())
+    chords.push_back({crossing.first, crossing.second});
+  const std::optional<ChartFold> fold = find_fold(chart, chords);
+  if (!fold) return false;
+  if (!_joined) {
+    _joined.emplace();
+    for (const Chart& each : *_charts) _joined->merge(joined_vertices(each.surface));
+  }
+  const std::vector<Chart> parts =
+      divide_chart(_model, _field, {chart, *fold}, {.spread = _options.chart_spread}, *_joined, _vertices);
+  for (const Chart& part : parts) _joined->merge(joined_vertices(part.surface));
+  for (const Chart& part : parts) fill(part, divisions + 1);
+  return !parts.empty();
+}
+
+/// Points the front placed return to the CAD surface.
+void ChartFiller::add(const Chart& chart, const ChartLocator& locator, const ChartBoundary& boundary,
+                      const front::FrontResult& filled) {
+  const cad::FaceId face = chart.surface.face;
   std::vector<std::int32_t> number = boundary.face_vertex;
   number.reserve(filled.points.size());
   std::int32_t hint = 0;
   for (std::size_t i = number.size(); i < filled.points.size(); ++i) {
     const ChartPoint at = locator.locate(filled.points[i], hint);
-    const Vec2 guess = model.wrap(face, at.uv);
-    const cad::Projection on_surface = model.project(face, at.point, guess);
-    number.push_back(static_cast<std::int32_t>(mesh.points.size()));
-    mesh.uv.push_back(on_surface.converged ? on_surface.uv : guess);
-    mesh.points.push_back(on_surface.converged ? on_surface.point : model.face_point(face, guess));
+    const Vec2 guess = _model.wrap(face, at.uv);
+    const cad::Projection on_surface = _model.project(face, at.point, guess);
+    number.push_back(-1 - static_cast<std::int32_t>(_filling.points.size()));
+    _filling.uv.push_back(on_surface.converged ? on_surface.uv : guess);
+    _filling.points.push_back(on_surface.converged ? on_surface.point : _model.face_point(face, guess));
   }
-  for (const auto& t : filled.triangles) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  for (const auto& t : filled.triangles)
+    _filling.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
 }
 
 }  // namespace
@@ -194,9 +292,11 @@ FaceMesh mesh_charts(const cad::Model& model, const sizing::SizeField& field, co
   mesh.fixed = vertices.border_count();
   const std::vector<Chart> charts =
       make_charts(model, field, surface, {.spread = options.chart_spread}, vertices);
+  ChartFiller filler(model, field, options, vertices);
+  filler.fill_all(charts);
   mesh.points = vertices.points;
   mesh.uv = vertices.uv;
-  for (const Chart& chart : charts) fill_chart(model, field, chart, vertices, options, mesh);
+  filler.append_to(mesh);
   remesh_interior(model, field, options.remeshing, mesh);
   return mesh;
 }

@@ -30,6 +30,7 @@ struct ChartMeshing {
   double chart_spread = 60;   ///< degrees, as SurfaceOptions::chart_spread
   double largest_turn = 0;    ///< radians the surface may turn along an edge, whatever the field says; 0: any
   double least_fraction = 1;  ///< `largest_turn` lowers sizes to no less than this fraction of the field
+  bool divides_folds = true;  ///< charts whose border meets itself in the plane alone are divided there
   Remeshing remeshing;
 };
 

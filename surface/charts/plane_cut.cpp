@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aeroloom::surface {
 namespace {
@@ -14,6 +15,8 @@ constexpr double least_edge_fraction = 0.1;
 /// Parts below this fraction of the area are not cut off: they would be charts of a few triangles. Chosen,
 /// not measured.
 constexpr double least_area = 0.02;
+/// The same for parts that are cut off since they lie over others: those may be small.
+constexpr double least_folded_area = 1e-7;
 /// The plane bends towards a mesh vertex within this many lengths of the boundary segments there: over a few
 /// triangles, so that none is cut askew. Chosen, not measured.
 constexpr double bend_radius = 2.5;
@@ -30,20 +33,22 @@ struct Bend {
   double radius;
 };
 
-/// The signed distances that define the cut: the plane's, bent near the boundary so that the sign changes in
+std::vector<double> levels_of(const ChartSurface& surface, const CutPlane& plane) {
+  std::vector<double> levels;
+  levels.reserve(surface.points.size());
+  for (const geometry::Vec3 p : surface.points) levels.push_back(dot(plane.normal, p) - plane.offset);
+  return levels;
+}
+
+/// The signed distances that define the cut: those given, bent near the boundary so that the sign changes in
 /// mesh vertices alone.
 class CutLevels {
 public:
-  CutLevels(const ChartSurface& surface, const CutPlane& plane, const std::vector<geometry::HalfEdge>& twins)
-      : _surface(surface),
-        _twins(twins),
-        _levels(surface.points.size()),
-        _on_boundary(surface.points.size(), 0) {
+  CutLevels(const ChartSurface& surface, std::vector<double> levels,
+            const std::vector<geometry::HalfEdge>& twins)
+      : _surface(surface), _twins(twins), _levels(std::move(levels)), _on_boundary(surface.points.size(), 0) {
     double extent = 0;
-    for (std::size_t i = 0; i < _levels.size(); ++i) {
-      _levels[i] = dot(plane.normal, surface.points[i]) - plane.offset;
-      extent = std::max(extent, std::abs(_levels[i]));
-    }
+    for (const double level : _levels) extent = std::max(extent, std::abs(level));
     // Points in the plane but for rounding fall on one side: they come from a CAD file, whose planes are no
     // more exact.
     constexpr double in_plane = 1e-7;
@@ -196,9 +201,10 @@ void divide_at_zero(ChartSurface& surface, const std::vector<geometry::HalfEdge>
 }
 
 /// Gives parts that are too small to their neighbours. Returns the number of parts left.
-std::int32_t absorb_small_parts(const ChartSurface& surface, std::vector<std::int32_t>& side) {
+std::int32_t absorb_small_parts(const ChartSurface& surface, double least_part,
+                                std::vector<std::int32_t>& side) {
   const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
-  const double least = least_area * surface_area(surface);
+  const double least = least_part * surface_area(surface);
   for (std::size_t round = 0; round < most_absorbed; ++round) {
     std::vector<std::int32_t> component;
     const std::int32_t count = label_components(twins, side, component);
@@ -215,17 +221,26 @@ std::int32_t absorb_small_parts(const ChartSurface& surface, std::vector<std::in
   return 1;
 }
 
-}  // namespace
-
-std::optional<CutSurface> cut_by_plane(const ChartSurface& surface, const CutPlane& plane) {
+std::optional<CutSurface> cut_at_zero(const ChartSurface& surface, std::vector<double> raw,
+                                      double least_part) {
   const std::vector<geometry::HalfEdge> twins = geometry::match_half_edges(surface.triangles);
-  std::vector<double> levels = CutLevels(surface, plane, twins).values();
+  std::vector<double> levels = CutLevels(surface, std::move(raw), twins).values();
   CutSurface cut{surface, {}};
   divide_at_zero(cut.surface, twins, levels);
   for (const auto& [a, b, c] : cut.surface.triangles)
     cut.part.push_back(std::min({levels[a], levels[b], levels[c]}) < 0 ? 0 : 1);
-  if (absorb_small_parts(cut.surface, cut.part) < 2) return std::nullopt;
+  if (absorb_small_parts(cut.surface, least_part, cut.part) < 2) return std::nullopt;
   return cut;
+}
+
+}  // namespace
+
+std::optional<CutSurface> cut_by_plane(const ChartSurface& surface, const CutPlane& plane) {
+  return cut_at_zero(surface, levels_of(surface, plane), least_area);
+}
+
+std::optional<CutSurface> cut_by_levels(const ChartSurface& surface, std::vector<double> levels) {
+  return cut_at_zero(surface, std::move(levels), least_folded_area);
 }
 
 }  // namespace aeroloom::surface

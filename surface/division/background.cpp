@@ -230,6 +230,7 @@ std::optional<Background> mesh_background(const Model& model, const PieceProblem
   const ChartMeshing meshing{.chart_spread = options.chart_spread,
                              .largest_turn = largest_turn,
                              .least_fraction = std::min(1.0, fine_edges / factor),
+                             .divides_folds = false,  // other sizes, or the face stays whole
                              .remeshing = {.sweeps = smoothing_sweeps, .resizes = false}};
   try {
     background.mesh = mesh_charts(model, coarse, thin.surface, std::move(thin.vertices), meshing);
