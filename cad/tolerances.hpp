@@ -98,6 +98,17 @@ inline constexpr double most_noise = 1e-5;
 /// Noise over the precision that a file states: both sides of a strip are off by it.
 inline constexpr double noise_over_precision = 2;
 
+// Half models.
+
+/// What lies nearer to the plane of symmetry is put on it (of the diagonal of the body): the last of
+/// `sewing`.
+inline constexpr double on_symmetry = 1e-4;
+/// A planar face near the plane of symmetry is its body's flat side if the two turn by less (radians).
+inline constexpr double flat_side = 5 * geometry::degree;
+/// The fluid between the plane of symmetry and a flat side that leaves it by less would have no thickness
+/// (radians).
+inline constexpr double wedge_at_symmetry = 1 * geometry::degree;
+
 // Small features.
 
 /// An opening may be capped if it leaves its plane by at most this (of the diagonal of the sewn faces): the

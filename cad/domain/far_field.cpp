@@ -1,11 +1,13 @@
 #include "cad/domain/far_field.hpp"
 
 #include "cad/domain/far_field_shape.hpp"
+#include "cad/domain/flat_sides.hpp"
 #include "cad/domain/symmetry.hpp"
 #include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/heal.hpp"
+#include "cad/repair/on_plane.hpp"
 #include "cad/repair/plane_loops.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
@@ -68,10 +70,12 @@ std::vector<TopoDS_Shell> outer_shells(const TopoDS_Shape& bodies, Volumes& volu
 
 /// Trimmed spline faces are integrated to about four digits; what this is to find is a body that vanished or
 /// counts twice.
-void require_sum_of_volumes(double far_field, double body, double fluid) {
+/// `slack` is the volume that borders put on a plane swept.
+void require_sum_of_volumes(double far_field, double body, double fluid, double slack = 0) {
   const double error = std::abs(far_field - body - fluid);
-  if (error <= tolerances::sum_of_volumes * std::abs(body) + tolerances::rounding * far_field && body > 0)
-    return;
+  const double bearable =
+      tolerances::sum_of_volumes * std::abs(body) + tolerances::rounding * far_field + slack;
+  if (error <= bearable && body > 0) return;
   throw CadError(
       fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; the body's "
                   "shells cross or are turned "
@@ -188,6 +192,29 @@ TopoDS_Solid make_fluid_solid(const Walls& walls, const FaceLabels& labels, Volu
   return fluid;
 }
 
+/// Puts the outlines of sections beside the plane on it. Returns a bound on the volume that this changes.
+double put_sections_on_plane(const std::vector<TopoDS_Face>& sections, const SymmetryPlane& symmetry,
+                             Changes& changes) {
+  const AxisPlane plane{symmetry.axis, symmetry.position};
+  std::vector<TopoDS_Edge> beside;
+  Box box;
+  double length = 0;
+  for (const TopoDS_Edge& edge : rim_of(sections)) {
+    if (distance_from(plane, edge) <= symmetry.tolerance) continue;
+    beside.push_back(edge);
+    box.add(tight_box(edge));
+    length += box.diagonal();
+  }
+  if (beside.empty()) return 0;
+  const PutOnPlane put = put_on_plane(beside, plane);
+  changes.push_back(
+      {fmt::format("{} edges of a flat side beside the plane of symmetry put on it (edges nearer "
+                   "than {:.3g}, {:.0e} of the diagonal, are)",
+                   put.edges, in_file(symmetry.reach), tolerances::on_symmetry),
+       put.where, put.most});
+  return put.most * length * box.diagonal();
+}
+
 NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const TopoDS_Solid& far_field,
                          Volumes& volumes, Changes& changes) {
   Walls walls;
@@ -201,15 +228,16 @@ NamedShape surround_half(NamedShape bodies, const SymmetryPlane& symmetry, const
     const TopoDS_Solid body = solid_of(shell, volumes);
     body_volume += volumes.of(body);
     for (const TopoDS_Face& face : faces_of(body)) {
-      (symmetry.holds(face) ? sections : body_walls).push_back(face);
+      (is_flat_side(face, symmetry) ? sections : body_walls).push_back(face);
     }
   }
+  const double moved = put_sections_on_plane(sections, symmetry, changes);
   add_plane(symmetry, far_faces, sections, walls, bodies.labels);
   walls.faces.insert(walls.faces.end(), far_walls.begin(), far_walls.end());
   for (const TopoDS_Face& face : body_walls) walls.faces.push_back(TopoDS::Face(face.Reversed()));
   double cavities = 0;
   const TopoDS_Solid fluid = make_fluid_solid(walls, bodies.labels, volumes, cavities, changes);
-  require_sum_of_volumes(volumes.of(far_field), body_volume + cavities, volumes.of(fluid));
+  require_sum_of_volumes(volumes.of(far_field), body_volume + cavities, volumes.of(fluid), moved);
   bodies.shape = make_compound({fluid});
   return bodies;
 }
@@ -247,7 +275,7 @@ void require_off_plane(const Box& beside, const SymmetryPlane& symmetry) {
 NamedShape surround(NamedShape bodies, const FarFieldOptions& options, Volumes& volumes, Changes& changes,
                     const Box& beside) {
   report_step("building the far field");
-  const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies.shape);
+  const std::optional<SymmetryPlane> symmetry = find_symmetry(options, bodies);
   Box box = tight_box(bodies.shape);
   if (symmetry && !beside.empty()) require_off_plane(beside, *symmetry);
   Box whole = box;

@@ -19,6 +19,7 @@ struct SymmetryPlane {
   double position = 0;
   bool positive = true;  ///< the fluid has larger coordinates than the plane
   double tolerance = 0;  ///< points nearer than this lie on the plane
+  double reach = 0;      ///< flat sides nearer than this are put on the plane
   std::string reason;    ///< how the plane was found
 
   gp_Pln plane() const;  ///< its normal points out of the fluid
@@ -31,10 +32,11 @@ std::string describe(const SymmetryPlane& symmetry);
 
 /// The plane that the options ask for, if any. Throws CadError if no plane can be found or the body does not
 /// reach it.
-std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const TopoDS_Shape& bodies);
+std::optional<SymmetryPlane> find_symmetry(const FarFieldOptions& options, const NamedShape& bodies);
 
-/// The bodies on the plane's side. Bodies that cross the plane are cut, and volumes are checked. Labels
-/// follow.
+/// The bodies on the plane's side. Bodies that cross the plane are cut, and volumes are checked. Those whose
+/// flat side is nearer than the plane's reach stay as they are. Labels follow. Throws CadError for flat sides
+/// that miss the plane by more.
 NamedShape cut_at_symmetry(NamedShape bodies, const SymmetryPlane& symmetry, Volumes& volumes,
                            Changes& changes);
 
