@@ -108,6 +108,10 @@ inline constexpr double flat_side = 5 * geometry::degree;
 /// The fluid between the plane of symmetry and a flat side that leaves it by less would have no thickness
 /// (radians).
 inline constexpr double wedge_at_symmetry = 1 * geometry::degree;
+/// A border that leaves the plane of symmetry by more (of the diagonal) is closed by one planar face only.
+inline constexpr double widest_ruled = 0.05;
+/// Nor is an opening beside the plane whose filling has more than this of the area of the walls.
+inline constexpr double widest_filling = 0.5;
 
 // Small features.
 

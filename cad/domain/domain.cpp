@@ -143,12 +143,30 @@ NamedShape read_shape(const DomainOptions& options, Changes& changes) {
   return none;
 }
 
+/// The plane of symmetry that closes open halves, if the case asks for one.
+std::optional<HalfPlane> half_plane_of(const DomainOptions& options) {
+  if (!options.far_field || options.kind == DomainKind::fluid) return std::nullopt;
+  const FarFieldOptions& far_field = *options.far_field;
+  switch (far_field.symmetry) {
+    case Symmetry::x:
+      return HalfPlane{0, far_field.symmetry_position};
+    case Symmetry::y:
+      return HalfPlane{1, far_field.symmetry_position};
+    case Symmetry::z:
+      return HalfPlane{2, far_field.symmetry_position};
+    case Symmetry::automatic:
+    case Symmetry::none:
+      break;
+  }
+  return std::nullopt;
+}
+
 /// make_solids(); what is open may be so because something was left out.
-NamedShape make_solids_of_source(NamedShape source, double smallest_size, Volumes& volumes,
+NamedShape make_solids_of_source(NamedShape source, const DomainOptions& options, Volumes& volumes,
                                  Changes& changes) {
   const std::string refused = source.refused;
   try {
-    return make_solids(std::move(source), smallest_size, volumes, changes);
+    return make_solids(std::move(source), options.smallest_size, volumes, changes, half_plane_of(options));
   } catch (const CadError& error) {
     if (refused.empty()) throw;
     throw CadError(fmt::format("{} ({}{})", error.what(), left_out, refused));
@@ -160,14 +178,17 @@ FluidShape make_fluid(NamedShape source, const DomainOptions& options, const std
   if (has_facets(options)) return make_fluid_around_facets(std::move(source), options, volumes, changes);
   if (source.cut_names > 0) changes.push_back({geometry::long_names_text(source.cut_names), {}, 0, true});
   std::vector<std::string> names = names_of_file(source);
-  NamedShape solids = make_solids_of_source(std::move(source), options.smallest_size, volumes, changes);
+  NamedShape solids = make_solids_of_source(std::move(source), options, volumes, changes);
   std::optional<HullComparison> hull;
   KindDecision decision = choose_kind(options, solids, volumes, hull);
   const bool triangulated = hull.has_value();
   const bool single = solids_of(solids.shape).size() == 1;
   if (decision.kind == DomainKind::body) {
     drop_loose(solids, changes);
-    FluidShape fluid = surround_bodies(std::move(solids), options, distrust, volumes, changes);
+    DomainOptions at_plane = options;
+    if (solids.symmetry_position && at_plane.far_field)
+      at_plane.far_field->symmetry_position = solids.symmetry_position;
+    FluidShape fluid = surround_bodies(std::move(solids), at_plane, distrust, volumes, changes);
     fluid.decision = std::move(decision), fluid.hull = hull;
     fluid.triangulated = triangulated && !fluid.mixed;
     fluid.names = std::move(names);

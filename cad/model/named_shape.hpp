@@ -4,6 +4,7 @@
 #include "cad/builtin/transport.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,8 +65,9 @@ struct NamedShape {
   double unit_in_metres = 1;     ///< lengths of the file are in this unit
   /// Length in the file's unit of the unit of `shape`, `gap` and `precision` (library_unit.hpp).
   double unit = 1;
-  double gap = 0;            ///< widest gap closed by sewing or as noise
-  double precision = 0;      ///< precision of points that the file states; 0: none
+  std::optional<double> symmetry_position = {};  ///< of the plane that closed an open half
+  double gap = 0;                                ///< widest gap closed by sewing or as noise
+  double precision = 0;                          ///< precision of points that the file states; 0: none
   std::string refused = {};  ///< what the CAD library says of entities that it leaves out; empty: none
   std::vector<std::string> read_otherwise = {};  ///< names that are not UTF-8 in the file, a sentence each
   std::size_t cut_names = 0;  ///< labels with names that were too long (geometry::longest_name)

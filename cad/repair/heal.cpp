@@ -135,14 +135,15 @@ void keep_loose(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
 }
 
 /// Sews open faces to shells. Where there are bodies without them, sheets that do not close are loose faces.
-std::vector<TopoDS_Shell> sew_open_faces(const TopTools_IndexedMapOfShape& faces, bool has_bodies,
-                                         double largest_tolerance, NamedShape& named, Changes& changes) {
+std::vector<TopoDS_Shell> sew_open_faces(const TopTools_IndexedMapOfShape& faces,
+                                         const SewingOptions& options, NamedShape& named, Changes& changes) {
   try {
-    const SewnShells sewn = sew(faces, largest_tolerance, named.labels, changes, has_bodies);
+    const SewnShells sewn = sew(faces, options, named.labels, changes);
     named.gap = sewn.gap;
+    if (sewn.plane) named.symmetry_position = sewn.plane->position;
     return sewn.shells;
   } catch (const CadError& error) {
-    if (!has_bodies || !are_sheets(faces)) throw;
+    if (!options.beside_bodies || !are_sheets(faces)) throw;
     named.sheet_fault = error.what();
   }
   for (const TopoDS_Shape& face : shapes_in(faces)) named.loose.push_back({TopoDS::Face(face), false, true});
@@ -196,7 +197,8 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
   return compound;
 }
 
-NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes) {
+NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes,
+                       const std::optional<HalfPlane>& half) {
   report_step("healing the shape");
   trim_spindle_tori(named, changes);
   Parts parts = take_apart(named.shape, named.labels, named.loose, changes);
@@ -210,9 +212,9 @@ NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes,
     parts.loose_faces.Clear();
   }
   if (!parts.open_faces.IsEmpty()) {
-    const bool has_bodies = !solids.empty() || !shells.empty();
-    const std::vector<TopoDS_Shell> sewn =
-        sew_open_faces(parts.open_faces, has_bodies, largest_sewing_tolerance(smallest_size), named, changes);
+    const SewingOptions options{largest_sewing_tolerance(smallest_size), !solids.empty() || !shells.empty(),
+                                half};
+    const std::vector<TopoDS_Shell> sewn = sew_open_faces(parts.open_faces, options, named, changes);
     shells.insert(shells.end(), sewn.begin(), sewn.end());
   }
   const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);

@@ -9,6 +9,7 @@
 #include "cad/model/topology/model_topology.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"
+#include "cad/repair/open_faces.hpp"
 #include "cad/repair/plane_loops.hpp"
 #include "cad/repair/shells.hpp"
 #include "cad/tolerances.hpp"
@@ -43,14 +44,6 @@ namespace {
 /// A shape that is open wider than this fraction of its faces' area is a sheet, not a body with an opening:
 /// an open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
 constexpr double widest_opening = 0.5;
-
-struct Sewn {
-  std::vector<TopoDS_Shell> closed;
-  TopoDS_Shape shape;
-  FaceLabels labels;
-  double tolerance = 0, fraction = 0;
-  bool complete = false;  ///< no face outside closed shells
-};
 
 void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_Sewing& sewing,
                  FaceLabels& labels) {
@@ -232,94 +225,34 @@ std::vector<Attempt> attempts_of(const TopTools_IndexedMapOfShape& faces, double
   return attempts;
 }
 
-/// The name of the only face around an edge, or of its solid; empty where the file names neither.
-std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, const FaceLabels& labels) {
-  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    for (TopExp_Explorer edges(faces.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
-      if (!edges.Current().IsSame(edge)) continue;
-      const FaceLabel* label = labels.Seek(faces.Current());
-      if (label == nullptr) return {};
-      return label->name.empty() ? label->solid : label->name;
+/// Closes what is open least, at the plane of symmetry. `fault` says why that failed.
+std::optional<SewnShells> close_best_half(const std::vector<Sewn>& tried, const HalfPlane& half,
+                                          FaceLabels& labels, Changes& changes, std::string& fault) {
+  std::vector<std::pair<double, const Sewn*>> by_opening;
+  for (const Sewn& open : tried) {
+    if (open.shape.IsNull()) continue;
+    double length = 0;
+    for (const TopoDS_Edge& edge : open_edges(open.shape)) length += length_of(edge);
+    by_opening.emplace_back(length, &open);
+  }
+  std::ranges::stable_sort(by_opening, {}, &std::pair<double, const Sewn*>::first);
+  for (const auto& [length, open] : by_opening) {
+    const ClosedHalf closed = close_half(open->shape, open->labels, half);
+    if (!closed.fault.empty()) {
+      if (fault.empty()) fault = closed.fault;
+      continue;
     }
+    Sewn sewn = *open;
+    sewn.closed = closed.shells;
+    const double gap = report_sewn(sewn, map_of(open->shape, TopAbs_FACE).Extent(), changes);
+    changes.insert(changes.end(), closed.changes.begin(), closed.changes.end());
+    labels = closed.labels;
+    return SewnShells{closed.shells, gap, closed.plane};
   }
-  return {};
-}
-
-std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels) {
-  constexpr std::size_t shown = 5;  // a message of some lines
-  const std::vector<TopoDS_Edge> edges = open_edges(shape);
-  std::string text = fmt::format("{} open edges", edges.size());
-  for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {
-    const BRepAdaptor_Curve curve(edges[i]);
-    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    text += fmt::format("{} at {} length {:.6g}", i == 0 ? ":" : ";", place_in_file(to_vec(middle)),
-                        in_file(GCPnts_AbscissaPoint::Length(curve)));
-    const std::string name = name_around(edges[i], shape, labels);
-    if (!name.empty()) text += fmt::format(" of '{}'", name);
-  }
-  return text + (edges.size() > shown ? "; ..." : "");
-}
-
-/// Names of faces outside of closed shells.
-std::vector<std::string> stray_names(const Sewn& sewn) {
-  TopTools_IndexedMapOfShape closed;
-  for (const TopoDS_Shell& shell : sewn.closed) TopExp::MapShapes(shell, TopAbs_FACE, closed);
-  std::vector<std::string> names;
-  const TopTools_IndexedMapOfShape all = map_of(sewn.shape, TopAbs_FACE);
-  for (int i = 1; i <= all.Extent(); ++i) {
-    const std::string name = shown_name(sewn.labels, all(i));
-    if (!closed.Contains(all(i)) && !name.empty()) names.push_back(name);
-  }
-  return names;
-}
-
-/// Beside closed bodies the faces are likely to be strays.
-[[noreturn]] void refuse_open(const TopTools_IndexedMapOfShape& faces, const Sewn& last,
-                              const FaceLabels& labels, bool beside_bodies) {
-  constexpr std::size_t most_named = 10;
-  std::vector<std::string> strays;
-  if (beside_bodies || !last.closed.empty()) {
-    if (faces.Extent() == 1)
-      strays.push_back(shown_name(labels, faces(1)));
-    else if (!last.shape.IsNull())
-      strays = stray_names(last);
-  }
-  std::erase(strays, "");
-  const std::string remedy = strays.empty() || strays.size() > most_named
-                                 ? ""
-                                 : fmt::format(
-                                       "Remedy: leave what is no wall of a body out (DomainOptions::ignore: "
-                                       "['{}']), or close it to a "
-                                       "body in the CAD program",
-                                       fmt::join(strays, "', '"));
-  if (faces.Extent() == 1) {
-    const Box box = tight_box(faces(1));
-    throw CadError(fmt::format("a single face '{}', around {}, bounds no volume: {}. {}",
-                               shown_name(labels, faces(1)), place_in_file(box.center()),
-                               list_open_edges(faces(1), labels),
-                               remedy.empty() ? "Add the faces that close it in the CAD program" : remedy));
-  }
-  throw CadError(
-      fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
-                  "the diagonal), and their openings are no small planar ones: {}. {}",
-                  in_file(last.tolerance), last.fraction,
-                  last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels),
-                  remedy.empty() ? "Close the gaps in the CAD program" : remedy));
+  return std::nullopt;
 }
 
 }  // namespace
-
-std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
-  TopTools_IndexedDataMapOfShapeListOfShape users;
-  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
-  std::vector<TopoDS_Edge> open;
-  for (int i = 1; i <= users.Extent(); ++i) {
-    const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
-    if (users(i).Extent() == 1 && bounds_material(edge) && !BRep_Tool::Degenerated(edge))
-      open.push_back(edge);
-  }
-  return open;
-}
 
 bool are_sheets(const TopTools_IndexedMapOfShape& faces) {
   TopoDS_Compound all;
@@ -344,13 +277,13 @@ bool are_sheets(const TopTools_IndexedMapOfShape& faces) {
   return true;
 }
 
-SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance, FaceLabels& labels,
-               Changes& changes, bool beside_bodies) {
+SewnShells sew(const TopTools_IndexedMapOfShape& faces, const SewingOptions& options, FaceLabels& labels,
+               Changes& changes) {
   const Box box = tight_box(std::vector<TopoDS_Shape>(faces.cbegin(), faces.cend()));
   const double diagonal = box.diagonal();
   std::vector<Sewn> tried;
   for (const Attempt& attempt : attempts_of(faces, diagonal)) {
-    if (!tried.empty() && attempt.fraction * diagonal > largest_tolerance) break;
+    if (!tried.empty() && attempt.fraction * diagonal > options.largest_tolerance) break;
     Sewn& sewn = tried.emplace_back(sew_once(attempt.faces, attempt.fraction * diagonal, labels));
     sewn.fraction = attempt.fraction;
     if (!sewn.complete) {
@@ -366,7 +299,7 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     }
     const double gap = report_sewn(sewn, attempt.faces.Extent(), changes);
     labels = sewn.labels;
-    return {sewn.closed, gap};
+    return {sewn.closed, gap, {}};
   }
   for (const Sewn& open : tried) {
     if (open.shape.IsNull()) continue;
@@ -376,9 +309,14 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, double largest_tolerance
     changes.insert(changes.end(), caps_made.begin(), caps_made.end());
     const double gap = report_sewn(capped, faces.Extent(), changes);
     labels = capped.labels;
-    return {capped.closed, gap};
+    return {capped.closed, gap, {}};
   }
-  refuse_open(faces, tried.back(), labels, beside_bodies);
+  std::string fault;
+  if (options.half) {
+    const std::optional<SewnShells> half = close_best_half(tried, *options.half, labels, changes, fault);
+    if (half) return *half;
+  }
+  refuse_open(faces, tried.back(), labels, {options.beside_bodies, fault});
 }
 
 }  // namespace aeroloom::cad

@@ -1,0 +1,125 @@
+#include "cad/repair/open_faces.hpp"
+
+#include "cad/model/library_unit.hpp"
+#include "cad/model/model_data.hpp"
+#include "cad/model/shape_map.hpp"
+#include "cad/model/to_vec.hpp"
+#include "cad/repair/half_shells.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace aeroloom::cad {
+namespace {
+
+/// The name of the only face around an edge, or of its solid; empty where the file names neither.
+std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, const FaceLabels& labels) {
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    for (TopExp_Explorer edges(faces.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
+      if (!edges.Current().IsSame(edge)) continue;
+      const FaceLabel* label = labels.Seek(faces.Current());
+      if (label == nullptr) return {};
+      return label->name.empty() ? label->solid : label->name;
+    }
+  }
+  return {};
+}
+
+std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels) {
+  constexpr std::size_t shown = 5;  // a message of some lines
+  const std::vector<TopoDS_Edge> edges = open_edges(shape);
+  std::string text = fmt::format("{} open edges", edges.size());
+  for (std::size_t i = 0; i < std::min(shown, edges.size()); ++i) {
+    const BRepAdaptor_Curve curve(edges[i]);
+    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    text += fmt::format("{} at {} length {:.6g}", i == 0 ? ":" : ";", place_in_file(to_vec(middle)),
+                        in_file(GCPnts_AbscissaPoint::Length(curve)));
+    const std::string name = name_around(edges[i], shape, labels);
+    if (!name.empty()) text += fmt::format(" of '{}'", name);
+  }
+  return text + (edges.size() > shown ? "; ..." : "");
+}
+
+/// Names of faces outside of closed shells.
+std::vector<std::string> stray_names(const Sewn& sewn) {
+  TopTools_IndexedMapOfShape closed;
+  for (const TopoDS_Shell& shell : sewn.closed) TopExp::MapShapes(shell, TopAbs_FACE, closed);
+  std::vector<std::string> names;
+  const TopTools_IndexedMapOfShape all = map_of(sewn.shape, TopAbs_FACE);
+  for (int i = 1; i <= all.Extent(); ++i) {
+    const std::string name = shown_name(sewn.labels, all(i));
+    if (!closed.Contains(all(i)) && !name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+/// Where open edges lie in one coordinate plane, or why the plane of symmetry closes nothing.
+std::string half_remedy(const Sewn& open, const OpenReasons& reasons) {
+  if (!reasons.half.empty())
+    return fmt::format(" Nor does the plane of symmetry close them: {}.", reasons.half);
+  if (open.shape.IsNull()) return {};
+  const auto plane = plane_of_openings(open_edges(open.shape), tight_box(open.shape).diagonal());
+  if (!plane) return {};
+  return fmt::format(
+      " It seems to be half of a model, open on the plane {0} = {1:.6g}: FarFieldOptions::symmetry "
+      "'{0}' closes it there.",
+      "xyz"[plane->axis], in_file(plane->position));
+}
+
+}  // namespace
+
+void refuse_open(const TopTools_IndexedMapOfShape& faces, const Sewn& last, const FaceLabels& labels,
+                 const OpenReasons& reasons) {
+  constexpr std::size_t most_named = 10;
+  std::vector<std::string> strays;
+  if (reasons.beside_bodies || !last.closed.empty()) {
+    if (faces.Extent() == 1)
+      strays.push_back(shown_name(labels, faces(1)));
+    else if (!last.shape.IsNull())
+      strays = stray_names(last);
+  }
+  std::erase(strays, "");
+  const std::string remedy = strays.empty() || strays.size() > most_named
+                                 ? ""
+                                 : fmt::format(
+                                       "Remedy: leave what is no wall of a body out (DomainOptions::ignore: "
+                                       "['{}']), or close it to a "
+                                       "body in the CAD program",
+                                       fmt::join(strays, "', '"));
+  if (faces.Extent() == 1) {
+    const Box box = tight_box(faces(1));
+    throw CadError(fmt::format("a single face '{}', around {}, bounds no volume: {}. {}",
+                               shown_name(labels, faces(1)), place_in_file(box.center()),
+                               list_open_edges(faces(1), labels),
+                               remedy.empty() ? "Add the faces that close it in the CAD program" : remedy));
+  }
+  throw CadError(
+      fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
+                  "the diagonal), and their openings are no small planar ones: {}.{} {}",
+                  in_file(last.tolerance), last.fraction,
+                  last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels),
+                  half_remedy(last, reasons), remedy.empty() ? "Close the gaps in the CAD program" : remedy));
+}
+
+std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape users;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, users);
+  std::vector<TopoDS_Edge> open;
+  for (int i = 1; i <= users.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(users.FindKey(i));
+    if (users(i).Extent() == 1 && bounds_material(edge) && !BRep_Tool::Degenerated(edge))
+      open.push_back(edge);
+  }
+  return open;
+}
+
+}  // namespace aeroloom::cad
