@@ -327,11 +327,7 @@ report::ExitCode check_case(const parallel::Communicator& communicator, const ca
     clock.end();
     const cad::Model& model = patches.model;
     record.patch_types = patches.types;
-    if (communicator.is_root()) {
-      warn_of_units(model.unit_name(), model.unit_in_metres(), input.output);
-      warn_of_solver_points(input);
-      for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
-    }
+    if (communicator.is_root()) warn_of_case(patches, input);
     // One model alone: areas and facets that the forecast needs are not made again.
     if (communicator.is_root()) record.diagnosis.domain->model = model;
     record.forecast = forecast_run(patches, input, scales, clock, communicator);

@@ -148,11 +148,7 @@ private:
     const cad::Domain domain = find_or_load_domain();
     domain::require_lengths_of_model(_communicator, domain.model, _input);
     cases::TypedPatches patches = domain::find_patches(_communicator, domain, _input);
-    if (_communicator.is_root()) {
-      warn_of_units(patches.model.unit_name(), patches.model.unit_in_metres(), _input.output);
-      warn_of_solver_points(_input);
-      for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
-    }
+    if (_communicator.is_root()) warn_of_case(patches, _input);
     note_model(patches.model);
     log_geometry(patches.model, domain.report);
     return patches;

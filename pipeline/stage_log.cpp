@@ -90,6 +90,12 @@ void warn_of_solver_points(const cases::Case& input) {
   }
 }
 
+void warn_of_case(const cases::TypedPatches& patches, const cases::Case& input) {
+  warn_of_units(patches.model.unit_name(), patches.model.unit_in_metres(), input.output);
+  warn_of_solver_points(input);
+  for (const std::string& warning : patches.warnings) parallel::log_warning(warning);
+}
+
 namespace {
 
 void log_closed_cusps(const std::vector<surface::ClosedCusp>& cusps,

@@ -22,6 +22,8 @@ void warn_of_units(const std::string& unit, double metres, const cases::OutputOp
 /// Warns of a y+ at the first node where a format is for solvers that have it at the first cell's centre. One
 /// rank calls.
 void warn_of_solver_points(const cases::Case& input);
+/// All that can be told of a case before any work: units, y+, and rules for patches. One rank calls.
+void warn_of_case(const cases::TypedPatches& patches, const cases::Case& input);
 void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigures& figures);
 /// Warns of walls whose triangles have clearly another area than the CAD. One rank calls.
 void warn_of_lost_area(const std::vector<report::PatchRow>& patches);
