@@ -6,6 +6,7 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/border_chains.hpp"
+#include "cad/repair/narrow_loops.hpp"
 #include "cad/repair/plane_loops.hpp"
 #include "cad/repair/sewing.hpp"
 #include "cad/repair/shells.hpp"
@@ -20,6 +21,7 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
@@ -234,6 +236,7 @@ private:
     const std::string text = describe_chain(chain, filling.length);
     const bool is_wide = filling.is_wide || (filling.faces.size() > 1 && filling.width > limits.widest);
     if (is_wide || filling.faces.empty() || area > tolerances::widest_filling * walls) {
+      if (span(chain, text)) return true;
       return fail(
           fmt::format("{}, which leaves the plane of symmetry {} by up to {:.4g} at {}, is too wide to be "
                       "closed",
@@ -249,12 +252,33 @@ private:
     return true;
   }
 
+  /// Closes a narrow chain by one face, as a blunt trailing edge that ends at the plane.
+  bool span(const BorderChain& chain, const std::string& text) {
+    std::vector<TopoDS_Edge> loop = chain.edges;
+    const TopoDS_Vertex begin = TopExp::FirstVertex(loop.front(), true),
+                        end = TopExp::LastVertex(loop.back(), true);
+    if (!begin.IsSame(end)) {
+      BRepBuilderAPI_MakeEdge chord(end, begin);
+      if (!chord.IsDone()) return false;
+      loop.push_back(chord.Edge());
+    }
+    const std::optional<Cap> cap = span_narrow_loop(
+        loop, {tolerances::planar_opening * _box.diagonal(), tolerances::widest_ruled * _box.diagonal()});
+    if (!cap) return false;
+    add_cap(cap->face);
+    _half.changes.push_back(
+        {fmt::format("{}: closed by a narrow face of area {:.4g}", text, in_file(cap->area, 2)), cap->center,
+         cap->deviation});
+    return true;
+  }
+
   bool cap_loop(const BorderChain& chain, double walls) {
     const std::vector<Cap> caps = cap_openings(chain.edges, tolerances::planar_opening * _box.diagonal());
     double length = 0;
     for (const TopoDS_Edge& edge : chain.edges) length += length_along(edge);
     const std::string text = describe_chain(chain, length);
     if (caps.size() != 1 || caps.front().area > tolerances::widest_filling * walls) {
+      if (span(chain, text)) return true;
       const gp_Pnt place = BRep_Tool::Pnt(TopExp::FirstVertex(chain.edges.front()));
       return fail(
           fmt::format("{}, at {}, is no small planar one and does not lead to the plane of symmetry {}", text,

@@ -10,9 +10,11 @@
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepFill.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
@@ -118,6 +120,17 @@ Faces two_bodies() {
   return faces;
 }
 
+/// A swept wing, open at its root, whose trailing edge is blunt and has no face; `twist` turns it at the tip.
+Faces blunt_wing(double twist) {
+  const gp_Pnt nose(0, 0, 0), high(1, 0, 0.01), low(1, 0, -0.01);
+  const gp_Pnt far_nose(1, 4, 0), far_high(2 + twist, 4, 0.01), far_low(2 - twist, 4, -0.01);
+  const auto wall = [](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& c, const gp_Pnt& d) {
+    return BRepFill::Face(BRepBuilderAPI_MakeEdge(a, b).Edge(), BRepBuilderAPI_MakeEdge(d, c).Edge());
+  };
+  return {wall(nose, high, far_high, far_nose), wall(nose, far_nose, far_low, low),
+          polygon({far_nose, far_high, far_low})};
+}
+
 /// The border is no plane curve: its corners are off the plane by up to 1e-4.
 Faces uneven() {
   const gp_Pnt a(0, 0, 0), b(2, 1e-4, 0), c(2, 0, 1), d(0, 5e-5, 1), e(0, 1, 0), f(2, 1, 0), g(2, 1, 1),
@@ -147,6 +160,8 @@ const OpenHalf halves[] = {
     {"BesideByMore", [] { return moved(flat_box(), 2e-3); }, {}, 0.4, 3.2, 1, 2e-3},
     {"Across", [] { return moved(flat_box(), -0.1); }, 0, 0.2, 2.6, 1},
     {"AcrossByALittle", [] { return moved(flat_box(), -2e-3); }, 0, 0.396, 3.188, 1},
+    {"BluntWing", [] { return moved(blunt_wing(0), 0); }, {}, 0.04, 8.1, 1},
+    {"BluntWingBeside", [] { return moved(blunt_wing(0.02), 1e-4); }, 0, 0.04, 8.13, 1},
     {"Uneven", [] { return moved(uneven(), 0); }, {}, 2, 8, 1},
 };
 

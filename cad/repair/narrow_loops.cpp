@@ -1,0 +1,116 @@
+#include "cad/repair/narrow_loops.hpp"
+
+#include "cad/model/to_vec.hpp"
+#include "cad/tolerances.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GCPnts_AbscissaPoint.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomConvert.hxx>
+#include <GeomFill.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <ShapeFix_Edge.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Wire.hxx>
+
+namespace aeroloom::cad {
+namespace {
+
+double border_length(const TopoDS_Edge& edge) {
+  return GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edge));
+}
+
+/// The curve of an edge in its direction.
+opencascade::handle<Geom_BSplineCurve> spline_along(const TopoDS_Edge& edge) {
+  double first, last;
+  const opencascade::handle<Geom_Curve> curve = BRep_Tool::Curve(edge, first, last);
+  if (curve.IsNull()) return nullptr;
+  opencascade::handle<Geom_BSplineCurve> spline =
+      GeomConvert::CurveToBSplineCurve(new Geom_TrimmedCurve(curve, first, last));
+  if (edge.Orientation() == TopAbs_REVERSED) spline->Reverse();
+  return spline;
+}
+
+TopoDS_Face face_of(const opencascade::handle<Geom_Surface>& surface, const TopoDS_Wire& wire) {
+  BRep_Builder builder;
+  TopoDS_Face face;
+  builder.MakeFace(face, surface, tolerances::library_length);
+  builder.Add(face, wire);
+  return face;
+}
+
+/// Area that the loop encloses in the parameters of the face, positive if it runs counter-clockwise.
+double area_in_parameters(const std::vector<TopoDS_Edge>& loop, const TopoDS_Face& face) {
+  constexpr int samples = 16;  // of an edge, only for the sign
+  double twice = 0;
+  for (const TopoDS_Edge& edge : loop) {
+    double first, last;
+    const opencascade::handle<Geom2d_Curve> curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (curve.IsNull()) return 0;
+    double sum = 0;
+    gp_Pnt2d before = curve->Value(first);
+    for (int i = 1; i <= samples; ++i) {
+      const gp_Pnt2d next = curve->Value(first + (last - first) * i / samples);
+      sum += before.X() * next.Y() - next.X() * before.Y();
+      before = next;
+    }
+    twice += edge.Orientation() == TopAbs_REVERSED ? -sum : sum;
+  }
+  return 0.5 * twice;
+}
+
+/// Ruled between the two opposite edges that are longer together.
+TopoDS_Face rule(const std::vector<TopoDS_Edge>& loop) {
+  std::array<double, 4> lengths{};
+  for (std::size_t i = 0; i < 4; ++i) lengths[i] = border_length(loop[i]);
+  const std::size_t side = lengths[0] + lengths[2] >= lengths[1] + lengths[3] ? 0 : 1;
+  const opencascade::handle<Geom_BSplineCurve> there = spline_along(loop[side]),
+                                               back = spline_along(loop[side + 2]);
+  if (there.IsNull() || back.IsNull()) return {};
+  back->Reverse();
+  const opencascade::handle<Geom_Surface> surface = GeomFill::Surface(there, back);
+  if (surface.IsNull()) return {};
+  BRep_Builder builder;
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  for (const TopoDS_Edge& edge : loop) builder.Add(wire, edge);
+  wire.Closed(true);
+  const TopoDS_Face face = face_of(surface, wire);
+  for (const TopoDS_Edge& edge : loop) ShapeFix_Edge().FixAddPCurve(edge, face, false);
+  const double area = area_in_parameters(loop, face);
+  if (area == 0) return {};
+  return area > 0 ? face : face_of(surface, TopoDS::Wire(wire.Reversed()));
+}
+
+}  // namespace
+
+std::optional<Cap> span_narrow_loop(const std::vector<TopoDS_Edge>& loop, const NarrowLimits& limits) {
+  double length = 0;
+  for (const TopoDS_Edge& edge : loop) length += border_length(edge);
+  const auto is_narrow = [&](const Cap& cap) { return 2 * cap.area <= limits.widest * length; };
+  std::vector<Cap> planar = cap_openings(loop, limits.planar);
+  if (planar.size() == 1) return is_narrow(planar.front()) ? std::optional(planar.front()) : std::nullopt;
+  if (loop.size() != 4) return std::nullopt;
+  Cap cap;
+  cap.face = rule(loop);
+  if (cap.face.IsNull()) return std::nullopt;
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(cap.face, properties);
+  cap.area = std::abs(properties.Mass());
+  cap.center = to_vec(properties.CentreOfMass());
+  return is_narrow(cap) ? std::optional(cap) : std::nullopt;
+}
+
+}  // namespace aeroloom::cad
