@@ -17,6 +17,9 @@ using geometry::Vec3;
 /// Files write coordinates with about six digits. A triangle that is lower than so many units of the last one
 /// has no normal of its own: it would be off by degrees. Chosen.
 constexpr double last_digit = 5e-7, lowest_in_digits = 20;
+/// A small triangle lies in the plane of a neighbour if its own normal is so near: rounding does not make it
+/// so. It is small, and no needle, if it is higher than this fraction of its longest side. Chosen.
+constexpr double one_plane = 1 * geometry::degree, lowest_of_small = 0.05;
 
 class FacetNormals {
 public:
@@ -29,7 +32,7 @@ public:
     const double lowest = lowest_in_digits * last_digit * largest;
     _normals.resize(_soup.triangles.size());
     _known.assign(_soup.triangles.size(), 0);
-    std::vector<std::int32_t> thin;
+    std::vector<std::int32_t> thin, small;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(_normals.size()); ++t) {
       const auto& [a, b, c] = _soup.triangles[t];
       const Vec3 area = cross(point(b) - point(a), point(c) - point(a));
@@ -39,12 +42,17 @@ public:
       if (norm(area) >= lowest * longest) {
         _known[t] = 1;
       } else {
-        thin.push_back(t);
+        (norm(area) >= lowest_of_small * longest * longest ? small : thin).push_back(t);
       }
     }
-    // First over the longest side alone, then over any.
+    // Small ones first from those in whose plane they lie: where a plane runs to a point, as at the end of a
+    // sharp trailing edge, their longest sides are those of its border.
+    while (inherit(small, 3, one_plane)) continue;
+    thin.insert(thin.end(), small.begin(), small.end());
+    std::sort(thin.begin(), thin.end());
+    // Then over the longest side alone, then over any.
     for (int sides = 1; sides <= 3; ++sides) {
-      while (inherit(thin, sides)) continue;
+      while (inherit(thin, sides, std::numbers::pi)) continue;
     }
     return std::move(_normals);
   }
@@ -52,14 +60,16 @@ public:
 private:
   Vec3 point(std::int32_t p) const { return _soup.points[p]; }
 
-  /// One round: what is known at its begin counts, so that order does not. False when nothing came of it.
-  bool inherit(std::vector<std::int32_t>& thin, int sides) {
+  /// One round: what is known at its begin counts, so that order does not. Neighbours count whose normal is
+  /// no farther than `turn` from that of the triangle itself. False when nothing came of it.
+  bool inherit(std::vector<std::int32_t>& thin, int sides, double turn) {
     std::vector<std::int32_t> found, from;
     for (const std::int32_t t : thin) {
       const std::array<std::int32_t, 3> order = sides_by_length(t);
       for (int i = 0; i < sides; ++i) {
         const std::int32_t other = neighbour(3 * t + order[i]);
         if (other < 0 || _known[other] == 0) continue;
+        if (turn < std::numbers::pi && !(angle_between(_normals[t], _normals[other]) <= turn)) continue;
         found.push_back(t), from.push_back(other);
         break;
       }

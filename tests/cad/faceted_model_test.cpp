@@ -191,6 +191,39 @@ TEST(FacetedModel, NoFaceHasBothSidesOfACurve) {
   for (const FacetedEdge& edge : part.edges()) EXPECT_EQ(edge.uses.size(), 2u);
 }
 
+/// A wing that closes to a sharp edge, in sections ever nearer to it, written with six digits. Its ends run
+/// to a point between the sides, in triangles as small as the last digits.
+TEST(FacetedModel, EndsOfASharpTrailingEdgeStayFaces) {
+  FacetSoup soup = faceted::empty_soup();
+  const auto add = [&](double x, double y, double z) { soup.points.push_back({x, y, z}); };
+  const double sections[] = {0, 0.5, 0.9, 0.99, 0.999, 0.9999, 0.99996, 0.99997, 0.999978, 0.999985, 0.99999};
+  for (const double x : sections) {
+    for (const double y : {-0.5, 0.5}) add(x, y, 0.14 * (1 - x)), add(x, y, -0.14 * (1 - x));
+  }
+  const auto edge = static_cast<std::int32_t>(soup.points.size());
+  for (const double y : {-0.5, 0.5}) add(1, y, 0);
+  const auto add_quad = [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+    faceted::add_triangle(soup, a, b, c);
+    faceted::add_triangle(soup, a, c, d);
+  };
+  add_quad(0, 2, 3, 1);  // the blunt front
+  for (std::int32_t s = 0; s + 4 < edge; s += 4) {
+    add_quad(s, s + 4, s + 6, s + 2);      // above
+    add_quad(s + 1, s + 3, s + 7, s + 5);  // below
+    add_quad(s, s + 1, s + 5, s + 4);      // y = -0.5
+    add_quad(s + 2, s + 6, s + 7, s + 3);  // y = 0.5
+  }
+  const std::int32_t last = edge - 4;
+  add_quad(last, edge, edge + 1, last + 2);
+  add_quad(last + 1, last + 3, edge + 1, edge);
+  faceted::add_triangle(soup, last, last + 1, edge);
+  faceted::add_triangle(soup, last + 2, edge + 1, last + 3);
+  const FacetComplex complex = complex_of(std::move(soup));
+  EXPECT_EQ(complex.faces.size(), 5u);
+  EXPECT_EQ(complex.curves.size(), 9u);
+  EXPECT_EQ(complex.vertices.size(), 6u);
+}
+
 /// A torus of needles: the division goes along them, not to and fro.
 TEST(FacetedModel, FacesAreDividedAlongNeedles) {
   constexpr std::int32_t sections = 7, around = 160;
