@@ -24,6 +24,21 @@ std::string and_more(std::size_t all) {
   return all > shown_walls ? fmt::format("; and {} more", all - shown_walls) : "";
 }
 
+std::string describe(const FacesOnOneAnother& each) {
+  const std::string place =
+      fmt::format("over an area of about {:.3g} near {}", each.area, geometry::place_text(each.place));
+  if (each.triangles > 0) {
+    return fmt::format(
+        "faces '{}' and '{}' lie on one another but for a gap of {:.2g} at most, {}, where elements as small "
+        "would be about {:.2g} triangles on each",
+        each.first, each.second, each.apart, place, each.triangles);
+  }
+  return fmt::format("faces '{}' and '{}' lie on one another {}, {}", each.first, each.second, place,
+                     each.apart > exact * std::sqrt(each.area)
+                         ? fmt::format("{:.2g} apart at most", each.apart)
+                         : "exactly");
+}
+
 }  // namespace
 
 WallFindings report_walls(const cad::Model& model, const std::vector<sizing::CoincidentFaces>& coincident,
@@ -33,8 +48,8 @@ WallFindings report_walls(const cad::Model& model, const std::vector<sizing::Coi
     walls.unseen.push_back({factory.model().face(each.face).name, each.place, each.size});
   for (const sizing::CoincidentFaces& each : coincident) {
     if (field(each.place) < size_over_distance * each.apart) continue;
-    walls.coincident.push_back(
-        {model.face(each.first).name, model.face(each.second).name, each.area, each.place, each.apart});
+    walls.coincident.push_back({model.face(each.first).name, model.face(each.second).name, each.area,
+                                each.place, each.apart, each.triangles});
   }
   return walls;
 }
@@ -50,17 +65,26 @@ std::string describe(const std::vector<UnseenWalls>& unseen) {
 std::string describe(const std::vector<FacesOnOneAnother>& coincident) {
   if (coincident.empty()) return {};
   std::string text;
-  for (std::size_t i = 0; i < std::min(shown_walls, coincident.size()); ++i) {
+  bool any_void = false, any_gap = false;
+  for (std::size_t i = 0; i < coincident.size(); ++i) {
     const FacesOnOneAnother& each = coincident[i];
-    text += fmt::format(
-        "{}faces '{}' and '{}' lie on one another over an area of about {:.3g} near {}, {}",
-        i == 0 ? "" : "; ", each.first, each.second, each.area, geometry::place_text(each.place),
-        each.apart > exact * std::sqrt(each.area) ? fmt::format("{:.2g} apart at most", each.apart)
-                                                  : "exactly");
+    (each.triangles > 0 ? any_gap : any_void) = true;
+    if (i < shown_walls) text += (i == 0 ? "" : "; ") + describe(each);
   }
-  return text + and_more(coincident.size()) +
-         ". There is no volume between them to mesh. Remedy: remove one of them in the CAD program, or unite "
-         "the parts they belong to";
+  text += and_more(coincident.size());
+  if (any_void) {
+    text +=
+        ". There is no volume between them to mesh. Remedy: remove one of them in the CAD program, or unite "
+        "the parts they belong to";
+  }
+  if (any_gap) {
+    text += fmt::format(
+        ". {} too thin for a mesh. Remedy: close or widen {} in the CAD program, or ask for sizes there of "
+        "at "
+        "most {} times the gap",
+        any_void ? "Gaps are" : "The gap is", any_void ? "them" : "it", size_over_distance);
+  }
+  return text;
 }
 
 }  // namespace aeroloom::domain

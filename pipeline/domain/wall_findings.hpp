@@ -28,6 +28,7 @@ struct FacesOnOneAnother {
   double area;           ///< approximate common area
   geometry::Vec3 place;  ///< in the common area
   double apart;          ///< largest distance
+  double triangles = 0;  ///< on each, if the gap between them were meshed; 0: there is no volume between them
 };
 
 struct WallFindings {

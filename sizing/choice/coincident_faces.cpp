@@ -31,8 +31,9 @@ constexpr double nearest_walls = 2e-5, least_part = 0.05;
 // as that is only thin.
 constexpr double nearest_in_gap = 2e-4, most_triangles_in_gap = 1e7;
 constexpr double triangles_per_area = 4 / std::numbers::sqrt3;  // times the square of their edges
-// ModelFacets that run together towards a common edge are no overlap: the distance over that to the edge, at
-// most.
+// What is no wider than `nearest_walls` is noise, as what is no farther apart: a strip along the end of a
+// sharp trailing edge, or along a common edge. ModelFacets that run together towards a common edge are no
+// overlap: the distance over that to the edge, at most.
 constexpr double least_wedge = 1e-3;
 // Chosen, not measured: the cosine between normals, to either side; the overlap of two facets over the area
 // of the smaller one; places of two faces, those of the largest overlaps, each of which takes a projection.
@@ -68,6 +69,7 @@ Polygon clip(const Polygon& polygon, Vec3 a, Vec3 b, Vec3 normal) {
 struct Overlap {
   double area = 0;
   Vec3 middle;  // in the plane of the first
+  geometry::Box box;
 };
 
 /// Of two triangles, seen along the normal of the first.
@@ -85,6 +87,7 @@ Overlap overlap_of(const Triangle& first, Vec3 normal, const Triangle& second) {
     moment = moment + area / 3 * (a + b + c);
   }
   if (overlap.area > 0) overlap.middle = moment / overlap.area;
+  for (int i = 0; i < polygon.count; ++i) overlap.box.add(polygon.corners[i]);
   return overlap;
 }
 
@@ -122,10 +125,14 @@ public:
     std::vector<CoincidentFaces> found;
     for (auto& [other, pairs] : _pairs) {
       const double least = least_part * std::min(_model.face_area(_face), _model.face_area(other));
-      const auto [walls, gap] = measure(other, pairs);
-      const bool on_one_another = walls.faces.area > least;
-      if (on_one_another || (gap.faces.area > least && gap.triangles > most_triangles_in_gap))
-        found.push_back(on_one_another ? walls.faces : gap.faces);
+      const PairFindings findings = measure(other, pairs);
+      const Nearness &walls = findings.walls, &gap = findings.gap;
+      if (walls.faces.area > least && findings.width() > _within) {
+        found.push_back(walls.faces);
+      } else if (gap.faces.area > least && gap.triangles > most_triangles_in_gap) {
+        found.push_back(gap.faces);
+        found.back().triangles = gap.triangles;
+      }
     }
     return found;
   }
@@ -173,6 +180,10 @@ private:
   };
   struct PairFindings {
     Nearness walls, gap;  ///< on either side, up to nearest_walls; where that is meshed, up to nearest_in_gap
+    double length = 0;    ///< of the box around all places that may be near
+
+    /// Of a strip that is as long, and has the area of the walls.
+    double width() const { return walls.faces.area / length; }
   };
 
   /// How far two faces lie on one another, judged where their facets overlap most.
@@ -183,18 +194,21 @@ private:
     const SegmentTree common = common_edges(other);
     const CoincidentFaces none{_face, other, 0, {}, 0};
     PairFindings found{{none}, {none}};
+    geometry::Box box;
     double all = 0, looked_at = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       all += pairs[i].overlap.area;
+      box.add(pairs[i].overlap.box);
       if (i >= places_looked_at) continue;
       looked_at += pairs[i].overlap.area;
       const auto [place, apart, is_meshed] = distance_at(other, of_other, pairs[i]);
       if (!(apart <= _within_gap)) continue;
-      const double reach = apart / least_wedge;
+      const double reach = std::max(apart / least_wedge, _within);
       if (common.nearest(place, reach) < reach) continue;
       if (apart <= _within) found.walls.add(place, apart, pairs[i].overlap.area);
       if (is_meshed) found.gap.add(place, apart, pairs[i].overlap.area);
     }
+    found.length = box.diagonal();
     for (Nearness* each : {&found.walls, &found.gap}) {
       each->faces.area *= looked_at > 0 ? all / looked_at : 0;
       each->triangles *= looked_at > 0 ? all / looked_at : 0;

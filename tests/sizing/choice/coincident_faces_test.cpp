@@ -62,3 +62,26 @@ TEST(CoincidentFaces, AreNotWallsFartherApartNorWedges) {
   EXPECT_TRUE(coincident_in(slotted_block(1e-3)).empty());
   EXPECT_TRUE(coincident_in(cracked_block(0.02)).empty());
 }
+
+TEST(CoincidentFaces, AreWiderThanTheyAreNear) {
+  // A wedge that ends bluntly, with a strip of its own on either side of the end. The strips are too near
+  // each other all over, but narrower than what is too near.
+  const auto wedge = [](double strip) {
+    const double thick = 2e-5, begin = 4 - strip;
+    return shapes::prism({{0, -0.5}, {begin, -thick}, {4, -thick}, {4, thick}, {begin, thick}, {0, 0.5}},
+                         cad::DomainKind::body);
+  };
+  EXPECT_TRUE(coincident_in(wedge(6e-5)).empty());
+  const auto wide = coincident_in(wedge(2e-4));
+  ASSERT_EQ(wide.size(), 1);
+  EXPECT_NEAR(wide[0].area, 2e-4, 2e-5);
+  EXPECT_EQ(wide[0].triangles, 0);
+}
+
+TEST(CoincidentFaces, TellOfAGapThatIsMeshed) {
+  EXPECT_EQ(coincident_in(cracked_block(0))[0].triangles, 0);
+  const auto found = coincident_in(shapes::prism(
+      {{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 1 + 3e-4}, {4, 1 + 3e-4}, {4, 2}, {0, 2}}, cad::DomainKind::body));
+  ASSERT_EQ(found.size(), 1);
+  EXPECT_GT(found[0].triangles, 1e7);
+}
