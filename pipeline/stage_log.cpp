@@ -1,6 +1,7 @@
 #include "pipeline/stage_log.hpp"
 
 #include "geometry/place_text.hpp"
+#include "geometry/shown_list.hpp"
 #include "io/file_formats.hpp"
 #include "parallel/observation/log.hpp"
 #include "pipeline/case/layer_gate.hpp"
@@ -154,7 +155,6 @@ void log_needles(const surface::SurfaceReport& report, const std::vector<report:
 
 void warn_of_lost_area(const std::vector<report::PatchRow>& patches) {
   constexpr double told = 0.02;  // of the area
-  constexpr std::size_t shown = 3;
   std::vector<const report::PatchRow*> lost;
   for (const report::PatchRow& patch : patches)
     if (patch.type == mesh::PatchType::wall && std::abs(patch.area - patch.cad_area) > told * patch.cad_area)
@@ -162,11 +162,9 @@ void warn_of_lost_area(const std::vector<report::PatchRow>& patches) {
   if (lost.empty()) return;
   const auto missing = [](const report::PatchRow* patch) { return std::abs(patch->area - patch->cad_area); };
   std::ranges::stable_sort(lost, std::ranges::greater(), missing);
-  std::string names;
-  for (std::size_t i = 0; i < std::min(shown, lost.size()); ++i)
-    names += fmt::format("{}'{}' ({:.3g} %)", i > 0 ? ", " : "", lost[i]->name,
-                         100 * (lost[i]->area / lost[i]->cad_area - 1));
-  if (lost.size() > shown) names += fmt::format(" and {} more", lost.size() - shown);
+  const std::string names = geometry::shown_list(lost, [](const report::PatchRow* patch) {
+    return fmt::format("'{}' ({:.3g} %)", patch->name, 100 * (patch->area / patch->cad_area - 1));
+  });
   parallel::log_warning(fmt::format(
       "surface: the area of {} differs from the CAD's by more than {:g} %: holes, fillets or edges there are "
       "coarse. Remedy: a smaller sizing.minimum or sizing.curvature_angle, or patches.NAME.size",

@@ -3,6 +3,7 @@
 #include "cad/model/evaluation/point_locator.hpp"
 #include "cad/model/library_unit.hpp"
 #include "geometry/box_tree.hpp"
+#include "geometry/shown_list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -217,15 +218,11 @@ std::vector<BorderCrossing> find_border_crossings(const Model& model) {
 void refuse_border_crossings(const Model& model) {
   const std::vector<BorderCrossing> crossings = find_border_crossings(model);
   if (crossings.empty()) return;
-  constexpr std::size_t most_named = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(crossings.size(), most_named); ++i) {
-    text += fmt::format("{}face '{}' (patch '{}') near {}", i == 0 ? "" : ", ",
-                        model.face(crossings[i].face).name,
-                        model.patches()[static_cast<std::size_t>(model.face(crossings[i].face).patch)],
-                        place_in_file(crossings[i].place));
-  }
-  if (crossings.size() > most_named) text += fmt::format(" and {} more", crossings.size() - most_named);
+  const std::string text = geometry::shown_list(crossings, [&](const BorderCrossing& crossing) {
+    const Face& face = model.face(crossing.face);
+    return fmt::format("face '{}' (patch '{}') near {}", face.name,
+                       model.patches()[static_cast<std::size_t>(face.patch)], place_in_file(crossing.place));
+  });
   throw CadError(
       fmt::format("the border of a face crosses itself, so that it has no inside there: {}. Remedy: draw the "
                   "curves anew in the CAD program so that they meet at their ends only",

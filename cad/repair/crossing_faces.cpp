@@ -3,6 +3,7 @@
 #include "cad/model/evaluation/point_locator.hpp"
 #include "cad/model/library_unit.hpp"
 #include "geometry/box_tree.hpp"
+#include "geometry/shown_list.hpp"
 #include "geometry/triangle_contact.hpp"
 
 #include <algorithm>
@@ -238,16 +239,13 @@ std::vector<FaceCrossing> find_face_crossings(const Model& model) {
 void refuse_face_crossings(const Model& model) {
   const std::vector<FaceCrossing> crossings = find_face_crossings(model);
   if (crossings.empty()) return;
-  constexpr std::size_t most_named = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(crossings.size(), most_named); ++i) {
-    const auto& [first, second, place] = crossings[i];
+  const std::string text = geometry::shown_list(crossings, [&](const FaceCrossing& crossing) {
+    const auto& [first, second, place] = crossing;
     const std::string faces =
         first == second ? fmt::format("face '{}' itself", model.face(first).name)
                         : fmt::format("faces '{}' and '{}'", model.face(first).name, model.face(second).name);
-    text += fmt::format("{}{} near {}", i == 0 ? "" : ", ", faces, place_in_file(place));
-  }
-  if (crossings.size() > most_named) text += fmt::format(" and {} more", crossings.size() - most_named);
+    return fmt::format("{} near {}", faces, place_in_file(place));
+  });
   throw CadError(fmt::format(
       "walls pass through each other, as sections do that fold, so that they enclose no clear "
       "volume: {}. Remedy: draw the sections anew in the CAD program, with turns wider than their "
