@@ -20,6 +20,13 @@ std::string pattern_of(std::string_view letters) {
   return pattern + "$";
 }
 
+/// Whether names alone select the group: where other conditions hold too, a name may be that of many faces.
+bool goes_by_name(const GroupRule& rule) {
+  FaceConditions others = rule.all;
+  others.faces.clear();
+  return others.empty() && rule.any.empty() && rule.except.empty();
+}
+
 std::vector<std::string> opening_patterns(PatchType type, const FaceGroups& groups,
                                           const std::vector<PatchRule>& rules) {
   std::vector<std::string> names;
@@ -28,7 +35,7 @@ std::vector<std::string> opening_patterns(PatchType type, const FaceGroups& grou
     names.insert(names.end(), faces.begin(), faces.end());
   };
   for (const GroupRule& rule : groups.rules)
-    if (rule.type == type) add(rule.name, rule.all.faces);
+    if (rule.type == type && goes_by_name(rule)) add(rule.name, rule.all.faces);
   for (const PatchRule& rule : rules)
     if (rule.type == type) add(rule.name, rule.faces);
   for (const std::string_view letters : mesh::usual_names_of(type)) names.push_back(pattern_of(letters));

@@ -8,7 +8,8 @@
 
 namespace aeroloom::cases {
 
-/// Patterns for the names of inlets and outlets: of groups and patches of these types, and the usual names.
+/// Patterns for the names of inlets and outlets: of patches of these types, of groups that names alone
+/// select, and the usual names.
 cad::OpeningNames opening_names(const FaceGroups& groups, const std::vector<PatchRule>& rules);
 
 /// A warning where `auto` has taken solids with an inlet and an outlet for a body; else nothing.

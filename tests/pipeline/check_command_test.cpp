@@ -250,6 +250,8 @@ TEST_F(CheckCommandLocal, TakesADuctWithInletAndOutletForTheFluid) {
   EXPECT_EQ(kind_of("", "groups: {in: {faces: '#ff0000', type: inlet}}\n"), "fluid");
   EXPECT_EQ(kind_of("", "groups: {in: {box: [[-1, -1, -1], [0.1, 3, 2]], type: inlet}}\n"), "body");
   EXPECT_NE(said.find("inlet and outlet of a body in a far field"), std::string::npos) << said;
+  EXPECT_EQ(kind_of("", "groups: {in: {faces: '*', box: [[-1, -1, -1], [0.1, 3, 2]], type: inlet}}\n"),
+            "body");
   EXPECT_EQ(kind_of("", ""), "body") << "an outlet alone may be an engine's";
   EXPECT_EQ(kind_of(", domain: body", "patches: {in: {faces: ['#ff0000'], type: inlet}}\n"), "body");
 }
