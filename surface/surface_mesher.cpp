@@ -11,6 +11,7 @@
 #include "surface/cusps/needle_remedies.hpp"
 #include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
+#include "surface/pinched_edges.hpp"
 
 #include <algorithm>
 #include <array>
@@ -91,14 +92,26 @@ std::string describe_worst(const cad::Model& model, const SizeField& field,
       worst_area, field(worst->place));
 }
 
+std::string describe_pinched(const cad::Model& model, const PinchedEdge& edge, cad::FaceId face) {
+  return fmt::format("face '{}' pinches itself near {}: elements of {:.3g} are too long around it",
+                     model.face(face).name, geometry::place_text(edge.middle), edge.length);
+}
+
 /// Where triangles of the whole surface intersect, half the size there is asked for; a face that its own
 /// pieces make intersect is left whole. Collective, the same on every rank.
 Conflicts find_conflicts(const cad::Model& model, const SizeField& field,
                          const mesh::DistributedMesh& surface, const PiecePool& pool) {
   Conflicts conflicts;
   const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(surface);
-  if (hits.empty()) return conflicts;
+  const std::vector<PinchedEdge> pinched = find_pinched_edges(surface);
+  if (hits.empty() && pinched.empty()) return conflicts;
   const std::vector<cad::FaceId> faces = faces_of_pieces(surface);
+  for (const PinchedEdge& edge : pinched)
+    conflicts.remedies.push_back({edge.middle, std::min(edge.length, 0.5 * field(edge.middle))});
+  if (hits.empty()) {
+    conflicts.message = describe_pinched(model, pinched.front(), faces[pinched.front().piece]);
+    return conflicts;
+  }
   for (const mesh::TriangleHit& hit : hits) {
     const cad::FaceId first = faces[hit.first_piece], second = faces[hit.second_piece];
     if (first == second && pool.is_divided(first)) {

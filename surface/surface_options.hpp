@@ -24,7 +24,7 @@ struct SurfaceOptions {
   double facet_angle = 15;   ///< degrees between neighbouring facets that a face is triangulated by first
   double chart_spread = 60;  ///< degrees from the mean normal up to which a chart may exceed its other limits
   int smoothing_sweeps = 6;  ///< of vertex smoothing and edge flips inside a face
-  int mending_rounds = 6;    ///< most rounds of local refinement where faces come too close
+  int mending_rounds = 16;   ///< most rounds of local refinement where faces come too close
   double most_growth = 4;    ///< triangles after local refinement over those of the first round, at most
   int needle_rounds = 2;     ///< most rounds of refinement for needles that the CAD does not force
 };
