@@ -55,17 +55,17 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
                "`proximity`", "4"});
   keys.number(
       "target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
-      common({"Number of tetrahedra that the chosen sizes aim at, without features finer than the "
-              "minimum whose size is not given. The first key to change for a finer or coarser mesh. "
-              "Given sizes stay; the others are chosen around them. Cells of layers come on top, and take "
-              "the place of some tetrahedra.",
+      common({"Number of tetrahedra that the chosen sizes aim at. The first key to change for a finer or "
+              "coarser mesh. Given sizes stay; the others are chosen around them. Features finer than the "
+              "minimum count. Gaps get one element across whatever the target. What `sources` ask for and "
+              "cells of layers come on top; layers take the place of some tetrahedra.",
               shortest(default_target) + "; any where `minimum` and `maximum` are given",
               shortest(default_target)}));
   keys.number(
       "feature_budget", sizing.feature_budget, Range::between(1, 1000, "times the target"),
-      "Features finer than the minimum, then gaps between walls, come on top of the target, up to "
-      "this many times it in all. Beyond it, narrow regions get long triangles; the log, the report and "
-      "`check` name them and what they would take.");
+      "Features finer than the minimum that do not fit into the target may make it this many times as "
+      "many. Beyond it, narrow regions get long triangles; the log, the report and `check` name them and "
+      "what they would take.");
   declare_scale(keys, sizing);
   declare_levels(keys, sizing);
   declare_expression(keys, sizing.expression);

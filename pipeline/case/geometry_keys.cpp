@@ -58,8 +58,9 @@ void declare_trailing_edges(KeyTable& keys, CaseDraft& draft) {
        {"sharpen", cad::TrailingEdges::sharpen}},
       "What becomes of blunt trailing edges. `keep`: they are meshed as they are. `sharpen`: they are closed "
       "to a curve half-way between their long borders, which saves many small tetrahedra ([Closing "
-      "them](trailing_edges.md#closing-them)). `auto`: kept if `sizing.feature_budget` (or "
-      "`sizing.feature_minimum`) allows elements at most 2.7 times as long as the edge is wide; else closed "
+      "them](trailing_edges.md#closing-them)). `auto`: kept if five times the target, or a "
+      "larger `sizing.feature_budget` (or `sizing.feature_minimum`), allows elements at most 2.7 times as "
+      "long as the edge is wide; else closed "
       "if that moves its borders by at most 0.04 % of the local chord; else elements are longer ([Trailing "
       "edges](trailing_edges.md#what-auto-decides)).");
   keys.texts("sharpen_faces", trailing.faces,

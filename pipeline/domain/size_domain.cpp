@@ -31,12 +31,12 @@ namespace {
 constexpr double join_tolerance = 0.05;
 /// Tetrahedra predicted over those aimed at, or the other way round, from which on a warning says so: more
 /// than searches end with (sizing/choice/choose_sizes.cpp) and forecasts err by.
-constexpr double missed_target = 1.25;
+constexpr double missed_target = 1.35;
 /// Logarithm of what a key does to the count, from which on it is named: about the logarithm of
 /// missed_target.
 constexpr double least_named_cost = 0.2;
-/// Share of features over one, below which there are none to speak of.
-constexpr double some_features = 1.01;
+/// Of the target: elements in gaps that are named.
+constexpr double named_gaps = 0.25;
 
 /// The model without faces narrower than `width`, where neighbours can take them in.
 std::optional<cad::Model> join_narrow_faces(const parallel::Communicator& communicator,
@@ -99,11 +99,19 @@ std::string describe_costs(std::vector<sizing::BoundCost> costs) {
   return text.empty() ? describe_all(costs) : text;
 }
 
+/// Says what sources add to the target.
+void tell_of_sources(const sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen) {
+  if (!factory.sampled().communicator().is_root() || !(chosen.aimed > 0)) return;
+  parallel::log_info(fmt::format(
+      "sizing: sizing.sources come on top of the target: about {:.2g} tetrahedra, {:.2g} without them",
+      chosen.counts.tetrahedra, chosen.aimed));
+}
+
 /// Warns where no sizes come near what was aimed at, with the keys that forbid it.
 void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
                            const cases::SizingRequest& request, double target) {
-  const double ratio = chosen.counts.tetrahedra / chosen.features.ratio / target;
-  if (ratio < missed_target && ratio > 1 / missed_target) return;
+  const double ratio = chosen.counted() / target;
+  if (ratio < std::max(missed_target, 1.1 * request.feature_budget) && ratio > 1 / missed_target) return;
   const std::string costs = describe_costs(sizing::costs_of_given(factory, chosen, request));
   if (!factory.sampled().communicator().is_root()) return;
   const bool has_far_field = cad::is_around_bodies(factory.model());
@@ -111,25 +119,27 @@ void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSi
       ratio > 1 ? fmt::format("{}a larger sizing.growth or larger sizes make it fewer",
                               has_far_field ? "a far field that is nearer (farfield.extent), " : "")
                 : "smaller sizes (sizing.surface_maximum, sizing.maximum) make it more";
-  const bool has_features = chosen.features.ratio > some_features;
+  const double gaps = chosen.counted() * (chosen.features.gap_ratio - 1) / chosen.features.ratio;
+  std::string why;
+  if (gaps > named_gaps * target)
+    why = fmt::format(", some {:.2g} of them for one element across gaps between walls", gaps);
+  if (!costs.empty()) why += "; " + costs;
+  if (ratio > 1)
+    why +=
+        fmt::format("; the least target that this case meets is about {:.2g}", sizing::least_target(chosen));
   parallel::log_warning(fmt::format(
-      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}{}{}: {}",
-      target, chosen.counts.tetrahedra / chosen.features.ratio,
-      has_features ? " without features finer than the smallest size" : "", costs.empty() ? "" : "; ", costs,
-      remedy));
+      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}: {}", target,
+      chosen.counted(), why, remedy));
 }
 
 /// Sizes before any are chosen: those given, or what coarse fields promise of them.
 struct Trial {
   sizing::SizingOptions sizes;                          ///< where nothing is left to choose
   std::optional<sizing::PreliminarySizes> preliminary;  ///< else
-
-  sizing::SizingOptions options() const { return preliminary ? preliminary->with_features() : sizes; }
 };
 
 /// The sizes that trailing edges are judged by. Its functions refer to the factory.
-TrialSizes trial_sizes(sizing::FieldFactory& factory, const Trial& trial) {
-  const sizing::SizingOptions options = trial.options();
+TrialSizes trial_sizes(sizing::FieldFactory& factory, const sizing::SizingOptions& options) {
   return {[=](double width) { return sizing::narrow_size(width, options) / width; }, options.minimum,
           [&factory, options](const std::vector<geometry::Vec3>& places) {
             return factory.sizes_without_features(places, options);
@@ -143,6 +153,13 @@ Trial try_sizes(sizing::FieldFactory& factory, const cases::SizingRequest& reque
   return {{}, sizing::preliminary_sizes(factory, *target, request.feature_budget, near, request)};
 }
 
+sizing::SizingOptions sizes_of_edges(sizing::FieldFactory& factory, const cases::SizingRequest& request,
+                                     const Trial& trial) {
+  if (!trial.preliminary) return trial.sizes;
+  return sizing::sizes_for_edges(factory, *target_of(request), request.feature_budget, *trial.preliminary,
+                                 request);
+}
+
 /// The sized domain of the factory's model, which stays as it is.
 SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& request, const Trial& trial,
                    JoinedFaces joined, sizing::FieldFor purpose) {
@@ -154,11 +171,12 @@ SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& re
     return {factory.model(), trial.sizes, std::move(applied.field), std::move(findings)};
   }
   const double target = *target_of(request);
-  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, target, *trial.preliminary, request, purpose);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, *trial.preliminary, request, purpose);
+  tell_of_sources(factory, chosen);
   warn_of_missed_target(factory, chosen, request, target);
   SizingFindings findings{std::move(joined), chosen.counts};
   if (!request.holds_features())
-    findings.features = report_features(factory.sampled(), chosen.features, chosen.counts.tetrahedra);
+    findings.features = report_features(factory.sampled(), chosen.features, chosen.counted());
   findings.bounded = report_bounded_faces(factory, chosen.options);
   findings.far_field = factory.sampled().far_field_decision();
   return {factory.model(), chosen.options, std::move(chosen.field), std::move(findings)};
@@ -243,7 +261,10 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
     }
   }
   const Trial trial = try_sizes(*factory, request, near);
-  TrailingEdgeReport report = judge_trailing_edges(model, edges, trial_sizes(*factory, trial));
+  TrailingEdgeReport report;
+  if (!edges.empty())
+    report =
+        judge_trailing_edges(model, edges, trial_sizes(*factory, sizes_of_edges(*factory, request, trial)));
   std::optional<cad::Model> closed;
   parallel::agree(communicator, [&] { closed = close_trailing_edges(model, edges, report); });
   if (closed && trial.preliminary) near = trial.preliminary->options;

@@ -32,7 +32,7 @@ FeatureReport report_features(const sizing::SampledModel& sampled,
 
 double FeatureReport::wanted_tetrahedra() const {
   if (regions.empty()) return tetrahedra;
-  return tetrahedra * resolution.gap_ratio * resolution.resolved_ratio / resolution.ratio;
+  return tetrahedra * resolution.resolved_ratio / resolution.ratio;
 }
 
 std::string describe_added(const FeatureReport& report) {
@@ -49,8 +49,8 @@ std::string describe(const FeatureReport& report) {
   const UnresolvedRegion& narrowest = report.regions.front();
   return fmt::format(
       "{} face(s) have narrow regions that {:.3g} tetrahedra do not resolve, the narrowest '{}', {:.3g} wide "
-      "at {}, with angles from about {:.2g} degrees. Remedy: a larger sizing.feature_budget (about {:.2g} "
-      "tetrahedra resolve all), or geometry.trailing_edges: sharpen",
+      "at {}, with angles from about {:.2g} degrees. Remedy: a larger sizing.target_tetrahedra (about {:.2g} "
+      "resolve all) or sizing.feature_budget, or geometry.trailing_edges: sharpen",
       report.regions.size(), report.tetrahedra, narrowest.face, narrowest.width,
       geometry::place_text(narrowest.place), narrowest.surface_degrees, report.wanted_tetrahedra());
 }

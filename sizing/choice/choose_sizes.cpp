@@ -20,8 +20,20 @@ namespace {
 // Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
 // over when they come as near as the second; sizes that only tell which faces are narrow, the third.
 constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
-// Where features take more than a twentieth on top of what is aimed at, their ratio is no better known.
-constexpr double little_ratio = 1.05, near_enough_with_features = 0.2;
+/// Of the target: what is left at least for everything but features where these take much, and where gaps do.
+constexpr double least_share = 0.4, least_share_with_gaps = 0.25;
+/// Elements without features over the target, from which on these cannot be made fewer.
+constexpr double fixed_above = 1.2;
+/// Features get this part of the elements at least, where not even these are met.
+constexpr double least_for_features = 0.1;
+/// Of all elements, those that no feature takes, at least: counts of features are rough.
+constexpr double least_rest = 0.1;
+/// Elements that gaps may take where that is more than the budget.
+constexpr double most_in_gaps = 1e7;
+/// Sizes on the body over those that counts of features led to, at most; the same where gaps rule.
+constexpr double coarsest_over_guess = 3, coarsest_with_gaps = 1.5;
+/// By this budget it is judged whether trailing edges are kept, if a user does not ask for more.
+constexpr double budget_of_edges = 5;
 /// Of faces, for which a field is built without asking first how large it would be; chosen, not
 /// measured.
 constexpr double most_parts_unasked = 1e6;
@@ -51,6 +63,49 @@ SizingOptions PreliminarySizes::with_features() const {
   return sizes;
 }
 
+namespace {
+
+/// The part of the target that is left for everything but features, at least, where gaps take this part.
+double least_left_over(double gaps) {
+  return std::max(least_share_with_gaps, least_share - std::max(0.0, gaps));
+}
+
+/// What features may add to `base` elements.
+FeatureBudget budget_for(double target, double feature_budget, double base) {
+  const double most = feature_budget * target / base;
+  const double left = base > fixed_above * target ? 1 : least_share;
+  return {1 + std::max(least_for_features, most - left), std::max(feature_budget, most_in_gaps / base)};
+}
+
+/// Fills in how many elements are aimed at, features included, and the size on the body for it.
+void aim_at(PreliminarySizes& preliminary, double target) {
+  const FeatureResolution& features = preliminary.features;
+  if (features.ratio == 1) return;
+  const double base = preliminary.base;
+  const double gaps = (features.gap_ratio - 1) * base / target;
+  const double all = (features.ratio - 1) * base / target;
+  const double left = std::max(1 - all, least_left_over(gaps));
+  preliminary.aimed = (left + all) * target;
+  preliminary.body_size *= std::max(1.0, std::pow(target * left / base, -0.5));
+}
+
+/// The ratios over the rest of the chosen elements, where features add what they do to the base.
+FeatureResolution at_count(const FeatureResolution& features, double base, const ChosenSizes& chosen) {
+  const double tetrahedra = chosen.counted();
+  const double added = (features.ratio - 1) * base;
+  const double rest = std::max(tetrahedra - added, least_rest * tetrahedra);
+  const auto over_rest = [&](double ratio) { return 1 + (ratio - 1) * base / rest; };
+  FeatureResolution now = features;
+  now.minimum = std::max(now.minimum, chosen.options.minimum);
+  if (!(now.gap_floor > 0)) now.gap_floor = now.minimum;
+  now.ratio = over_rest(features.ratio);
+  now.gap_ratio = over_rest(features.gap_ratio);
+  now.resolved_ratio = over_rest(features.resolved_ratio);
+  return now;
+}
+
+}  // namespace
+
 PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                                    const std::optional<SizingOptions>& near, const GivenSizes& given) {
   check_target(target_tetrahedra);
@@ -59,12 +114,25 @@ PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahed
   const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(factory);
   base.run(start, near ? near_enough : close_enough, most_rounds);
   PreliminarySizes preliminary{
-      base.options(), base.body_size(), base.is_out_of_reach(), base.is_infeasible(), {}};
-  if (!given.holds_features()) {
-    preliminary.features = choose_feature_resolution(factory, base.options(), feature_budget, coarsening,
-                                                     leaves_for(target_tetrahedra * feature_budget));
-  }
+      base.options(),    base.body_size(), base.is_out_of_reach(), base.is_infeasible(), {},
+      target_tetrahedra, target_tetrahedra};
+  if (given.holds_features()) return preliminary;
+  preliminary.base = std::max(target_tetrahedra, base.tetrahedra());
+  preliminary.features = choose_feature_resolution(
+      factory, base.options(), budget_for(target_tetrahedra, feature_budget, preliminary.base), coarsening,
+      leaves_for(target_tetrahedra * budget_of_edges));
+  aim_at(preliminary, target_tetrahedra);
   return preliminary;
+}
+
+SizingOptions sizes_for_edges(FieldFactory& factory, double target_tetrahedra, double feature_budget,
+                              const PreliminarySizes& preliminary, const GivenSizes& given) {
+  SizingOptions sizes = preliminary.options;
+  if (given.holds_features()) return sizes;
+  const double budget = std::max(feature_budget, budget_of_edges);
+  set_features(sizes, choose_feature_resolution(factory, sizes, {budget}, coarsening_for(target_tetrahedra),
+                                                leaves_for(target_tetrahedra * budget)));
+  return sizes;
 }
 
 ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, FieldFor purpose) {
@@ -80,25 +148,36 @@ ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, Fie
   return {options, std::move(field), counts, {}, 0};
 }
 
-ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, const PreliminarySizes& preliminary,
-                         const GivenSizes& given, FieldFor purpose) {
+ChosenSizes choose_sizes(FieldFactory& factory, const PreliminarySizes& preliminary, const GivenSizes& given,
+                         FieldFor purpose) {
   if (preliminary.is_infeasible && purpose == FieldFor::forecast) {
     ChosenSizes applied = apply_sizes(factory, preliminary.with_features(), purpose);
-    applied.features = preliminary.features;
+    applied.features = at_count(preliminary.features, preliminary.base, applied);
     applied.body_size = preliminary.body_size;
     return applied;
   }
-  SizeSearch search(factory, target_tetrahedra, 1, preliminary.features, given);
-  search.run(preliminary.body_size,
-             preliminary.features.ratio > little_ratio ? near_enough_with_features : near_enough,
-             preliminary.is_out_of_reach ? rounds_out_of_reach : most_rounds);
-  return search.best(purpose);
+  const bool with_gaps = preliminary.features.gap_ratio > 1;
+  const double most_over_guess = with_gaps ? coarsest_with_gaps : coarsest_over_guess;
+  SizeSearch search(factory, preliminary.aimed, 1, preliminary.features, given);
+  search.run(preliminary.body_size, near_enough,
+             preliminary.is_out_of_reach ? rounds_out_of_reach : most_rounds,
+             preliminary.features.ratio > 1 ? most_over_guess * preliminary.body_size : 0);
+  ChosenSizes chosen = search.best(purpose);
+  chosen.features = at_count(preliminary.features, preliminary.base, chosen);
+  return chosen;
 }
 
 ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                          const std::optional<SizingOptions>& near, const GivenSizes& given) {
-  return choose_sizes(factory, target_tetrahedra,
-                      preliminary_sizes(factory, target_tetrahedra, feature_budget, near, given), given);
+  return choose_sizes(factory, preliminary_sizes(factory, target_tetrahedra, feature_budget, near, given),
+                      given);
+}
+
+double least_target(const ChosenSizes& chosen) {
+  const double all = chosen.counted();
+  const double gaps = all * (chosen.features.gap_ratio - 1) / chosen.features.ratio;
+  // Beside these a quarter is left.
+  return gaps > 0.5 * all ? gaps / (1 - least_share_with_gaps) : all;
 }
 
 std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& chosen,
@@ -122,7 +201,7 @@ std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& 
   const auto count = [&](const GivenSizes& these) {
     const auto most =
         std::min(leaves_for(std::max(chosen.counts.tetrahedra, least_told)), most_coarse_leaves);
-    const SizingOptions options = sizes_for(chosen.body_size, factory.model(), these);
+    const SizingOptions options = sizes_for(chosen.body_size, factory, these);
     if (factory.has_more_parts(options, most_parts_for(most, coarsening))) return std::optional<double>();
     return factory.estimate_tetrahedra(options, coarsening, most);
   };

@@ -19,6 +19,9 @@ struct ChosenSizes {
   PredictedCounts counts;
   FeatureResolution features;
   double body_size;  ///< the size on the body, from which all bounds that are not given follow
+  double aimed = 0;  ///< tetrahedra predicted without what comes on top of a target; 0: all of them
+  /// The tetrahedra that a target counts.
+  double counted() const { return aimed > 0 ? aimed : counts.tetrahedra; }
 };
 
 /// Sizes that give the target within some twenty percent, by estimates alone
@@ -33,17 +36,21 @@ struct PreliminarySizes {
   bool is_out_of_reach;        ///< nothing came near the target
   bool is_infeasible;          ///< the given bounds take many times the target
   FeatureResolution features;  ///< none are chosen if sizes of features are given
+  double base;                 ///< elements predicted without features, for which these are chosen
+  double aimed;                ///< elements that the field is to have, features included
   /// `options` with the sizes of features.
   SizingOptions with_features() const;
 };
 
 /// Finds sizes for a wanted number of tetrahedra. All bounds that are not given follow from one length, the
 /// size on the body. The search varies it until the predicted count is within some percent of the target. The
-/// target counts tetrahedra where no feature is finer than the minimum. Finer features come on top, up to
-/// `feature_budget` times the target in all. If the sizes of features are given, the target counts
-/// everything. If the target is out of reach, the nearest sizes are chosen. `near`: sizes of nearly the same
-/// model, to start from. The factory must look for gaps as closely as the options ask, or not at all.
-/// Collective. Throws std::invalid_argument for a target below one.
+/// target counts everything but what requests ask for in regions and wakes. At least two fifths of it are
+/// left for what is not a feature finer than the minimum; if features take more, they may make it up to
+/// `feature_budget` times the target. Gaps get elements as small as they are wide whatever the target, within
+/// ten million elements; a quarter of the target is left then. If the target is out of reach, the nearest
+/// sizes are chosen. `near`: sizes of nearly the same model, to start from. The factory must look for gaps as
+/// closely as the options ask, or not at all. Collective. Throws std::invalid_argument for a target below
+/// one.
 ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
@@ -52,13 +59,21 @@ ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra,
 PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahedra, double feature_budget,
                                    const std::optional<SizingOptions>& near, const GivenSizes& given);
 
+/// The sizes by which it is judged whether trailing edges are kept: those where everything but features meets
+/// the target, and features make it up to five times as many, or up to a larger budget. Collective.
+SizingOptions sizes_for_edges(FieldFactory& factory, double target_tetrahedra, double feature_budget,
+                              const PreliminarySizes& preliminary, const GivenSizes& given);
+
 /// If more elements than this are predicted, a forecast uses a coarse field
 /// (FieldFactory::build_coarse_field).
 inline constexpr double least_coarse_forecast = 3e7;
 
 /// The second half of choose_sizes(): the field. Collective.
-ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra, const PreliminarySizes& preliminary,
-                         const GivenSizes& given, FieldFor purpose = FieldFor::mesh);
+ChosenSizes choose_sizes(FieldFactory& factory, const PreliminarySizes& preliminary, const GivenSizes& given,
+                         FieldFor purpose = FieldFor::mesh);
+
+/// The least target that the model meets, about, where the chosen sizes give more than was aimed at.
+double least_target(const ChosenSizes& chosen);
 
 /// The field of given sizes and its predicted counts. If the mesh will be so large that the field takes long,
 /// the log first says how large. Collective.

@@ -37,8 +37,8 @@ CoarseField FieldFactory::build_coarse_field(const SizingOptions& options) {
     const double most_parts =
         rough_parts_per_leaf * coarsening * coarsening * static_cast<double>(most_leaves);
     if (!last && has_more_parts(options, most_parts)) continue;
-    std::optional<SizeField> field =
-        build_coarser(options, coarsening, last ? std::numeric_limits<std::int64_t>::max() : most_leaves);
+    std::optional<SizeField> field = build_coarser(
+        options, coarsening, Requests::all, last ? std::numeric_limits<std::int64_t>::max() : most_leaves);
     if (!field) continue;
     PredictedCounts counts{std::pow(coarsening, 2) * count_triangles(_sampled, *field),
                            std::pow(coarsening, 3) * count_tetrahedra(_sampled, *field)};

@@ -29,6 +29,10 @@ constexpr double finest_over_gap = 0.5;
 constexpr double aim = 0.9;
 // Values are tried on a logarithmic scale: steps of 4 %, up to a factor of a thousand.
 constexpr int steps_per_octave = 16, last_step = 160;
+/// Gaps that take more leaves than narrow regions may are counted by fields whose sizes are so many times as
+/// large, with so many leaves at most.
+constexpr double coarse_for_gaps = 4;
+constexpr std::int64_t most_gap_leaves = 2'000'000;
 // Tetrahedra around an element along one side of a narrow region: the first guess (twelve models: 40 to 90).
 constexpr double tetrahedra_per_element = 60;
 
@@ -43,10 +47,10 @@ public:
   using Count = std::function<std::optional<double>(int)>;
 
   /// `elements`: something that the tetrahedra which come on top are about proportional to, by step.
-  StepSearch(Count count, std::vector<double> elements, double budget)
+  StepSearch(Count count, std::vector<double> elements, double most)
       : _count(std::move(count)),
         _elements(std::move(elements)),
-        _most(aim * budget),
+        _most(most),
         _found(static_cast<int>(_elements.size()) - 1),
         _finest_known(_found) {}
 
@@ -136,13 +140,14 @@ private:
   std::int64_t _most_leaves;
 };
 
-/// Fills in what narrow regions, short edges and sharp corners may ask for; returns what is predicted with
-/// that.
-std::optional<double> resolve_narrow_regions(FieldFactory& factory, const SizingOptions& options,
-                                             double budget, const Counter& count, FeatureResolution& found) {
-  const std::optional<double> base = count(options, "features down to", options.minimum);
-  found.limited = !base;
-  if (!base) return base;
+/// Tetrahedra that are predicted without features, and with gaps alone.
+struct Known {
+  double base, with_gaps;
+};
+
+/// Fills in what narrow regions, short edges and sharp corners may ask for beside the gaps of the options.
+void resolve_narrow_regions(FieldFactory& factory, const SizingOptions& options, double budget,
+                            const Known& known, const Counter& count, FeatureResolution& found) {
   std::vector<double> aspects;
   aspects.reserve(last_step + 1);
   for (int step = 0; step < last_step; ++step) aspects.push_back(at_step(step));
@@ -155,16 +160,16 @@ std::optional<double> resolve_narrow_regions(FieldFactory& factory, const Sizing
         set_feature_aspect(tried, aspects[step], found.floor);
         return count(tried, "narrow regions at an aspect of", aspects[step]);
       },
-      elements_along_narrow_regions(factory.sampled(), aspects, finest), budget);
-  search.run(*base, tetrahedra_per_element);
+      elements_along_narrow_regions(factory.sampled(), aspects, finest),
+      1 + (aim * budget - 1) * known.base / known.with_gaps);
+  search.run(known.with_gaps, tetrahedra_per_element);
   found.aspect = aspects[search.found()];
-  found.ratio = search.ratio();
   found.limited = search.found() > 0;
-  found.resolved_ratio = search.finest_ratio();
-  return *base * found.ratio;
+  found.ratio = found.gap_ratio * search.ratio();
+  found.resolved_ratio = found.gap_ratio * search.finest_ratio();
 }
 
-/// Fills in what gaps may ask for beside that, which was predicted to be `base`.
+/// Fills in what gaps may ask for beside what was predicted to be `base`.
 void resolve_gaps(SizingOptions options, double lowest, double budget, double base, const Counter& count,
                   FeatureResolution& found) {
   std::vector<double> floors{lowest}, elements{1 / lowest};
@@ -179,11 +184,11 @@ void resolve_gaps(SizingOptions options, double lowest, double budget, double ba
         set_gap_floor(options, floors[step]);
         return count(options, "gaps down to", floors[step]);
       },
-      std::move(elements), budget);
+      std::move(elements), aim * budget);
   search.run(base, {});
   found.gap_floor = floors[search.found()];
   found.gap_ratio = search.ratio();
-  found.ratio *= found.gap_ratio;
+  found.gaps_limited = search.found() > 0;
 }
 
 }  // namespace
@@ -211,27 +216,43 @@ void set_features(SizingOptions& options, const FeatureResolution& features) {
 }
 
 FeatureResolution choose_feature_resolution(FieldFactory& factory, const SizingOptions& options,
-                                            double budget, double coarsening, std::int64_t most_leaves) {
-  if (!(budget >= 1)) {
+                                            const FeatureBudget& budget, double coarsening,
+                                            std::int64_t most_leaves) {
+  if (!(budget.narrow >= 1)) {
     throw std::invalid_argument(
-        fmt::format("sizing: feature_budget must be at least 1, but it is {}", budget));
+        fmt::format("sizing: feature_budget must be at least 1, but it is {}", budget.narrow));
   }
   FeatureResolution found;
-  found.minimum = found.gap_floor = options.minimum;
+  found.minimum = options.minimum;
   found.floor = std::min(options.minimum, std::max(finest_over_minimum * options.minimum,
                                                    finest_over_gap * factory.model().sewn_gap()));
   // A field that is so many times coarser has the cube of it fewer leaves where it is a volume's, and more
   // where narrow regions rule. Chosen, not measured.
   constexpr double slack = 4;
   const double leaves = std::min(1.0, slack / std::pow(coarsening, 3)) * static_cast<double>(most_leaves);
-  const Counter count(factory, coarsening, std::llround(leaves));
+  const Counter usual(factory, coarsening, std::llround(leaves)),
+      coarse(factory, coarse_for_gaps, most_gap_leaves);
   if (found.floor == options.minimum) return found;
-  const std::optional<double> base = resolve_narrow_regions(factory, options, budget, count, found);
-  if (!base || factory.gaps().narrowest_gap() >= options.minimum) return found;
-  SizingOptions with_narrow_regions = options;
-  set_feature_aspect(with_narrow_regions, found.aspect, found.floor);
-  resolve_gaps(with_narrow_regions, std::max(factory.gaps().narrowest_gap(), found.floor),
-               budget / found.ratio, *base, count, found);
+  const double lowest = std::max(factory.gaps().narrowest_gap(), found.floor);
+  const bool has_gaps = lowest < options.minimum && budget.gaps > 1;
+  SizingOptions with_gaps = options;
+  set_gap_floor(with_gaps, lowest);
+  const bool is_large = has_gaps && !usual(with_gaps, "gaps down to", lowest);
+  const Counter& count = is_large ? coarse : usual;
+  const std::optional<double> base = count(options, "features down to", options.minimum);
+  found.limited = !base;
+  if (!base) return found;
+  std::optional<double> counted = base;
+  if (has_gaps) {
+    resolve_gaps(options, lowest, budget.gaps, *base, count, found);
+    set_gap_floor(with_gaps, found.gap_floor);
+    counted = count(with_gaps, "gaps down to", found.gap_floor);
+  }
+  found.ratio = found.resolved_ratio = found.gap_ratio;
+  found.limited = !counted;
+  if (counted)
+    resolve_narrow_regions(factory, has_gaps ? with_gaps : options, budget.narrow, {*base, *counted}, count,
+                           found);
   return found;
 }
 

@@ -137,7 +137,8 @@ std::vector<SizeSource> FieldFactory::sample_corners(std::span<const SizeSource>
   return mine;
 }
 
-std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, double coarsening) {
+std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, double coarsening,
+                                             Requests which) {
   check_options(options);
   require_possible(options);
   std::vector<SizeSource> mine;
@@ -146,7 +147,7 @@ std::vector<SizeSource> FieldFactory::sample(const SizingOptions& options, doubl
   const std::vector<SizeSource> behind_corners = sample_corners(mine, options);
   mine.insert(mine.end(), behind_corners.begin(), behind_corners.end());
   for (SizeSource& source : mine) source.size *= coarsening;
-  const std::vector<SizeSource> requested = _requests.sample(_sampled, options, coarsening);
+  const std::vector<SizeSource> requested = _requests.sample(_sampled, options, coarsening, which);
   mine.insert(mine.end(), requested.begin(), requested.end());
   return mine;
 }
@@ -155,18 +156,19 @@ std::vector<double> FieldFactory::sizes_without_features(std::span<const geometr
                                                          const SizingOptions& options) {
   SizingOptions without = options;
   without.feature_minimum = without.narrow_minimum = options.maximum;
-  std::vector<double> sizes = sizes_at(places, sample(without, 1), options);
+  std::vector<double> sizes = sizes_at(places, sample(without, 1, Requests::all), options);
   for (double& size : sizes) size = std::max(size, options.minimum);
   return sizes;
 }
 
 SizeField FieldFactory::build_field(const SizingOptions& options) {
-  return FieldBuilder(_sampled.communicator(), model().bounds(), options).build(sample(options, 1));
+  return FieldBuilder(_sampled.communicator(), model().bounds(), options)
+      .build(sample(options, 1, Requests::all));
 }
 
 std::optional<SizeField> FieldFactory::build_coarser(const SizingOptions& options, double coarsening,
-                                                     std::int64_t most_leaves) {
-  if (_requests.ask_for_more_cells(_sampled, options, coarsening,
+                                                     Requests which, std::int64_t most_leaves) {
+  if (_requests.ask_for_more_cells(_sampled, options, coarsening, which,
                                    most_cells_per_leaf * static_cast<double>(most_leaves)))
     return std::nullopt;
   SizingOptions coarse = options;
@@ -175,11 +177,11 @@ std::optional<SizeField> FieldFactory::build_coarser(const SizingOptions& option
     *size *= coarsening;
   if (coarsening > 1) coarse.growth = std::min(std::pow(options.growth, coarsening), largest_growth);
   return FieldBuilder(_sampled.communicator(), model().bounds(), coarse)
-      .build_within(sample(options, coarsening), most_leaves);
+      .build_within(sample(options, coarsening, which), most_leaves);
 }
 
 std::optional<Trial> FieldFactory::try_sizes(const SizingOptions& options, std::int64_t most_leaves) {
-  std::optional<SizeField> field = build_coarser(options, 1, most_leaves);
+  std::optional<SizeField> field = build_coarser(options, 1, Requests::aimed, most_leaves);
   if (!field) return std::nullopt;
   const double tetrahedra = count_tetrahedra(_sampled, *field);
   return Trial{std::move(*field), tetrahedra};
@@ -192,7 +194,7 @@ std::optional<double> FieldFactory::estimate_tetrahedra(const SizingOptions& opt
   });
   if (known != _estimates.end())
     return known->leaves > most_leaves ? std::nullopt : std::optional(known->tetrahedra);
-  const std::optional<SizeField> field = build_coarser(options, coarsening, most_leaves);
+  const std::optional<SizeField> field = build_coarser(options, coarsening, Requests::aimed, most_leaves);
   if (!field) return std::nullopt;
   const double tetrahedra = std::pow(coarsening, 3) * count_tetrahedra(_sampled, *field);
   _estimates.push_back({options, coarsening, field->leaf_count(), tetrahedra});

@@ -63,6 +63,8 @@ public:
   /// The field under these options. Collective. This and what follows throw std::invalid_argument where the
   /// memory of this node cannot hold a point for each triangle.
   SizeField build_field(const SizingOptions& options);
+  /// Whether some requests come on top of a target: try_sizes() and estimate_tetrahedra() leave them out.
+  bool has_more_than_aimed() const { return _requests.add_to_target(); }
   /// The field under these options and the tetrahedra that it predicts. Returns nothing if the field clearly
   /// has more than `most_leaves` leaves. Collective.
   std::optional<Trial> try_sizes(const SizingOptions& options, std::int64_t most_leaves);
@@ -91,7 +93,7 @@ private:
     double tetrahedra;
   };
   /// A field whose sizes are `coarsening` times as large as those of the options.
-  std::optional<SizeField> build_coarser(const SizingOptions& options, double coarsening,
+  std::optional<SizeField> build_coarser(const SizingOptions& options, double coarsening, Requests which,
                                          std::int64_t most_leaves);
   /// The kept samples of a face; `once` where only one field is built.
   FaceSamples& samples_of(cad::FaceId face, FaceSamples& once);
@@ -104,7 +106,7 @@ private:
   std::vector<SizeSource> sample_own(const SizingOptions& options, double coarsening);
   /// The sources on the faces, edges and corners of this rank, and of the requests. All sizes are
   /// `coarsening` times as large. Collective, as what follows.
-  std::vector<SizeSource> sample(const SizingOptions& options, double coarsening);
+  std::vector<SizeSource> sample(const SizingOptions& options, double coarsening, Requests which);
   /// The sources behind sharp corners. The sources of all ranks tell the size at each corner.
   std::vector<SizeSource> sample_corners(std::span<const SizeSource> own, const SizingOptions& options) const;
   /// The sizes that the sources of all ranks give at points, which are the same on each rank.

@@ -67,7 +67,8 @@ RequestSampler::RequestSampler(const SampledModel& sampled, SizeRequests request
 RequestSampler::RequestSampler(RequestSampler&& before, const SampledModel& joined)
     : _requests(std::move(before._requests)),
       _asked_on_faces(sizes_on_faces(joined.model(), _requests)),
-      _surfaces(std::move(before._surfaces)) {}
+      _surfaces(std::move(before._surfaces)),
+      _wakes(std::move(before._wakes)) {}
 
 SizingOptions RequestSampler::options_on(const SampledModel& sampled, cad::FaceId face,
                                          const SizingOptions& options) const {
@@ -83,12 +84,15 @@ SizingOptions RequestSampler::options_on(const SampledModel& sampled, cad::FaceI
   return here;
 }
 
-std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampled, double coarsening) const {
+std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampled, double coarsening,
+                                                       Requests which) const {
+  static const std::vector<SizeRegion> none;
+  const std::vector<SizeRegion>& regions = which == Requests::all ? _requests.regions : none;
   const parallel::Communicator& communicator = sampled.communicator();
   double cells = 0;
   const SizeRegion* largest = nullptr;
   double most = 0;
-  for (const SizeRegion& region : _requests.regions) {
+  for (const SizeRegion& region : regions) {
     const double of_region = cells_in(sampled.root(), region, coarsening * region.size);
     cells += of_region;
     if (of_region > most) most = of_region, largest = &region;
@@ -108,7 +112,7 @@ std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampl
   }
   std::vector<SizeSource> mine;
   parallel::collectively(communicator, parallel::ScopedCpu::As::task, [&] {
-    for (const SizeRegion& region : _requests.regions) {
+    for (const SizeRegion& region : regions) {
       const auto more = sources_in(sampled.root(), region, coarsening * region.size, communicator.rank(),
                                    communicator.size());
       mine.insert(mine.end(), more.begin(), more.end());
@@ -124,10 +128,7 @@ std::vector<SizeSource> RequestSampler::sample_regions(const SampledModel& sampl
 }
 
 void RequestSampler::lay_surfaces(const SampledModel& sampled) {
-  std::vector<SurfaceRequest> surfaces;
-  const auto lay = [&](const std::string& key, std::vector<SizedTriangle> triangles, double reach) {
-    surfaces.emplace_back(key, std::move(triangles), reach);
-  };
+  std::vector<SurfaceRequest> surfaces, wakes;
   parallel::collectively(sampled.communicator(), parallel::ScopedCpu::As::repeated, [&] {
     for (const WallSize& wall : _requests.walls) {
       const std::vector<bool> named = faces_like(sampled.model(), wall.faces);
@@ -136,7 +137,7 @@ void RequestSampler::lay_surfaces(const SampledModel& sampled) {
         if (wall.faces.empty() ? !sampled.bounds_far_field(facet.face) : named[facet.face])
           triangles.push_back({facet.corners, {wall.size, wall.size, wall.size}});
       }
-      lay("sizing.walls." + wall.name, std::move(triangles), wall.distance);
+      surfaces.emplace_back("sizing.walls." + wall.name, std::move(triangles), wall.distance);
     }
     for (const WakeSize& wake : _requests.wakes) {
       const WakeShape& shape = wake.shape;
@@ -145,25 +146,28 @@ void RequestSampler::lay_surfaces(const SampledModel& sampled) {
       if (!shape.behind.empty())
         segments = trailing_segments(sampled.model(), faces_like(sampled.model(), shape.behind),
                                      normalized(shape.direction));
-      lay("sizing.sources." + wake.name, wake_sheet(segments, wake), 0);
+      wakes.emplace_back("sizing.sources." + wake.name, wake_sheet(segments, wake), 0);
     }
     for (const EdgeSize& edge : _requests.edges)
-      lay("sizing.edges." + edge.name, edges_asked_for(sampled.model(), edge), 0);
+      surfaces.emplace_back("sizing.edges." + edge.name, edges_asked_for(sampled.model(), edge), 0);
   });
-  for (const SurfaceRequest& each : surfaces) {
+  const auto require_edges = [](const SurfaceRequest& each) {
     if (each.empty())
       throw std::invalid_argument(
           each.key() +
           ": the model has no edges there. Remedy: other patterns, another direction of a wake or another "
           "box "
           "of edges; geometry.trailing_edges: keep, where a trailing edge is named that would be closed");
-  }
+  };
+  std::for_each(surfaces.begin(), surfaces.end(), require_edges);
+  std::for_each(wakes.begin(), wakes.end(), require_edges);
   _surfaces = std::move(surfaces);
+  _wakes = std::move(wakes);
 }
 
 std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled,
                                                      const SizingOptions& options, double coarsening,
-                                                     double most) const {
+                                                     Requests which, double most) const {
   std::vector<SizeSource> mine;
   const auto add = [&](const Request& request) {
     const auto more = find_requested(sampled, request, most);
@@ -178,7 +182,7 @@ std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled
            return sources_of_formula(sampled.root(), formula, space, part.rank, part.ranks, limit);
          }});
   }
-  for (const SurfaceRequest& surface : _surfaces) {
+  const auto add_surface = [&](const SurfaceRequest& surface) {
     const auto ask = [&](geometry::Vec3 middle, double half) {
       return surface.request_in(middle, half, coarsening);
     };
@@ -186,25 +190,28 @@ std::vector<SizeSource> RequestSampler::sample_cells(const SampledModel& sampled
          [&](RankOf part, std::int64_t limit) {
            return sources_where(sampled.root(), ask, part, coarsening * options.maximum, limit);
          }});
-  }
+  };
+  std::for_each(_surfaces.begin(), _surfaces.end(), add_surface);
+  if (which == Requests::all) std::for_each(_wakes.begin(), _wakes.end(), add_surface);
   return mine;
 }
 
 std::vector<SizeSource> RequestSampler::sample(const SampledModel& sampled, const SizingOptions& options,
-                                               double coarsening) const {
-  std::vector<SizeSource> mine = sample_regions(sampled, coarsening);
-  const std::vector<SizeSource> in_cells = sample_cells(sampled, options, coarsening, any_number);
+                                               double coarsening, Requests which) const {
+  std::vector<SizeSource> mine = sample_regions(sampled, coarsening, which);
+  const std::vector<SizeSource> in_cells = sample_cells(sampled, options, coarsening, which, any_number);
   mine.insert(mine.end(), in_cells.begin(), in_cells.end());
   return mine;
 }
 
 bool RequestSampler::ask_for_more_cells(const SampledModel& sampled, const SizingOptions& options,
-                                        double coarsening, double most) const {
+                                        double coarsening, Requests which, double most) const {
   double cells = 0;
-  for (const SizeRegion& region : _requests.regions)
-    cells += cells_in(sampled.root(), region, coarsening * region.size);
+  if (which == Requests::all)
+    for (const SizeRegion& region : _requests.regions)
+      cells += cells_in(sampled.root(), region, coarsening * region.size);
   if (cells > most) return true;
-  const std::size_t mine = sample_cells(sampled, options, coarsening, most).size();
+  const std::size_t mine = sample_cells(sampled, options, coarsening, which, most).size();
   return static_cast<double>(sampled.communicator().sum(static_cast<std::int64_t>(mine))) > most;
 }
 

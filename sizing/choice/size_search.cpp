@@ -24,6 +24,9 @@ constexpr double out_of_reach = 0.2;        // logarithm of the count over the t
 constexpr double domain_over_maximum = 20;  // diagonal of everything
 /// The largest extent of the body over sizes on it: the coarsest that is tried, the finest and the first.
 constexpr double body_over_coarsest = 5, body_over_finest = 5000, body_over_first = 60;
+/// Sizes on a body that would be so many times as large as the coarsest: the smallest size is half the
+/// largest on the body then, and growth the preset's to this power and one.
+constexpr double most_beyond = 5, power_beyond = 0.5;
 // Of the logarithm of the count over that of the size: near -2 where the surface rules, flatter where small
 // features do.
 constexpr double first_slope = -2, steepest_slope = -3, flattest_slope = -0.2;
@@ -37,6 +40,9 @@ constexpr double least_telling_step = 0.2;
 // fields take so little that none is given up.
 constexpr double leaves_per_tetrahedron = 0.5;
 constexpr std::int64_t least_limit = 100'000;
+/// Gaps of one element have leaves on both of their outer sides: the limit is so many times as large. Chosen,
+/// not measured.
+constexpr double leaves_around_gaps = 8;
 /// Leaves that a limit may be: more than any octree has.
 constexpr double most_limit = 1e15;
 /// Nothing is sampled either for a field whose faces would be cut into as many parts for each of the leaves
@@ -52,6 +58,14 @@ double usual_bias(double coarsening) {
   return coarsening > 1 ? median_of_seven_models : 1;
 }
 
+/// Elements that are made over those that fields predict, where sizes grow faster than the preset's: next to
+/// a wall they do not grow within an element. Eight models with growths of 1.3 to 1.6: 0.9 to 1.3.
+double steep_bias(double growth, const GivenSizes& given) {
+  constexpr double per_power = 0.45;
+  if (given.growth) return 1;
+  return 1 + per_power * (std::log(growth) / std::log(preset_growth) - 1);
+}
+
 double largest_extent(const FieldFactory& factory) {
   const geometry::Vec3 size = factory.sampled().body_box().size();
   return std::max({size.x, size.y, size.z});
@@ -59,14 +73,17 @@ double largest_extent(const FieldFactory& factory) {
 
 }  // namespace
 
-SizingOptions sizes_for(double body_size, const cad::Model& model, const GivenSizes& given) {
+SizingOptions sizes_for(double body_size, const FieldFactory& factory, const GivenSizes& given) {
+  const cad::Model& model = factory.model();
   SizingOptions options;
+  const double coarsest = largest_extent(factory) / body_over_coarsest;
+  const double beyond = std::max(1.0, body_size / coarsest);
   options.minimum = std::max(body_size / body_size_over_minimum, size_over_gap * model.sewn_gap());
   options.feature_minimum = options.minimum;
-  options.surface_maximum = std::max(body_size, options.minimum);
+  options.surface_maximum = std::max(beyond > 1 ? coarsest : body_size, options.minimum);
   options.maximum = std::max(model.bounds().diagonal() / domain_over_maximum, options.surface_maximum);
   options.curvature_angle = preset_curvature_angle;
-  options.growth = preset_growth;
+  options.growth = std::pow(preset_growth, 1 + power_beyond * std::log(beyond));
   return with_given(options, given);
 }
 
@@ -94,11 +111,13 @@ SizeSearch::SizeSearch(FieldFactory& factory, double target_tetrahedra, double c
       _coarsening(coarsening),
       _features(features),
       _target(std::log(target_tetrahedra)),
-      _most_leaves(leaves_for(target_tetrahedra * features.ratio)) {}
+      _most_leaves(leaves_for(target_tetrahedra * (features.gap_ratio > 1 ? leaves_around_gaps : 1))) {}
 
-void SizeSearch::run(double first_size, double largest_error, int most_rounds) {
+void SizeSearch::run(double first_size, double largest_error, int most_rounds, double coarsest_size) {
   const double extent = largest_extent(_factory);
-  double finest = std::log(extent / body_over_finest), coarsest = std::log(extent / body_over_coarsest);
+  double finest = std::log(extent / body_over_finest);
+  double coarsest = std::log(most_beyond * extent / body_over_coarsest);
+  if (coarsest_size > 0) coarsest = std::clamp(std::log(coarsest_size), finest, coarsest);
   double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
   double slope = first_slope;
   for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
@@ -118,7 +137,8 @@ void SizeSearch::run(double first_size, double largest_error, int most_rounds) {
   }
   if (_error == far_too_many) {
     _body_size = std::exp(finest);
-    _options = sizes_for(_body_size, _factory.model(), _given);
+    _options = sizes_for(_body_size, _factory, _given);
+    set_features(_options, _features);
   }
 }
 
@@ -130,19 +150,25 @@ bool SizeSearch::is_infeasible() const {
   return _error > infeasible;
 }
 
+double SizeSearch::tetrahedra() const {
+  return std::exp(_target + _error);
+}
+
 ChosenSizes SizeSearch::best(FieldFor purpose) {
-  if (_best) {
+  if (_best && !_factory.has_more_than_aimed()) {
     const PredictedCounts counts{count_triangles(_factory.sampled(), _best->field), _best->tetrahedra};
     return {_options, std::move(_best->field), counts, _features, _body_size};
   }
   ChosenSizes chosen = apply_sizes(_factory, _options, purpose);
   chosen.features = _features;
   chosen.body_size = _body_size;
+  chosen.counts.tetrahedra *= steep_bias(_options.growth, _given);
+  if (_best && _factory.has_more_than_aimed()) chosen.aimed = _best->tetrahedra;
   return chosen;
 }
 
 double SizeSearch::judge(double body_size) {
-  SizingOptions options = sizes_for(body_size, _factory.model(), _given);
+  SizingOptions options = sizes_for(body_size, _factory, _given);
   set_features(options, _features);
   std::optional<Trial> trial;
   std::optional<double> tetrahedra;
@@ -155,10 +181,12 @@ double SizeSearch::judge(double body_size) {
     parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: far too many", body_size));
     return far_too_many;
   }
-  const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarsening);
+  const double bias = steep_bias(options.growth, _given);
+  const double count = std::max(*tetrahedra, 1.0) * usual_bias(_coarsening) * bias;
+  if (trial) trial->tetrahedra *= bias;
   parallel::log_verbose(fmt::format("sizing: {:.4g} on the body: {}{:.3g} tetrahedra", body_size,
                                     _coarsening > 1 ? "about " : "", count));
-  const double error = std::log(count / _features.ratio) - _target;
+  const double error = std::log(count) - _target;
   if (std::abs(error) < std::abs(_error)) {
     _error = error;
     _options = options;

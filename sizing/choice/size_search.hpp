@@ -9,8 +9,9 @@
 namespace aeroloom::sizing {
 
 /// All sizes where the size on the body is this and no feature is finer than the minimum, unless that is
-/// given. Bounds that are not given follow from that one size.
-SizingOptions sizes_for(double body_size, const cad::Model& model, const GivenSizes& given);
+/// given. Bounds that are not given follow from that one size. On the body no size is larger than a fifth of
+/// its extent. Beyond that, the smallest size and the growth of sizes increase instead.
+SizingOptions sizes_for(double body_size, const FieldFactory& factory, const GivenSizes& given);
 
 /// The size on the body that a search starts from where nothing is known.
 double first_size(const FieldFactory& factory);
@@ -28,22 +29,25 @@ double most_parts_for(std::int64_t leaves, double coarsening);
 /// as long as that of the mesh (docs/bounds.md).
 inline constexpr int most_rounds = 8, rounds_out_of_reach = 2;
 
-/// Searches the size on the body, by fields whose sizes are `coarsening` times as large, where features bring
-/// `features.ratio` times the elements that there would be without them.
+/// Searches the size on the body that gives the target, features included, by fields whose sizes are
+/// `coarsening` times as large.
 class SizeSearch {
 public:
   /// The factory and the given sizes must outlive the search.
   SizeSearch(FieldFactory& factory, double target_tetrahedra, double coarsening,
              const FeatureResolution& features, const GivenSizes& given);
 
-  /// Ends where the logarithm of the count over the target is at most the error. Collective.
-  void run(double first_size, double largest_error, int most_rounds);
+  /// Ends where the logarithm of the count over the target is at most the error. No size on the body is
+  /// larger than `coarsest`; 0: any. Collective.
+  void run(double first_size, double largest_error, int most_rounds, double coarsest = 0);
 
   bool is_out_of_reach() const;
   bool is_infeasible() const;
   /// The sizes that came nearest to the target; the coarsest tried where all were far too fine.
   const SizingOptions& options() const { return _options; }
   double body_size() const { return _body_size; }
+  /// The elements that were predicted for options(); infinite where there are far too many.
+  double tetrahedra() const;
   /// As options(), with the field: of a search by fields that are as fine as asked for. Collective.
   ChosenSizes best(FieldFor purpose);
 

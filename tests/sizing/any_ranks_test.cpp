@@ -163,11 +163,11 @@ TEST(OnAnyRanks, SharesOfFeatures) {
     options.feature_minimum = options.minimum;
     FieldFactory blunt(SampledModel(ranks, cad::shapes::blunt_wedge(0.004)), 0, Fields::several);
     for (const double budget : {1.0, 1.5, 1e9})
-      findings << choose_feature_resolution(blunt, options, budget, 1, 1'000'000'000);
+      findings << choose_feature_resolution(blunt, options, {budget}, 1, 1'000'000'000);
     FieldFactory thin(SampledModel(ranks, cad::shapes::tapered_wedge(0.01, 0.0005)), 0, Fields::several);
-    findings << choose_feature_resolution(thin, options, 4, 1, 60'000);
+    findings << choose_feature_resolution(thin, options, {4}, 1, 60'000);
     FieldFactory slot(SampledModel(ranks, plate(0.02)), 1, Fields::several);
-    findings << choose_feature_resolution(slot, options, 1e9, 1, 1'000'000'000);
+    findings << choose_feature_resolution(slot, options, {1e9, 1e9}, 1, 1'000'000'000);
   });
 }
 
@@ -219,7 +219,7 @@ TEST(OnAnyRanks, RefusalsAreThoseOfAllRanks) {
   FieldFactory factory(SampledModel(world, model), 0, Fields::several);
   EXPECT_THROW(factory.build_field({1e-7, 1e-7, 15, 1.3, 0}), std::invalid_argument);
   EXPECT_THROW(choose_sizes(factory, 0), std::invalid_argument);
-  EXPECT_THROW(choose_feature_resolution(factory, {0.05, 0.5, 15, 1.3, 0}, 0.5, 1, 1000),
+  EXPECT_THROW(choose_feature_resolution(factory, {0.05, 0.5, 15, 1.3, 0}, {0.5}, 1, 1000),
                std::invalid_argument);
 }
 

@@ -126,14 +126,12 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
     const parallel::Warnings warnings = parallel::take_warnings(world);
-    const double share = sized.findings.features ? sized.findings.features->resolution.ratio : 1;
-    const double error = std::log(sized.findings.counts.tetrahedra / share / 30'000);
+    const double error = std::log(sized.findings.counts.tetrahedra / 30'000);
     met += std::abs(error) < std::log(1.25);
-    if (std::abs(error) > std::log(1.25)) {
+    if (std::abs(error) > std::log(1.45)) {
       EXPECT_GT(error, 0) << chosen;
       ASSERT_FALSE(warnings.kept.empty()) << chosen;
-      EXPECT_NE(warnings.kept.back().message.find("makes it"), std::string::npos)
-          << warnings.kept.back().message;
+      EXPECT_NE(warnings.kept.back().message.find("; "), std::string::npos) << warnings.kept.back().message;
     }
     EXPECT_EQ(sized.sizes, sizing::with_given(sized.sizes, request)) << chosen;
   }
@@ -192,11 +190,12 @@ TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
   const Model model = cad::shapes::blunt_wedge(0.0005);
   cases::SizingRequest request;
   request.target_tetrahedra = 20'000;
+  request.proximity = 0;  // the space behind the blunt end is a gap too
   const auto size_within = [&](double budget) {
     request.feature_budget = budget;
     return size_domain(parallel::Communicator::world(), model, request, {cases::NarrowFaces::join});
   };
-  const SizedDomain small = size_within(2);
+  const SizedDomain small = size_within(1.3);
   ASSERT_TRUE(small.findings.features);
   ASSERT_EQ(small.findings.features->regions.size(), 3u) << "the blunt end, and the sides beside it";
   EXPECT_NEAR(small.findings.features->regions[0].width, 0.0005, 1e-6);
