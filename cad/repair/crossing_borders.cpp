@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -177,17 +178,32 @@ private:
 
   /// The nearest place of an edge among its samples; `best` is its parameter.
   double nearest_sampled(EdgeId edge, Vec3 at, double* best = nullptr) const {
-    constexpr int samples = 48;
-    const Edge& ends = _model.edge(edge);
     double nearest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= samples; ++i) {
-      const double t = ends.first_parameter + (ends.last_parameter - ends.first_parameter) * i / samples;
-      const double apart = distance(at, _model.edge_point(edge, t));
+    for (const auto& [parameter, place] : samples_of(edge)) {
+      const double apart = distance(at, place);
       if (apart >= nearest) continue;
       nearest = apart;
-      if (best != nullptr) *best = t;
+      if (best != nullptr) *best = parameter;
     }
     return nearest;
+  }
+
+  struct EdgeSample {
+    double parameter;
+    Vec3 place;
+  };
+
+  /// Made once: places of splines in no order cost a hundred times what comparing them does.
+  const std::vector<EdgeSample>& samples_of(EdgeId edge) const {
+    constexpr int count = 48;
+    std::vector<EdgeSample>& samples = _samples[edge];
+    if (!samples.empty()) return samples;
+    const Edge& ends = _model.edge(edge);
+    for (int i = 0; i <= count; ++i) {
+      const double t = ends.first_parameter + (ends.last_parameter - ends.first_parameter) * i / count;
+      samples.push_back({t, _model.edge_point(edge, t)});
+    }
+    return samples;
   }
 
   double foot_on_edge_near(EdgeId edge, Vec3 at) const {
@@ -200,6 +216,7 @@ private:
   FaceId _face;
   std::vector<Coedge> _uses;
   std::vector<BorderChord> _chords;
+  mutable std::map<EdgeId, std::vector<EdgeSample>> _samples;
   Box _box;
 };
 
