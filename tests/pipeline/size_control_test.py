@@ -9,7 +9,7 @@ import sys
 import numpy
 
 from program import COARSE_TRANSPORT, Run
-from sources_test import read
+from sources_test import read, unique_pairs
 
 CENTER = numpy.array((20, 30, 25))
 # Each far enough from the others; lengths in metres. With a reference length of 2 m all are half as long.
@@ -53,8 +53,7 @@ def edges_of(file):
     points = vtk_to_numpy(grid.GetPoints().GetData())
     cells, corners = (grid.GetCells(), 4) if file.suffix == ".pvtu" else (grid.GetPolys(), 3)
     nodes = vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, corners)
-    pairs = numpy.concatenate([nodes[:, [a, b]] for a in range(corners) for b in range(a)])
-    return numpy.unique(numpy.sort(pairs, axis=1), axis=0), points, nodes, grid
+    return unique_pairs(nodes, len(points)), points, nodes, grid
 
 
 def check(what, lengths, wanted, low=0.8, high=1.2):
