@@ -246,10 +246,29 @@ TEST(Domain, IgnoresLooseCopiesOfASolidsFaces) {
   checks::expect_watertight(domain.model);
 }
 
-TEST(Domain, IsExportedWithItsFarField) {
+/// The built-in aircraft.
+DomainOptions aircraft() {
   DomainOptions options;
   options.transport = TransportDimensions{};
-  const Domain direct = prepare_domain(options);
+  return options;
+}
+
+/// The same for all tests.
+const Domain& prepared_aircraft() {
+  static const Domain domain = prepare_domain(aircraft());
+  return domain;
+}
+
+TEST(Domain, AnAircraftFliesInAFarField) {
+  const Domain& domain = prepared_aircraft();
+  EXPECT_EQ(domain.report.kind, DomainKind::body);
+  EXPECT_NEAR(domain.report.reference_length, 37.6, 0.1);
+  checks::expect_watertight(domain.model);
+}
+
+TEST(Domain, IsExportedWithItsFarField) {
+  const DomainOptions options = aircraft();
+  const Domain& direct = prepared_aircraft();
   const real::TemporaryFile step("domain.step", "");
   export_step(options, ExportedShape::domain, step.path());
   DomainOptions again;
@@ -262,9 +281,8 @@ TEST(Domain, IsExportedWithItsFarField) {
 }
 
 TEST(Domain, AStepFileBringsBackTheNamesItWasGiven) {
-  DomainOptions options;
-  options.transport = TransportDimensions{};
-  const Domain direct = prepare_domain(options);
+  const DomainOptions options = aircraft();
+  const Domain& direct = prepared_aircraft();
   const real::TemporaryFile step("transport.step", "");
   export_step(options, ExportedShape::geometry, step.path());
   DomainOptions again;

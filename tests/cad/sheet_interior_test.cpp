@@ -32,7 +32,7 @@ TEST(SheetInterior, AgreesWithTheLibrary) {
     const SheetInterior interior(face);
     const BRepTopAdaptor_FClass2d library(face.shape, 1e-9);
     const Vec2 extent = face.uv_high - face.uv_low;
-    constexpr int count = 400;
+    constexpr int count = 200;
     int inside = 0;
     // A little beyond the box of the loops, and round once more where the surface closes.
     for (int i = 0; i <= count; ++i) {
