@@ -10,6 +10,7 @@
 #include "sizing/lifting/level_requests.hpp"
 #include "sizing/lifting/lifting.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
+#include "tests/cad/made_once.hpp"
 #include "tests/cad/primitives.hpp"
 #include "tests/cad/strip_shapes.hpp"
 #include "tests/references.hpp"
@@ -186,9 +187,11 @@ TEST(OnAnyRanks, ChosenSizes) {
 
 TEST(OnAnyRanks, TrailingEdgesAndLevels) {
   expect_same([](const Communicator& ranks, Findings& findings) {
-    cad::DomainOptions aircraft;
-    aircraft.transport = cad::TransportDimensions{};
-    const Model model = cad::prepare_domain(aircraft).model;
+    const Model model = cad::made_once(ranks, [] {
+      cad::DomainOptions aircraft;
+      aircraft.transport = cad::TransportDimensions{};
+      return cad::prepare_domain(aircraft).model;
+    });
     const Vec3 flow{1, 0, 0};
     FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
     for (const TrailingEdge& edge : find_trailing_edges(factory.sampled(), 1))
@@ -203,10 +206,12 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
     const LevelSizes level = sizes_of(Level::a);
     GivenSizes given = level_bounds(model, bodies, level);
     given.growth = 2.5, given.curvature_angle = 60, given.surface_maximum = 1;
-    factory.request_lines(level_lines(model, bodies, level, flow));
+    // One of five surfaces: a field a fifth as large.
+    const LiftingBodies tail = find_lifting_bodies(factory.sampled(), flow, {"vertical_tail*"});
+    factory.request_lines(level_lines(model, tail, level, flow));
     const SizeField field = factory.build_field(with_given({}, given));
     findings << field.leaf_count();
-    for (const LiftingElement& element : bodies.elements) {
+    for (const LiftingElement& element : tail.elements) {
       for (const LiftingStation& station : element.stations)
         findings << field(station.leading) << field(station.trailing);
     }

@@ -1,5 +1,6 @@
 /// The plane of symmetry of an aircraft, its outline moved outwards as layers move it.
 #include "surface/curves/face_loops.hpp"
+#include "tests/cad/made_once.hpp"
 #include "tests/references.hpp"
 #include "tests/surface/plane_fixture.hpp"
 
@@ -102,7 +103,7 @@ void refine_at_loops(Meshed& meshed) {
 /// The hash of the surface whose outline has moved.
 std::string hash_moved_outline(const Communicator& communicator, const Model& model) {
   const SurfaceOptions options{.piece_triangles = 200};
-  Meshed meshed = mesh_model(communicator, model, {0.6, 20, 25, 1.5}, options);
+  Meshed meshed = mesh_model(communicator, model, {1, 20, 25, 1.8}, options);
   Outline outline(communicator, model, meshed, 0.02 * 37.6);
   EXPECT_GT(outline.size(), 30u);
   const auto move = [&] {
@@ -133,7 +134,7 @@ std::string hash_moved_outline(const Communicator& communicator, const Model& mo
 /// An aircraft's outline moves by two hundredths of its length where it can; where it would cross itself, as
 /// the stage of layers does it, less.
 TEST(AircraftOutline, MovesOutwards) {
-  const Model model = half_transport();
+  const Model model = cad::made_once(Communicator::world(), half_transport);
   references::expect_as_on_one_rank(
       [&](const Communicator& communicator) { return hash_moved_outline(communicator, model); });
 }

@@ -48,7 +48,7 @@ double meshed_volume(const cad::Model& model,
   return report.volume;
 }
 
-TEST(FacetedMesh, EnclosesWhatTheMeshOfItsCadDoes) {
+TEST(FacetedMeshLocal, EnclosesWhatTheMeshOfItsCadDoes) {
   constexpr double deflection = 0.005;
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::cylinder, PrimitiveKind::torus}) {
     const cad::Model exact = cad::make_primitive_domain(kind, {.radius = 0.25});

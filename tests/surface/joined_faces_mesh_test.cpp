@@ -98,7 +98,7 @@ TEST(JoinedFacesMesh, StripsThatEndWithTheirSurfaceLeaveNoTrace) {
 }
 
 // The same solid as it is: the strip's long edges are in the mesh.
-TEST(JoinedFacesMesh, KeptStripsForceSmallElements) {
+TEST(JoinedFacesMeshLocal, KeptStripsForceSmallElements) {
   const Communicator communicator = Communicator::world();
   const Model apart = cad::shapes::split_cylinder(strip_degrees, 2);
   const Meshed meshed = mesh_model(communicator, apart, {});

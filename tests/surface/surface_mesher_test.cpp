@@ -59,7 +59,7 @@ std::vector<double> face_areas(const Communicator& communicator, const Meshed& m
   return areas;
 }
 
-TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
+TEST(SurfaceMesherLocal, SphereFollowsTheLawOfChords) {
   const Communicator world = Communicator::world();
   const cad::Model model = cad::make_primitive_domain(PrimitiveKind::sphere, {.radius = 0.5});
   const double exact = std::numbers::pi / 6;
@@ -73,7 +73,7 @@ TEST(SurfaceMesher, SphereFollowsTheLawOfChords) {
 }
 
 /// How far the middles of triangles are inside the unit sphere or cylinder around z, at most.
-TEST(SurfaceMesher, ChordalDeviationIsBounded) {
+TEST(SurfaceMesherLocal, ChordalDeviationIsBounded) {
   const Communicator world = Communicator::world();
   for (const PrimitiveKind kind : {PrimitiveKind::sphere, PrimitiveKind::cylinder}) {
     const cad::Model model = cad::make_primitive_domain(kind, {.radius = 1, .height = 1});
@@ -98,9 +98,9 @@ TEST(SurfaceMesher, ChordalDeviationIsBounded) {
   }
 }
 
-class SurfaceShapes : public testing::TestWithParam<PrimitiveKind> {};
+class SurfaceShapesLocal : public testing::TestWithParam<PrimitiveKind> {};
 
-TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
+TEST_P(SurfaceShapesLocal, AreValidAndTrueToTheCad) {
   const Communicator world = Communicator::world();
   const Meshed meshed = mesh_model(world, cad::make_primitive_domain(GetParam()), 5, 0.1);
   const auto report = mesh::check_surface_mesh(meshed.surface);
@@ -120,7 +120,7 @@ TEST_P(SurfaceShapes, AreValidAndTrueToTheCad) {
   EXPECT_GT(quality.mean_ratio.mean, 0.95);
 }
 
-INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapes,
+INSTANTIATE_TEST_SUITE_P(Primitives, SurfaceShapesLocal,
                          testing::Values(PrimitiveKind::box, PrimitiveKind::sphere, PrimitiveKind::cylinder,
                                          PrimitiveKind::torus, PrimitiveKind::box_with_sphere));
 

@@ -84,7 +84,7 @@ double least_angle(const mesh::DistributedMesh& surface) {
   return least;
 }
 
-TEST(Cusps, AreClosedAsFarAsTheirCurvesAreOne) {
+TEST(CuspsLocal, AreClosedAsFarAsTheirCurvesAreOne) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
@@ -100,7 +100,7 @@ TEST(Cusps, AreClosedAsFarAsTheirCurvesAreOne) {
   EXPECT_GT(least_angle(surface), 5);
 }
 
-TEST(Cusps, LeaveAValidSurfaceOfTheSameArea) {
+TEST(CuspsLocal, LeaveAValidSurfaceOfTheSameArea) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(communicator, model);
@@ -125,7 +125,7 @@ TEST(Cusps, AreClosedAlikeOnAnyNumberOfRanks) {
   });
 }
 
-TEST(Cusps, KeepExactPlanes) {
+TEST(CuspsLocal, KeepExactPlanes) {
   const Model model = cube_with_cusp();
   const SurfaceMesh surface = mesh_cube(Communicator::world(), model);
   ASSERT_FALSE(surface.report.closed_cusps.empty());
@@ -141,7 +141,7 @@ TEST(Cusps, KeepExactPlanes) {
   }
 }
 
-TEST(Cusps, AskForNoSizesWhereTheyAreClosed) {
+TEST(CuspsLocal, AskForNoSizesWhereTheyAreClosed) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   EXPECT_GT(field({0, 0, 1}), 2 * sizing::closing_gap(sizes));
@@ -149,7 +149,7 @@ TEST(Cusps, AskForNoSizesWhereTheyAreClosed) {
   EXPECT_LT(field({1.2 * end, 0, 1}), 4 * sizing::closing_gap(sizes));
 }
 
-TEST(Cusps, HaveSizesThatFollowTheirWidthBehind) {
+TEST(CuspsLocal, HaveSizesThatFollowTheirWidthBehind) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   for (double x = 0.12; x < 0.4; x *= 1.02) {
@@ -158,7 +158,7 @@ TEST(Cusps, HaveSizesThatFollowTheirWidthBehind) {
   }
 }
 
-TEST(Cusps, HaveVerticesOppositeEachOther) {
+TEST(CuspsLocal, HaveVerticesOppositeEachOther) {
   const Model model = cube_with_cusp();
   const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
   const CurveMesh curves = discretise_curves(model, field);
@@ -176,7 +176,7 @@ TEST(Cusps, HaveVerticesOppositeEachOther) {
   for (std::size_t i = 1; away[0][i] < end; ++i) EXPECT_NEAR(away[0][i], away[1][i], 1e-9);
 }
 
-TEST(Cusps, StayWhereTheCurvesAreApart) {
+TEST(CuspsLocal, StayWhereTheCurvesAreApart) {
   const Communicator communicator = Communicator::world();
   const Model model = cube_with_cusp();
   const auto field = sizing::build_size_field(communicator, model, sizes);

@@ -47,7 +47,7 @@ std::int64_t count(const SurfaceMesh& surface, NeedleCause cause) {
   return needles;
 }
 
-TEST(Needles, OnShortEdgesAreMended) {
+TEST(NeedlesLocal, OnShortEdgesAreMended) {
   // One corner of a square is cut off by an edge a hundredth of the size.
   const Model model = prism_of({{0, 0}, {3, 0}, {3, 3}, {0.0035, 3}, {0, 2.9965}});
   const SurfaceMesh raw = mesh_of(model, 0.5, 0);
@@ -68,7 +68,7 @@ TEST(Needles, AreMendedAlikeOnAnyNumberOfRanks) {
   });
 }
 
-TEST(Needles, InSharpCornersAreForced) {
+TEST(NeedlesLocal, InSharpCornersAreForced) {
   const SurfaceMesh surface = mesh_of(sharp_prism(8), 0.2, 0);
   std::vector<NeedleGroup> corners = surface.report.needles;
   std::erase_if(corners, [](const NeedleGroup& group) { return group.cause != NeedleCause::corner; });
@@ -83,7 +83,7 @@ TEST(Needles, InSharpCornersAreForced) {
 }
 
 // What a face beyond a sharp corner's long first segments gets where it has needles beside them.
-TEST(Needles, LegsAreShortWhereAskedFor) {
+TEST(NeedlesLocal, LegsAreShortWhereAskedFor) {
   constexpr double size = 0.05;
   const Model model = sharp_prism(6);
   const sizing::SizeField field = testing::uniform_field(model, size);
@@ -106,7 +106,7 @@ TEST(Needles, LegsAreShortWhereAskedFor) {
   EXPECT_GT(longest_leg(all), 0.9 * longest_short_leg * size);
 }
 
-TEST(Needles, InStripsAreForced) {
+TEST(NeedlesLocal, InStripsAreForced) {
   const SurfaceMesh surface = mesh_of(prism_of({{0, 0}, {3, 0}, {3, 0.02}, {0, 0.02}}), 0.3, 2);
   EXPECT_GT(count(surface, NeedleCause::strip), 0);
   EXPECT_EQ(count(surface, NeedleCause::mesh), 0);
