@@ -111,8 +111,9 @@ std::vector<Shape> all_shapes() {
 }
 
 class SameMesh : public testing::TestWithParam<Shape> {};
+class SameMeshLocal : public SameMesh {};
 
-TEST_P(SameMesh, comes_of_one_zone_few_and_many) {
+TEST_P(SameMeshLocal, comes_of_one_zone_few_and_many) {
   const Communicator world = Communicator::world();
   const auto& [name, surface, field, few, many, is_unique] = GetParam();
   std::vector<std::uint64_t> expected;
@@ -150,8 +151,11 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
             }));
 }
 
-INSTANTIATE_TEST_SUITE_P(all, SameMesh, testing::ValuesIn(all_shapes()),
-                         [](const auto& info) { return std::string(info.param.name); });
+std::string name_of(const testing::TestParamInfo<Shape>& info) {
+  return info.param.name;
+}
+INSTANTIATE_TEST_SUITE_P(all, SameMesh, testing::ValuesIn(all_shapes()), name_of);
+INSTANTIATE_TEST_SUITE_P(all, SameMeshLocal, testing::ValuesIn(all_shapes()), name_of);
 
 // --- what it is like
 

@@ -99,8 +99,8 @@ TEST_P(RaggedCoreLocal, has_its_border_in_the_mesh_of_the_shell) {
   expect_border_in_shell(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(seeds, RaggedCore, testing::Range(1, 5));
-INSTANTIATE_TEST_SUITE_P(seeds, RaggedCoreLocal, testing::Range(5, 13));
+INSTANTIATE_TEST_SUITE_P(seeds, RaggedCore, testing::Range(1, 4));
+INSTANTIATE_TEST_SUITE_P(seeds, RaggedCoreLocal, testing::Range(4, 8));
 
 // --- leaves that leave
 

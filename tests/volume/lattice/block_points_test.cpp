@@ -154,6 +154,11 @@ double least_clearance(const Made& made, const BlockPoints& points) {
     const double size = made.problem.surface.field(p);
     for (std::size_t t = 0; t < made.around.triangles.size(); ++t) {
       const auto triangle = static_cast<std::int32_t>(t);
+      // The ball around the triangle is far enough off for most.
+      const auto& [a, b, c] = made.around.triangles[t].points;
+      if (geometry::distance(p, a) - std::max(geometry::distance(a, b), geometry::distance(a, c)) >
+          1.5 * size * least)
+        continue;
       least = std::min(least, distance.distance_to(p, triangle) /
                                   std::clamp(distance.mean_edge(triangle), 0.3 * size, 1.5 * size));
     }
