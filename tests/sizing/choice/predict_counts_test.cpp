@@ -101,7 +101,7 @@ TEST(PredictCounts, LeavesOutTheBody) {
 TEST(ChooseSizes, HitsTheTarget) {
   const Model model = sphere_in_box(20, 0.5);
   const auto world = parallel::Communicator::world();
-  for (const double target : {6e4, 2e5, 6e5}) {
+  for (const double target : {6e4, 3e5}) {
     const SizingOptions options = sizing::choose_sizes(world, model, target);
     EXPECT_NEAR(predict(model, options).tetrahedra, target, 0.1 * target);
     EXPECT_GT(options.surface_maximum, options.minimum);

@@ -2,6 +2,7 @@
 
 #include "sizing/lifting/trailing_edges.hpp"
 #include "tests/cad/blunt_shapes.hpp"
+#include "tests/sizing/thin_aircraft.hpp"
 
 #include <vector>
 
@@ -66,21 +67,15 @@ TEST(LocalChord, WithoutANoseIsTheBreadth) {
 }
 
 TEST(LocalChord, OfTheBuiltInAircraft) {
-  constexpr double share = 1e-3;
-  cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
-  cad::TransportDimensions& aircraft = *options.transport;
-  for (cad::LiftingSurface* surface : {&aircraft.wing, &aircraft.horizontal_tail, &aircraft.vertical_tail})
-    surface->trailing_edge = share;
-  const cad::Model model = cad::prepare_domain(options).model;
+  constexpr double share = shapes::thin_share;
+  const cad::TransportDimensions aircraft = shapes::thin_dimensions();
+  const cad::Model& model = shapes::thin_aircraft();
   const SampledModel sampled(parallel::Communicator::world(), model);
   const std::vector<TrailingEdge> edges = find_trailing_edges(sampled, 0.1);
-  ASSERT_EQ(edges.size(), 5u);
+  ASSERT_EQ(edges.size(), 3u);
   for (const TrailingEdge& edge : edges) {
     const std::string& name = model.face(edge.strip.face).name;
-    const cad::LiftingSurface& surface = name.starts_with("wing")         ? aircraft.wing
-                                         : name.starts_with("horizontal") ? aircraft.horizontal_tail
-                                                                          : aircraft.vertical_tail;
+    const cad::LiftingSurface& surface = name.starts_with("wing") ? aircraft.wing : aircraft.vertical_tail;
     const double tip = surface.taper * surface.root_chord;
     EXPECT_NEAR(edge.strip.narrowest, share * tip, 0.05 * share * tip) << name;
     EXPECT_GT(edge.chord, 0.7 * tip) << name;

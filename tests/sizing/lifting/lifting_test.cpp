@@ -3,6 +3,7 @@
 #include "cad/domain/domain.hpp"
 #include "sizing/sources/surface_request.hpp"
 #include "tests/cad/real_files.hpp"
+#include "tests/sizing/thin_aircraft.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -118,14 +119,13 @@ TEST(Lifting, OfNamedFacesAlone) {
 }
 
 TEST(Lifting, OfSharpEdges) {
-  cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
-  cad::TransportDimensions& aircraft = *options.transport;
-  for (cad::LiftingSurface* surface : {&aircraft.wing, &aircraft.horizontal_tail, &aircraft.vertical_tail})
-    surface->trailing_edge = 0;
-  const LiftingBodies bodies = find(options);
+  const LiftingBodies bodies = find(shapes::thin_aircraft());
   ASSERT_EQ(bodies.elements.size(), 5u);
-  for (const LiftingElement& element : bodies.elements) EXPECT_EQ(element.blunt_face, cad::no_entity);
+  for (const LiftingElement& element : bodies.elements) {
+    const Vec3 at = element.stations.front().leading;
+    const bool of_horizontal_tail = at.x > 25 && std::abs(at.y) > 0.5;
+    EXPECT_EQ(element.blunt_face == cad::no_entity, of_horizontal_tail) << at.x << " " << at.y;
+  }
 }
 
 // Half a wing in two parts with a nacelle below it; its pylon ends in an edge of its own.
