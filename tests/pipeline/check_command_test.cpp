@@ -84,7 +84,8 @@ TEST_F(CheckCommandLocal, PredictsWhatARunDoesToTrailingEdges) {
       check(0,
             "geometry:\n  builtin: transport\n"
             "  dimensions: {wing: {trailing_edge: 0.0003}, horizontal_tail: {trailing_edge: 0.003}}\n"
-            "farfield: {shape: cylinder, extent: 2}\nsizing: {target_tetrahedra: 20000}\n"
+            "farfield: {shape: cylinder, extent: 1}\n"
+            "sizing: {target_tetrahedra: 20000, growth: 2, feature_budget: 2}\n"
             "improve: {enabled: false}\noutput: {pictures: false}\n");
   const Json edges = record["forecast"]["trailing_edges"];
   std::map<std::string, std::string> fates;
@@ -105,9 +106,10 @@ TEST_F(CheckCommandLocal, PredictsWhatARunDoesToTrailingEdges) {
 }
 
 TEST_F(CheckCommandLocal, TellsOfEdgesThatAreClosedOnRequest) {
-  const std::string
-      begin = "geometry: {builtin: transport, trailing_edges: sharpen, sharpen_faces: [",
-      end = "]}\nsizing: {minimum: 0.5, maximum: 20, surface_maximum: 4, growth: 1.8, proximity: 0}\n";
+  const std::string begin = "geometry: {builtin: transport, trailing_edges: sharpen, sharpen_faces: [",
+                    end =
+                        "]}\nsizing: {minimum: 0.5, feature_minimum: 0.5, maximum: 20, surface_maximum: 4, "
+                        "growth: 1.8, proximity: 0}\n";
   const Json record = check(0, begin + "'wing*'" + end);
   int closed = 0;
   for (const Json& change : record["domain"]["changes"]) {

@@ -218,8 +218,8 @@ output: {{pictures: false}}
 std::string coarse_transport() {
   return R"(
 geometry: {builtin: transport, trailing_edges: sharpen}
-farfield: {shape: box, extent: 3}
-sizing: {minimum: 0.5, maximum: 20, surface_maximum: 4, curvature_angle: 30, growth: 1.8, proximity: 0}
+farfield: {shape: box, extent: 2}
+sizing: {minimum: 0.5, feature_minimum: 0.5, maximum: 20, surface_maximum: 4, curvature_angle: 30, growth: 1.8, proximity: 0}
 output: {pictures: false}
 )";
 }

@@ -179,11 +179,12 @@ TEST_F(Refusals, OfPatchesThatAreNotThere) {
   write("case.yaml", coarse_wing());
   expect(3, "check case.yaml --set geometry.sharpen_faces=[wings]",
          {"no face and no patch of this model is called 'wings'"});
-  // These strips were closed; the sides are those of a fluid.
+  // These strips were closed; sides as the next ones are those of a fluid.
   write("case.yaml", coarse_transport() + "patches:\n  te: {faces: '*_trailing_edge'}\n");
   expect(2, "check case.yaml",
          {"case.yaml:7:", "patches.te: the file has 'wing_", "was closed", "optional: true"});
-  expect(2, "check case.yaml --set patches.te.faces=xmin", {"taken as a body", "geometry.domain: fluid"});
+  write("case.yaml", coarse_wing() + "patches:\n  side: {faces: xmin}\n");
+  expect(2, "check case.yaml", {"taken as a body", "geometry.domain: fluid"});
   expect(2, "check case.yaml --set geometry.encoding=klingon", {"no encoding 'klingon'"});
 }
 

@@ -5,7 +5,7 @@ import pty
 import re
 import sys
 
-from program import COARSE_DUCT, COARSE_TRANSPORT, NO_PICTURES
+from program import COARSE_DUCT, COARSE_WING, NO_PICTURES
 from shell import Shell
 
 
@@ -48,7 +48,7 @@ def check_progress(shell):
 def main():
     shell = Shell(sys.argv[1])
     (shell.folder / "quick.yaml").write_text(COARSE_DUCT + NO_PICTURES)
-    slow = COARSE_TRANSPORT.replace("minimum: 0.5", "minimum: 0.2").replace("maximum: 4", "maximum: 0.3")
+    slow = COARSE_WING.replace("minimum: 0.5", "minimum: 0.06").replace("surface_maximum: 2", "surface_maximum: 0.08")
     (shell.folder / "slow.yaml").write_text(slow + NO_PICTURES)
     check_progress(shell)
 

@@ -27,7 +27,7 @@ cases::Case coarse_aircraft(const std::string& name) {
   input.domain.transport.emplace();
   input.domain.far_field.emplace();
   input.domain.far_field->extent = 3;
-  input.sizing.minimum = 0.5;
+  input.sizing.minimum = input.sizing.feature_minimum = 0.5;
   input.sizing.maximum = 20;
   input.sizing.surface_maximum = 4;
   input.sizing.curvature_angle = 30;
