@@ -45,14 +45,14 @@ TEST(SizeDomain, JoinsNarrowFacesAndSaysSo) {
   EXPECT_GT(joined.field({1, 0, 0.75}), 2 * kept.field({1, 0, 0.75}));
 }
 
-TEST(SizeDomain, LeavesFacesAsWideAsElements) {
+TEST(SizeDomainLocal, LeavesFacesAsWideAsElements) {
   const Model model = cad::shapes::split_cylinder(2, 1.5);
   EXPECT_TRUE(size(model, 0.01, cases::NarrowFaces::join).findings.joined.changes.empty());
 }
 
 // Chosen sizes, given ones and those of regions alike; what is done to the model does not depend on the
 // scale.
-TEST(SizeDomain, AScaleMultipliesTheWholeField) {
+TEST(SizeDomainLocal, AScaleMultipliesTheWholeField) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   const auto world = parallel::Communicator::world();
   const auto sized_at = [&](double scale, std::optional<double> target) {
@@ -86,7 +86,7 @@ TEST(SizeDomain, AScaleMultipliesTheWholeField) {
 }
 
 // Sizes from the model go by what is left of it.
-TEST(SizeDomain, ChoosesSizesForTheJoinedModel) {
+TEST(SizeDomainLocal, ChoosesSizesForTheJoinedModel) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   cases::SizingRequest request;
   request.target_tetrahedra = 20'000;
@@ -121,7 +121,7 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   const auto world = parallel::Communicator::world();
   int met = 0;
-  for (unsigned chosen = 0; chosen < 1u << keys.size(); chosen += 9) {
+  for (unsigned chosen = 0; chosen < 1u << keys.size(); chosen += 13) {
     const cases::SizingRequest request = target_beside(chosen);
     parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
@@ -141,8 +141,8 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
 TEST(SizeDomain, ChoosesTheSameOnAnyNumberOfRanks) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   references::expect_as_on_one_rank([&](const parallel::Communicator& communicator) {
-    std::string text;
-    for (const unsigned chosen : {0u, 21u, 42u, 63u}) {
+    std::string text;  // of all keys, each once
+    for (const unsigned chosen : {21u, 42u}) {
       const SizedDomain sized =
           size_domain(communicator, model, target_beside(chosen), {cases::NarrowFaces::join});
       text += fmt::format("{:a} {:a} {:a} {:a} {:a} {}\n", sized.findings.counts.tetrahedra,
@@ -175,7 +175,7 @@ TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
 }
 
 // Bounds that were chosen follow those that are given.
-TEST(SizeDomain, LetsChosenBoundsFollowGivenOnes) {
+TEST(SizeDomainLocal, LetsChosenBoundsFollowGivenOnes) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   cases::SizingRequest request;
   request.target_tetrahedra = 1000;
@@ -186,7 +186,7 @@ TEST(SizeDomain, LetsChosenBoundsFollowGivenOnes) {
 }
 
 // What the budget cannot resolve is told with its face, width and place, and what it would take.
-TEST(SizeDomain, TellsWhichStripsTheBudgetLeavesUnresolved) {
+TEST(SizeDomainLocal, TellsWhichStripsTheBudgetLeavesUnresolved) {
   const Model model = cad::shapes::blunt_wedge(0.0005);
   cases::SizingRequest request;
   request.target_tetrahedra = 20'000;
@@ -256,7 +256,7 @@ const JudgedEdge& only_edge(const SizedDomain& sized) {
 }
 
 // Thick enough for the budget: kept. Thin enough that nobody sees it: closed. Between: graded.
-TEST(TrailingEdges, AreKeptClosedOrGraded) {
+TEST(TrailingEdgesLocal, AreKeptClosedOrGraded) {
   cases::SizingRequest request;
   request.target_tetrahedra = 20'000;
   const auto judged = [&](double thickness, double budget) {
@@ -286,7 +286,7 @@ TEST(TrailingEdges, AreKeptClosedOrGraded) {
 }
 
 // Where all sizes are given, the smallest that features may have takes the budget's place.
-TEST(TrailingEdges, GoByTheGivenSizesOfFeatures) {
+TEST(TrailingEdgesLocal, GoByTheGivenSizesOfFeatures) {
   cases::SizingRequest request;
   request.minimum = 0.05, request.maximum = 1;
   const Model model = thin_wing(0.0007);
@@ -297,7 +297,7 @@ TEST(TrailingEdges, GoByTheGivenSizesOfFeatures) {
 }
 
 // How far borders may move goes by the size elements would have there, not by the smallest of all.
-TEST(TrailingEdges, MayMoveAsElementsThereAreLarge) {
+TEST(TrailingEdgesLocal, MayMoveAsElementsThereAreLarge) {
   constexpr double width = 0.0007, aspect = 5, minimum = 0.002;
   const Model model = thin_wing(width);
   const sizing::SampledModel sampled(parallel::Communicator::world(), model);
@@ -317,7 +317,7 @@ TEST(TrailingEdges, MayMoveAsElementsThereAreLarge) {
 
 // So thin as corners are closed by and ending in a point: sizes ask for nothing there, and it is not
 // resolved.
-TEST(TrailingEdges, ThatEndInAPointAndAskForNothingAreClosed) {
+TEST(TrailingEdgesLocal, ThatEndInAPointAndAskForNothingAreClosed) {
   constexpr double minimum = 0.02;
   cad::DomainOptions options;
   options.kind = cad::DomainKind::body;
@@ -335,7 +335,7 @@ TEST(TrailingEdges, ThatEndInAPointAndAskForNothingAreClosed) {
 }
 
 // A blunt end of 0.08 % of the chord: about half a drag count.
-TEST(TrailingEdges, HoernersBaseDrag) {
+TEST(TrailingEdgesLocal, HoernersBaseDrag) {
   EXPECT_NEAR(base_drag_counts(8e-4), 0.55, 0.01);
   EXPECT_EQ(base_drag_counts(0), 0);
 }
