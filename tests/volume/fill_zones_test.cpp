@@ -135,8 +135,11 @@ TEST_P(SameMeshLocal, comes_of_one_zone_few_and_many) {
 
 TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   const Communicator world = Communicator::world();
-  const auto& [name, surface, field, few, many, is_unique] = GetParam();
-  const Filled filled(world, surface, field, in_zones_of(many));
+  const Shape& shape = GetParam();
+  const auto fill_on = [&](const Communicator& ranks) {
+    return Filled(ranks, shape.surface, shape.field, in_zones_of(shape.many));
+  };
+  const Filled filled = fill_on(world);
   const std::string hash = mesh::hash_mesh(filled.mesh);
   // The mesh and what is known of it.
   const auto facts = [](const std::string& mesh, const Filled& of) {
@@ -146,7 +149,7 @@ TEST_P(SameMesh, comes_of_any_number_of_ranks) {
   const std::string here = facts(hash, filled);
   if (!world.is_root()) return;
   EXPECT_EQ(here, references::of_one_rank(world, here, [&] {
-              const Filled same(Communicator::self(), surface, field, in_zones_of(many));
+              const Filled same = fill_on(Communicator::self());
               return facts(mesh::hash_mesh(same.mesh), same);
             }));
 }
