@@ -8,7 +8,8 @@ import tempfile
 
 from program import SOURCE, Run
 
-COUNT = 10
+# Every kind of mistake once, and the sliver twice.
+SEEDS = (0, 1, 2, 3, 4, 8)
 
 # A second. Mutated files are in millimetres.
 CASE = """
@@ -22,7 +23,7 @@ output: {{pictures: false}}
 def main():
     program, mutate = sys.argv[1:3]
     strips = 0
-    for seed in range(COUNT):
+    for seed in SEEDS:
         with tempfile.TemporaryDirectory(prefix="aeroloom_test_") as name:
             file = pathlib.Path(name) / ("mutated.brep" if seed % 5 == 4 else "mutated.step")
             done = subprocess.run([mutate, SOURCE / "tests/data/wing_body.step", str(seed), file], capture_output=True, text=True,
