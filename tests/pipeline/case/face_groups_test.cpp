@@ -2,6 +2,7 @@
 
 #include "cad/domain/domain.hpp"
 #include "pipeline/case/patch_rules.hpp"
+#include "tests/pipeline/case/aircraft.hpp"
 #include "tests/source_tree.hpp"
 
 #include <map>
@@ -87,9 +88,7 @@ TEST(FaceGroups, SelectByGeometry) {
 }
 
 TEST(FaceGroups, NormalsOfBodiesPointAwayFromThem) {
-  cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
-  const cad::Model aircraft = cad::prepare_domain(options).model;
+  const cad::Model& aircraft = transport();
   GroupRule rule = group("top", {.faces = {"wing_left_*per", "wing_left_lower"}});
   rule.all.normal = geometry::Vec3{0, 0, 1};
   rule.all.within = 45;

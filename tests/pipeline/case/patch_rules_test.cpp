@@ -1,6 +1,8 @@
 #include "pipeline/case/patch_rules.hpp"
 
 #include "cad/domain/domain.hpp"
+#include "tests/pipeline/case/aircraft.hpp"
+#include "tests/source_tree.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -12,15 +14,6 @@ namespace aeroloom::cases {
 namespace {
 
 using mesh::PatchType;
-
-const cad::Model& transport() {
-  static const cad::Model model = [] {
-    cad::DomainOptions options;
-    options.transport = cad::TransportDimensions{};
-    return cad::prepare_domain(options).model;
-  }();
-  return model;
-}
 
 PatchType type_of(const TypedPatches& patches, const std::string& name) {
   const auto& names = patches.model.patches();
@@ -41,12 +34,12 @@ TEST(PatchRules, DefaultsAreFarFieldAndWalls) {
 
 TEST(PatchRules, APlaneOfSymmetryIsNoFarField) {
   cad::DomainOptions options;
-  options.transport = cad::TransportDimensions{};
+  options.file = (source_tree() / "configs/geometry/sphere.brep").string();
   options.far_field = cad::FarFieldOptions{.shape = cad::FarFieldShape::hemisphere};
   const TypedPatches patches = apply_patch_rules(cad::prepare_domain(options).model, {});
   EXPECT_EQ(type_of(patches, "symmetry"), PatchType::symmetry);
   EXPECT_EQ(type_of(patches, "farfield"), PatchType::farfield);
-  EXPECT_EQ(type_of(patches, "fuselage"), PatchType::wall);
+  EXPECT_EQ(type_of(patches, "body"), PatchType::wall);
 }
 
 TEST(PatchRules, SaysWhatARuleGetsBesides) {
