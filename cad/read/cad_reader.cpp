@@ -11,13 +11,16 @@
 #include "cad/read/scale_shape.hpp"
 #include "geometry/input_file.hpp"
 #include "geometry/long_names.hpp"
+#include "geometry/place_text.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -265,12 +268,39 @@ NamedShape read_at_first(const Read& read, bool is_step) {
   return first;
 }
 
+/// Numbers are products of up to five coordinates, as of triangles (bound_coordinates()). Corners that
+/// numbers do not tell apart are one.
+void require_calculable(const NamedShape& named, const std::string& file) {
+  constexpr double largest_allowed = 1e30, smallest_allowed = 1e-30, least_spacings = 100;
+  const TopTools_IndexedMapOfShape vertices = map_of(named.shape, TopAbs_VERTEX);
+  double largest = 0;
+  Vec3 farthest;
+  for (int i = 1; i <= vertices.Extent(); ++i) {
+    const Vec3 p = named.unit * to_vec(BRep_Tool::Pnt(TopoDS::Vertex(vertices(i))));
+    const double away = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (!(away <= largest)) largest = away, farthest = p;
+  }
+  if (largest == 0) return;
+  require(largest >= smallest_allowed && largest <= largest_allowed, file,
+          fmt::format("the largest coordinate is {:.3g}, of a corner at {}, but only such from {:.0g} to "
+                      "{:.0g} can be calculated with. Remedy: write the file in another unit, or leave out "
+                      "what does not belong to the body",
+                      largest, geometry::place_text(farthest), smallest_allowed, largest_allowed));
+  const double extent = named.unit * extent_of(named.shape);
+  const double spacing = std::nextafter(largest, std::numeric_limits<double>::infinity()) - largest;
+  require(extent >= least_spacings * spacing, file,
+          fmt::format("all corners lie within {:.3g} around {}, where numbers of the computer are {:.2g} "
+                      "apart. Remedy: a model near the origin",
+                      extent, geometry::place_text(farthest), spacing));
+}
+
 /// In the unit for its extent. Tiny STEP files are read in it: in the file's unit the library would take
 /// places for one. Other shapes are scaled as they were read.
 template <class Read>
-NamedShape read_in_own_unit(const Read& read, bool is_step) {
+NamedShape read_in_own_unit(const Read& read, bool is_step, const std::string& file) {
   constexpr int most_readings = 4;  // what the first one makes of a tiny file may lack parts
   NamedShape named = read_at_first(read, is_step);
+  require_calculable(named, file);
   double unit = library_unit(named.unit * extent_of(named.shape));
   for (int reading = 1; is_step && unit < 1 && unit != named.unit && reading < most_readings; ++reading) {
     named = read(unit);
@@ -319,7 +349,7 @@ NamedShape read_cad_file(const std::string& file, const std::string& encoding) {
           const Reading as{encoding, unit};
           return text ? read_from_memory(file, *text, ends, as) : read_by_content(file, ends, as);
         },
-        recognise(ends) == Format::step);
+        recognise(ends) == Format::step, file);
     number_faces(named);
     return named;
   });

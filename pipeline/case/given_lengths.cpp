@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,9 @@ namespace {
 /// Over the body's largest extent. Below, sizes are finer than coordinates are apart; above, no length
 /// matters any more. What a machine can hold is judged from counts, later. Chosen, not measured.
 constexpr double least_of_body = 1e-9, most_of_body = 1e9;
+/// Numbers at the body's farthest coordinate that a length spans at least: angles of elements are then right
+/// to half a degree.
+constexpr double least_spacings = 100;
 
 /// The numbers in a value as YAML; none in a word.
 std::vector<double> numbers_in(const std::string& yaml) {
@@ -63,10 +67,18 @@ std::string fault_of_lengths(const std::vector<GivenLength>& lengths, const geom
   double farthest = 0;
   for (const geometry::Vec3& corner : {body.low, body.high})
     farthest = std::max({farthest, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
-  const double least = least_of_body * extent, most = most_of_body * extent;
+  const double spacing = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
+  const double least = least_of_body * extent, distinct = least_spacings * spacing,
+               most = most_of_body * extent;
   for (const GivenLength& length : lengths) {
     for (const double value : length.values) {
       const double in_model = value * length.unit;
+      if (!length.is_place && in_model >= least && in_model < distinct) {
+        return fmt::format(
+            "{}: '{}' is {}, but the body reaches out to {:.3g}, where numbers of the computer are {:.2g} "
+            "apart: a length has at least {:.3g}. Remedy: a model near the origin, or larger sizes",
+            length.where, length.key, shortest(in_model), farthest, spacing, distinct);
+      }
       if (length.is_place ? std::abs(in_model) <= most + farthest
                           : (in_model >= least && in_model <= most) || (value == 0 && length.may_be_zero))
         continue;

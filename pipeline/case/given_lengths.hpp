@@ -16,7 +16,8 @@ class KeyTable;
 std::vector<GivenLength> given_lengths(const KeyTable& keys, double reference_length);
 
 /// What is wrong with the first length that is no length of the model; empty: nothing. A length is 1e-9 to
-/// 1e9 times the largest extent of `body`; a place is no farther than that from `body`.
+/// 1e9 times the largest extent of `body`, and a hundred times what numbers are apart at its farthest
+/// coordinate, at least; a place is no farther than that from `body`.
 std::string fault_of_lengths(const std::vector<GivenLength>& lengths, const geometry::Box& body);
 
 }  // namespace aeroloom::cases

@@ -160,5 +160,29 @@ TEST(LibraryUnit, LengthsOfOptionsScaleToo) {
   }
 }
 
+std::string refusal_of(const TopoDS_Shape& shape) {
+  try {
+    fluid_of(shape);
+  } catch (const CadError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LibraryUnit, CoordinatesThatCannotBeCalculatedWithAreRefused) {
+  EXPECT_EQ(refusal_of(BRepPrimAPI_MakeBox(1e29, 1e29, 1e29).Shape()), "");
+  for (const double side : {1e31, 3e38}) {
+    const std::string text = refusal_of(BRepPrimAPI_MakeBox(side, side, side).Shape());
+    EXPECT_NE(text.find("the largest coordinate is"), std::string::npos) << text;
+    EXPECT_NE(text.find("Remedy: write the file in another unit"), std::string::npos) << text;
+  }
+}
+
+TEST(LibraryUnit, CornersThatNumbersDoNotTellApartAreRefused) {
+  // Numbers are 2 apart there.
+  const std::string text = refusal_of(BRepPrimAPI_MakeBox(gp_Pnt(1e16, 0, 0), 100, 100, 100).Shape());
+  EXPECT_NE(text.find("all corners lie within 100 around"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace aeroloom::cad

@@ -58,6 +58,18 @@ TEST_F(GivenLengths, CountInReferenceLengths) {
       << text;
 }
 
+// A body of 4 at 1e10, where numbers are 2e-6 apart: sizes above what is left of its extent may be too small.
+TEST_F(GivenLengths, AreDistinctAmongCoordinates) {
+  const geometry::Box far{{1e10, 0, 0}, {1e10 + 4, 1, 1}};
+  EXPECT_EQ(fault("sizing: {minimum: 0.001}\n", far), "");
+  for (const char* const small : {"sizing: {minimum: 1e-4}\n", "layers: {first: 1e-5}\n"}) {
+    const std::string text = fault(small, far);
+    EXPECT_NE(text.find("numbers of the computer are 1.9e-06 apart"), std::string::npos) << text;
+    EXPECT_NE(text.find("at least 0.000191"), std::string::npos) << text;
+    EXPECT_NE(text.find("Remedy: a model near the origin"), std::string::npos) << text;
+  }
+}
+
 TEST_F(GivenLengths, OfPlacesMayBeZeroAndFarFromTheOrigin) {
   const std::string begin = "sizing: {sources: {a: {shape: point, size: 1, center: ";
   EXPECT_EQ(fault(begin + "[0, -3, 1e-200]}}}\n"), "");
