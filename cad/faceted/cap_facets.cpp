@@ -122,7 +122,7 @@ private:
     const auto triangles = fill_plane_graph(graph);
     if (!triangles) return false;
     const bool turn = runs_as_sides_do(*triangles, numbers);
-    const std::string name = fmt::format("cap_{}", ++_count);
+    const std::string name = next_cap_name(capped);
     FacetSoup::Group cap{name, {}};
     cap.cap = true;
     const std::int32_t group = find_group(capped, cap);
@@ -171,7 +171,6 @@ private:
 
   FacetSoup& _soup;
   double _diagonal;
-  int _count = 0;
   std::vector<CapLoop> _loops;
 };
 

@@ -1,6 +1,7 @@
 #include "cad/faceted/close_facets.hpp"
 
 #include "cad/faceted/facet_sides.hpp"
+#include "cad/faceted/fill_openings.hpp"
 #include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
@@ -97,23 +98,65 @@ void weld_open_points(FacetSoup& soup, double tolerance, Changes& changes) {
   changes.insert(changes.end(), made.begin(), made.end());
 }
 
+/// Splits open sides at the points of borders beside them, if that leaves fewer open sides.
+void split_alongside(FacetSoup& soup, double tolerance, Changes& changes) {
+  const UnevenSides before = count_uneven_sides(soup.triangles);
+  if (before.open == 0) return;
+  FacetSoup split = soup;
+  Changes made;
+  if (split_open_sides(split, tolerance, NearPoints::alongside, made) == 0) return;
+  drop_void_triangles(split, made);
+  const UnevenSides after = count_uneven_sides(split.triangles);
+  if (after.open >= before.open || after.many > before.many) return;
+  soup = std::move(split);
+  changes.insert(changes.end(), made.begin(), made.end());
+}
+
+bool is_open(const FacetSoup& soup) {
+  return !open_sides(soup.triangles).empty();
+}
+
 }  // namespace
 
-void close_facets(FacetSoup& soup, Changes& changes) {
-  const auto is_open = [&] { return !open_sides(soup.triangles).empty(); };
-  if (!is_open()) return;
+std::string next_cap_name(const FacetSoup& soup) {
+  for (int number = 1;; ++number) {
+    std::string name = fmt::format("cap_{}", number);
+    if (std::ranges::none_of(soup.groups,
+                             [&](const FacetSoup::Group& group) { return group.cap && group.name == name; }))
+      return name;
+  }
+}
+
+void join_borders(FacetSoup& soup, Changes& changes) {
+  if (!is_open(soup)) return;
   // What is split may lie on further sides: until nothing is left to split.
   constexpr int rounds = 8;
-  for (int i = 0; i < rounds && split_open_sides(soup, 0, changes) > 0; ++i)
+  for (int i = 0; i < rounds && split_open_sides(soup, 0, NearPoints::in_chain, changes) > 0; ++i)
     drop_void_triangles(soup, changes);
   const double diagonal = box_of_points(soup.points).diagonal();
   for (const double fraction : tolerances::sewing) {
-    if (!is_open()) return;
+    if (!is_open(soup)) return;
     weld_open_points(soup, fraction * diagonal, changes);
-    if (split_open_sides(soup, std::min(fraction, tolerances::same_place) * diagonal, changes) > 0)
-      drop_void_triangles(soup, changes);
+    const double near = std::min(fraction, tolerances::same_place) * diagonal;
+    if (split_open_sides(soup, near, NearPoints::in_chain, changes) > 0) drop_void_triangles(soup, changes);
   }
-  if (is_open()) cap_facets(soup, changes);
+}
+
+void join_borders_beside(FacetSoup& soup, Changes& changes) {
+  const double diagonal = box_of_points(soup.points).diagonal();
+  for (const double fraction : tolerances::sewing) {
+    if (!is_open(soup)) return;
+    split_alongside(soup, fraction * diagonal, changes);
+    weld_open_points(soup, fraction * diagonal, changes);
+  }
+}
+
+void close_facets(FacetSoup& soup, Changes& changes) {
+  join_borders(soup, changes);
+  if (!is_open(soup) || cap_facets(soup, changes)) return;
+  join_borders_beside(soup, changes);
+  fill_openings(soup, changes);
+  if (is_open(soup)) cap_facets(soup, changes);
 }
 
 void refuse_open_sides(const FacetSoup& soup) {

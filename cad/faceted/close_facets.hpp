@@ -4,17 +4,36 @@
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/repair/change.hpp"
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace aeroloom::cad {
 
 /// Closes open sides (sides of one triangle only). The steps below run in this order, each while sides are
-/// open. Triangles are split where open points lie on their open sides. Open points are welded if they are
-/// near each other and that leaves fewer open sides. Planar openings are capped. Equal points must be one,
-/// and there may be no void triangles (weld_equal_points, drop_void_triangles).
+/// open. Borders are joined. Planar openings are capped. Borders beside each other are joined. Small and
+/// narrow openings are filled (fill_openings.hpp), then planar ones capped. Equal points must be one, and
+/// there may be no void triangles (weld_equal_points, drop_void_triangles).
 void close_facets(FacetSoup& soup, Changes& changes);
 
-/// Splits triangles at open points on their open sides. With a tolerance, points near a side count too if
-/// other open sides connect them to a chain. Returns the number of split triangles and adds one change.
-std::size_t split_open_sides(FacetSoup& soup, double tolerance, Changes& changes);
+/// Splits triangles where open points lie on their open sides. Welds open points that are near each other, if
+/// that leaves fewer open sides.
+void join_borders(FacetSoup& soup, Changes& changes);
+/// Splits open sides at points of borders that run along them, within the tolerances of sewing, if that
+/// leaves fewer open sides: then both borders have the points of both.
+void join_borders_beside(FacetSoup& soup, Changes& changes);
+
+/// Which points near a side count as on it: those that other open sides connect to a chain from end to end,
+/// or those whose own open sides run along it.
+enum class NearPoints { in_chain, alongside };
+
+/// Splits triangles at open points on their open sides. With a tolerance, points near a side count too.
+/// Returns the number of split triangles and adds one change.
+std::size_t split_open_sides(FacetSoup& soup, double tolerance, NearPoints rule, Changes& changes);
+
+/// "cap_1", or the first such name that no cap of the soup has.
+std::string next_cap_name(const FacetSoup& soup);
 
 /// Closes all planar openings or none. False if an opening is not planar, too narrow, or too wide for its
 /// body.

@@ -13,10 +13,17 @@
 namespace aeroloom::cad {
 namespace {
 
+/// Cosine of the angle between sides that run along each other. Chosen, not measured.
+constexpr double along_side = 0.9;
+
 class SideSplitter {
 public:
-  SideSplitter(FacetSoup& soup, double tolerance)
-      : _soup(soup), _tolerance(tolerance), _open(open_sides(soup.triangles)), _ends_at(soup.points.size()) {
+  SideSplitter(FacetSoup& soup, double tolerance, NearPoints rule)
+      : _soup(soup),
+        _tolerance(tolerance),
+        _rule(rule),
+        _open(open_sides(soup.triangles)),
+        _ends_at(soup.points.size()) {
     for (const geometry::HalfEdge h : _open) {
       const std::int32_t a = side_begin(soup.triangles, h), b = side_end(soup.triangles, h);
       _ends_at[a].push_back(b), _ends_at[b].push_back(a);
@@ -71,14 +78,24 @@ private:
       const auto at = foot(a, b, _soup.points[p]);
       if (!at) return;
       const bool exact = on_one_line(a, b, _soup.points[p]);
-      if (exact || at->away <= _tolerance) found.emplace_back(at->along, p);
+      const bool near = at->away <= _tolerance && (_rule == NearPoints::in_chain || runs_along(p, a, b));
+      if (exact || near) found.emplace_back(at->along, p);
     });
     std::sort(found.begin(), found.end());
     std::vector<std::int32_t> points;
     points.reserve(found.size());
     for (const auto& [along, p] : found) points.push_back(p);
-    if (_tolerance > 0 && !is_chain(from, to, points)) points.clear();
+    if (_tolerance > 0 && _rule == NearPoints::in_chain && !is_chain(from, to, points)) points.clear();
     return points;
+  }
+
+  /// Whether an open side at p has the direction of the side ab, and p is nearer to it than to its ends.
+  bool runs_along(std::int32_t p, Vec3 a, Vec3 b) const {
+    const Vec3 at = _soup.points[p], way = normalized(b - a);
+    if (std::min(distance(at, a), distance(at, b)) <= _tolerance) return false;
+    return std::ranges::any_of(_ends_at[p], [&](std::int32_t q) {
+      return std::abs(dot(normalized(_soup.points[q] - at), way)) >= along_side;
+    });
   }
 
   /// Whether other open sides run from point to point.
@@ -133,6 +150,7 @@ private:
 
   FacetSoup& _soup;
   double _tolerance;
+  NearPoints _rule;
   std::vector<geometry::HalfEdge> _open;            // ascending
   std::vector<std::vector<std::int32_t>> _ends_at;  // of each point: where its open sides lead
   std::vector<std::int32_t> _points;                // of open sides
@@ -144,8 +162,8 @@ private:
 
 }  // namespace
 
-std::size_t split_open_sides(FacetSoup& soup, double tolerance, Changes& changes) {
-  return SideSplitter(soup, tolerance).split(changes);
+std::size_t split_open_sides(FacetSoup& soup, double tolerance, NearPoints rule, Changes& changes) {
+  return SideSplitter(soup, tolerance, rule).split(changes);
 }
 
 }  // namespace aeroloom::cad
