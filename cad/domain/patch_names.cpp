@@ -82,7 +82,7 @@ std::string InterfaceNames::operator()(int region, int other) {
   const auto name_of = [&](int r) {
     return static_cast<std::size_t>(r) < _regions.size() ? _regions[r] : std::to_string(r);
   };
-  const std::string name =
+  std::string name =
       free_name(fmt::format("interface_{}_{}", name_of(key.first), name_of(key.second)), _used);
   _used.insert(name);
   _known.emplace(key, name);
@@ -136,7 +136,7 @@ void join_caps(const FacetComplex& complex, std::vector<FaceTag>& tags, Changes&
   CapBorders borders;
   each_side(false, [&](FaceId wall, const Side& side) {
     const auto cap = cap_at.find(side);
-    if (cap == cap_at.end()) return;
+    if (cap == cap_at.end() || tags[wall].origin == PatchOrigin::program) return;
     borders[{cap->second, wall}] += distance(complex.points[side.first], complex.points[side.second]);
   });
   join_to_longest(borders, tags, changes);

@@ -1,7 +1,9 @@
 #include "cad/faceted/close_facets.hpp"
 
+#include "cad/faceted/facet_plane.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/fill_openings.hpp"
+#include "cad/faceted/plane_graph.hpp"
 #include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
@@ -10,11 +12,14 @@
 #include "geometry/sort_unique.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace aeroloom::cad {
 namespace {
@@ -112,6 +117,34 @@ void split_alongside(FacetSoup& soup, double tolerance, Changes& changes) {
   changes.insert(changes.end(), made.begin(), made.end());
 }
 
+/// The mean width of an opening, where its sides form one loop, and the names beside it.
+std::string width_text(const FacetSoup& soup, const std::vector<OpenSide>& sides, double length) {
+  std::vector<std::string> names;
+  for (const OpenSide& side : sides) {
+    const std::string& name = soup.groups[soup.group_of[side.triangle]].name;
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  constexpr std::size_t most_named = 4;
+  if (names.size() > most_named) names.resize(most_named);
+  std::string beside = names.empty() ? "" : fmt::format(" beside '{}'", fmt::join(names, "', '"));
+  std::int32_t branch = -1;
+  const auto loops = trace_open_loops(soup, sides, branch);
+  if (!loops || loops->size() != 1) return beside;
+  std::vector<Vec3> corners;
+  for (const std::int32_t p : loops->front()) corners.push_back(soup.points[p]);
+  return fmt::format(" and {:.3g} wide in the mean{}", in_file(norm(polygon_area_vector(corners)) / length),
+                     beside);
+}
+
+/// A sentence where the openings look like those of half a model.
+std::string half_hint(const std::optional<FacetPlane>& plane) {
+  if (!plane) return {};
+  return fmt::format(
+      ". It seems to be half of a model, open on the plane {}: FarFieldOptions::symmetry '{}' closes it "
+      "there",
+      name_of(*plane), "xyz"[plane->axis]);
+}
+
 bool is_open(const FacetSoup& soup) {
   return !open_sides(soup.triangles).empty();
 }
@@ -153,30 +186,39 @@ void join_borders_beside(FacetSoup& soup, Changes& changes) {
 
 void close_facets(FacetSoup& soup, Changes& changes) {
   join_borders(soup, changes);
-  if (!is_open(soup) || cap_facets(soup, changes)) return;
+  if (!is_open(soup)) return;
+  const std::optional<FacetPlane> half = plane_of_open_sides(soup);
+  if (cap_facets(soup, changes)) {
+    if (half && half->position == 0) changes.push_back({"openings closed by caps" + half_hint(half)});
+    return;
+  }
   join_borders_beside(soup, changes);
   fill_openings(soup, changes);
   if (is_open(soup)) cap_facets(soup, changes);
 }
 
 void refuse_open_sides(const FacetSoup& soup) {
-  const std::vector<geometry::HalfEdge> open = open_sides(soup.triangles);
+  const std::vector<OpenSide> open = list_open_sides(soup);
   if (open.empty()) return;
   geometry::DisjointSets<std::int32_t> sets(soup.points.size());
-  for (const geometry::HalfEdge h : open)
-    sets.unite(side_begin(soup.triangles, h), side_end(soup.triangles, h));
+  for (const OpenSide& side : open) sets.unite(side.points[0], side.points[1]);
   std::vector<double> length(soup.points.size(), 0);
   std::int32_t longest = -1, loops = 0;
-  for (const geometry::HalfEdge h : open) {
-    const std::int32_t a = side_begin(soup.triangles, h), loop = sets.root(a);
+  for (const OpenSide& side : open) {
+    const auto [a, b] = side.points;
+    const std::int32_t loop = sets.root(a);
     loops += length[loop] == 0;
-    length[loop] += distance(soup.points[a], soup.points[side_end(soup.triangles, h)]);
+    length[loop] += distance(soup.points[a], soup.points[b]);
     if (longest < 0 || length[loop] > length[longest]) longest = loop;
   }
+  std::vector<OpenSide> own;
+  std::ranges::copy_if(open, std::back_inserter(own),
+                       [&](const OpenSide& side) { return sets.root(side.points[0]) == longest; });
   throw CadError(fmt::format(
       "{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
-      "length {:.6g}, passes {}; close the surface there and export it again",
-      soup.file, open.size(), loops, in_file(length[longest]), place_in_file(soup.points[longest])));
+      "length {:.6g}{}, passes {}; close the surface there and export it again{}",
+      soup.file, open.size(), loops, in_file(length[longest]), width_text(soup, own, length[longest]),
+      place_in_file(soup.points[longest]), half_hint(plane_of_open_sides(soup))));
 }
 
 }  // namespace aeroloom::cad

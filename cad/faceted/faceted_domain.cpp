@@ -5,12 +5,14 @@
 #include "cad/domain/patch_names.hpp"
 #include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/faceted_geometry.hpp"
+#include "cad/faceted/half_fluid.hpp"
 #include "cad/model/library_unit.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/model/scaled_model.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/repair/heal.hpp"
 #include "cad/tolerances.hpp"
+#include "geometry/angle.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -79,6 +81,38 @@ double volume_of_regions(const Model& model) {
   return volume;
 }
 
+void require_volumes(double outer, double body, double fluid) {
+  const double error = std::abs(outer - body - fluid);
+  if (body > 0 && error <= tolerances::sum_of_volumes * body + tolerances::rounding * outer) return;
+  throw CadError(
+      fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; "
+                  "the triangles are turned inside out",
+                  in_file(outer, 3), in_file(body, 3), in_file(fluid, 3)));
+}
+
+/// Walls of closed halves and their far field, all of triangles.
+Model surround_halves(FacetComplex walls, FacetPlane plane, const DomainOptions& all, Changes& changes) {
+  FarFieldOptions options = all.far_field.value_or(all.default_far_field);
+  const double unit = library_unit(largest_extent(box_of_points(walls.points).size()));
+  const InLibraryUnit at_hand(unit);
+  options.unit_length /= unit, plane.position /= unit;
+  plane.whole = {plane.whole.low / unit, plane.whole.high / unit};
+  for (Vec3& point : walls.points) point = point / unit;
+  report_step("building the far field");
+  const double of_walls = planar_tolerance_of(walls);
+  HalfFluid fluid =
+      surround_half_facets(walls, options, plane, all.feature_angle * geometry::degree, changes);
+  const FacetedGeometry faceted = make_faceted_geometry(std::move(fluid.complex), of_walls);
+  fluid.complex = faceted.complex();
+  std::vector<FaceTag> tags = tag_facets(faceted.complex(), nullptr);
+  tag_half_fluid(fluid, tags);
+  if (all.caps == Caps::join) join_caps(faceted.complex(), tags, changes);
+  separate_patches(tags, changes);
+  const Model model = build_model({}, tags, &faceted);
+  require_volumes(fluid.outer, fluid.bodies, model.region_volume(0));
+  return in_file_unit(model, unit);
+}
+
 /// The fluid around bodies. The far field is made by the CAD library, in a unit of its own.
 Model surround_facets(const FacetComplex& bodies, const DomainOptions& all, Changes& changes) {
   FarFieldOptions options = all.far_field.value_or(all.default_far_field);
@@ -100,13 +134,7 @@ Model surround_facets(const FacetComplex& bodies, const DomainOptions& all, Chan
   separate_patches(tags, changes);
   const Model model = build_model(far_field, tags, &faceted);
   const double fluid = model.region_volume(0);
-  const double error = std::abs(outer - body - fluid);
-  if (!(body > 0) || error > tolerances::sum_of_volumes * body + tolerances::rounding * outer) {
-    throw CadError(
-        fmt::format("the volumes do not add up: far field {:.9g}, bodies {:.9g}, fluid {:.9g}; "
-                    "the triangles are turned inside out",
-                    in_file(outer, 3), in_file(body, 3), in_file(fluid, 3)));
-  }
+  require_volumes(outer, body, fluid);
   return in_file_unit(model, unit);
 }
 
@@ -153,7 +181,8 @@ std::vector<FaceTag> tag_walls(const FacetComplex& walls, bool numbered, const D
   return tags;
 }
 
-Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes) {
+Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes,
+                           const std::optional<FacetPlane>& plane) {
   DomainReport report;
   report.changes = std::move(changes);
   std::optional<HullComparison> hull;
@@ -166,8 +195,12 @@ Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& com
   }
   const KindDecision decision = choose_faceted_kind(options, complex, hull);
   report.kind = decision.kind, report.reason = decision.reason;
+  const auto surround = [&] {
+    return plane ? surround_halves(outer_walls(complex, report.changes), *plane, options, report.changes)
+                 : surround_facets(complex, options, report.changes);
+  };
   Model model = decision.kind == DomainKind::fluid ? fluid_model(*faceted, &*hull, options, report.changes)
-                                                   : surround_facets(complex, options, report.changes);
+                                                   : surround();
   if (options.trailing_edges.treatment == TrailingEdges::sharpen)
     report.changes.push_back({"no trailing edge was closed: faces of triangles are kept as they are"});
   const Vec3 size = model.body_bounds().size();

@@ -3,20 +3,23 @@
 
 #include "cad/domain/domain.hpp"
 #include "cad/faceted/facet_complex.hpp"
+#include "cad/faceted/facet_plane.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/model/model_data.hpp"
 #include "cad/read/cad_facts.hpp"
 #include "cad/repair/diagnosis.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace aeroloom::cad {
 
-/// As prepare_domain, for a faceted file. Throws CadError also if a symmetry plane is asked for.
+/// As prepare_domain, for a faceted file.
 Domain prepare_faceted(const DomainOptions& options);
-/// The same, from the repaired triangles on.
-Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes);
+/// The same, from the repaired triangles on, which are halves closed by `plane` if there is one.
+Domain make_faceted_domain(const DomainOptions& options, const FacetComplex& complex, Changes changes,
+                           const std::optional<FacetPlane>& plane = {});
 
 /// Reads and repairs the triangles of a file, scales them, and keeps the outer walls of the bodies. Bodies
 /// that cross are united. A body without a name is the file of the case, some of whose groups may be ignored.

@@ -2,6 +2,7 @@
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/faceted_domain.hpp"
+#include "cad/faceted/half_facets.hpp"
 #include "cad/faceted/make_facet_complex.hpp"
 #include "cad/model/step_trace.hpp"
 #include "cad/read/ignored_faces.hpp"
@@ -20,6 +21,14 @@ void say_names(const FacetSoup& soup, Changes& changes) {
   for (const std::string& text : soup.read_otherwise) changes.push_back({text + encoding_hint});
 }
 
+/// Whether the case asks for half bodies in half a far field.
+bool is_half(const DomainOptions& options) {
+  if (!options.far_field || options.kind == DomainKind::fluid) return false;
+  const Symmetry symmetry = options.far_field->symmetry;
+  return options.far_field->shape == FarFieldShape::hemisphere ||
+         (symmetry != Symmetry::automatic && symmetry != Symmetry::none);
+}
+
 struct PreparedTriangles {
   Domain domain;
   bool united = false, imprinted = false;
@@ -32,10 +41,13 @@ PreparedTriangles prepare_triangles(const DomainOptions& options, CrossingFacets
   say_names(soup, changes);
   ignore_groups(soup, options.ignore, changes);
   report_step("repairing the triangles");
+  std::optional<FacetPlane> plane;
+  if (is_half(options)) plane = close_half_facets(soup, *options.far_field, changes);
   const FacetComplex complex = make_facet_complex(std::move(soup), options.feature_angle * geometry::degree,
                                                   changes, crossing, options.voids);
   report_step("making faces of the triangles");
-  return {make_faceted_domain(options, complex, std::move(changes)), complex.united, complex.imprinted};
+  return {make_faceted_domain(options, complex, std::move(changes), plane), complex.united,
+          complex.imprinted};
 }
 
 /// As regions, where solids touch at most and are the fluid; else as bodies, which are united. What crosses

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -197,12 +196,13 @@ Facets FacetedGeometry::facets(FaceId id) const {
     return static_cast<std::int32_t>(std::lower_bound(face.points.begin(), face.points.end(), p) -
                                      face.points.begin());
   };
-  for (const Coedge& use : face.loops | std::views::join) {
+  const auto add_line = [&](const Coedge& use) {
     const FacetedEdge& edge = _edges[use.edge];
     Facets::BoundaryLine line{use, {}, edge.along};
     for (const std::int32_t p : edge.points) line.nodes.push_back(number(p));
     facets.boundary.push_back(std::move(line));
-  }
+  };
+  for (const std::vector<Coedge>& loop : face.loops) std::ranges::for_each(loop, add_line);
   return facets;
 }
 
@@ -226,15 +226,23 @@ FacePlace FacetedGeometry::face_place(FaceId id) const {
   return place;
 }
 
-FacetedGeometry make_faceted_geometry(FacetComplex complex) {
-  divide_at_sharp_seams(complex);
-  FacetSheets sheets = cut_into_sheets(complex, link_facets(complex));
+double planar_tolerance_of(const FacetComplex& complex) {
   double farthest = 0;
   for (const Vec3 p : complex.points)
     farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const double tolerance = std::max(tolerances::coincident * box_of_points(complex.points).diagonal(),
-                                    2 * single_precision * farthest);
-  return FacetedGeometry(std::move(complex), std::move(sheets), tolerance);
+  return std::max(tolerances::coincident * box_of_points(complex.points).diagonal(),
+                  2 * single_precision * farthest);
+}
+
+FacetedGeometry make_faceted_geometry(FacetComplex complex) {
+  const double tolerance = planar_tolerance_of(complex);
+  return make_faceted_geometry(std::move(complex), tolerance);
+}
+
+FacetedGeometry make_faceted_geometry(FacetComplex complex, double planar_tolerance) {
+  divide_at_sharp_seams(complex);
+  FacetSheets sheets = cut_into_sheets(complex, link_facets(complex));
+  return FacetedGeometry(std::move(complex), std::move(sheets), planar_tolerance);
 }
 
 }  // namespace aeroloom::cad

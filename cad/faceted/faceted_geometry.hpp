@@ -100,7 +100,11 @@ private:
   std::vector<FacetedEdge> _edges;
 };
 
+/// How far a face may leave a plane that counts as planar: what rounding of its file leaves.
+double planar_tolerance_of(const FacetComplex& complex);
+
 /// Divides sharp seams, cuts sheets and makes the geometry.
 FacetedGeometry make_faceted_geometry(FacetComplex complex);
+FacetedGeometry make_faceted_geometry(FacetComplex complex, double planar_tolerance);
 
 }  // namespace aeroloom::cad

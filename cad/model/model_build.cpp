@@ -33,8 +33,12 @@ Bounds bounds_of(const TopTools_IndexedMapOfShape& faces, const FacetedGeometry*
   std::vector<TopoDS_Shape> body, far_field;
   for (int i = 1; i <= faces.Extent(); ++i) (tags[i - 1].far_field ? far_field : body).push_back(faces(i));
   Box of_body = tight_box(body), of_far_field = tight_box(far_field);
-  for (std::size_t p = 0; faceted && p < faceted->complex().points.size(); ++p)
-    of_body.add(faceted->complex().points[p]);
+  for (std::size_t t = 0; faceted && t < faceted->complex().triangles.size(); ++t) {
+    const FacetComplex& complex = faceted->complex();
+    const bool far = tags[faces.Extent() + complex.face_of[t]].far_field;
+    for (const Vec3 p : corners_of(complex, static_cast<std::int32_t>(t)))
+      (far ? of_far_field : of_body).add(p);
+  }
   Box all = of_far_field;
   if (!of_body.empty()) all.add(of_body);
   return {all, of_body.empty() ? all : of_body};
