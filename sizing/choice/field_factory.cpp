@@ -5,6 +5,7 @@
 #include "sizing/choice/predict_counts.hpp"
 #include "sizing/field/curvature_size.hpp"
 #include "sizing/field/field_builder.hpp"
+#include "sizing/field/source_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -108,11 +109,8 @@ std::vector<double> FieldFactory::sizes_at(std::span<const geometry::Vec3> point
   std::vector<double> sizes(points.size(), options.maximum);
   {
     ScopedCpu cpu(ScopedCpu::As::task);
-    const double slope = std::log(options.growth);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      for (const SizeSource& s : own)
-        sizes[i] = std::min(sizes[i], s.size + slope * distance(s.point, points[i]));
-    }
+    const SourceTree sources(points.empty() ? std::span<const SizeSource>() : own, std::log(options.growth));
+    for (std::size_t i = 0; i < points.size(); ++i) sizes[i] = sources.least(points[i], options.maximum);
   }
   _sampled.communicator().minimum_each(sizes);
   return sizes;
@@ -122,6 +120,7 @@ std::vector<SizeSource> FieldFactory::sample_corners(std::span<const SizeSource>
                                                      const SizingOptions& options) const {
   const std::vector<cad::FaceCorner>& corners = _sampled.own_corners();
   std::vector<geometry::Vec3> points;
+  points.reserve(corners.size());
   for (const cad::FaceCorner& corner : corners) points.push_back(model().vertex(corner.vertex));
   const auto before = static_cast<std::size_t>(
       _sampled.communicator().exclusive_scan(static_cast<std::int64_t>(points.size())));
