@@ -40,8 +40,8 @@ constexpr double least_telling_step = 0.2;
 // fields take so little that none is given up.
 constexpr double leaves_per_tetrahedron = 0.5;
 constexpr std::int64_t least_limit = 100'000;
-/// Gaps of one element have leaves on both of their outer sides: the limit is so many times as large. Chosen,
-/// not measured.
+/// Gaps of a few elements have leaves on both of their outer sides: the limit is so many times as large where
+/// there are gaps. Chosen, not measured.
 constexpr double leaves_around_gaps = 8;
 /// Leaves that a limit may be: more than any octree has.
 constexpr double most_limit = 1e15;
@@ -111,7 +111,8 @@ SizeSearch::SizeSearch(FieldFactory& factory, double target_tetrahedra, double c
       _coarsening(coarsening),
       _features(features),
       _target(std::log(target_tetrahedra)),
-      _most_leaves(leaves_for(target_tetrahedra * (features.gap_ratio > 1 ? leaves_around_gaps : 1))) {}
+      _most_leaves(leaves_for(target_tetrahedra *
+                              (std::isfinite(factory.gaps().narrowest_gap()) ? leaves_around_gaps : 1))) {}
 
 void SizeSearch::run(double first_size, double largest_error, int most_rounds, double coarsest_size) {
   const double extent = largest_extent(_factory);

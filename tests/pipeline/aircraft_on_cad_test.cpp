@@ -33,7 +33,7 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   domain.far_field.emplace();
   domain.far_field->extent = 3;
   const cad::Model model = cad::Model::from_bytes(cad::prepare_domain(domain).model.serialise());
-  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 60'000);
+  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 320'000);
   sizes.feature_minimum = 0.5 * sizes.minimum;  // small for a test: trailing edges stay unresolved
   sizes.narrow_minimum = 0;
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
