@@ -165,8 +165,14 @@ std::optional<HalfPlane> half_plane_of(const DomainOptions& options) {
 NamedShape make_solids_of_source(NamedShape source, const DomainOptions& options, Volumes& volumes,
                                  Changes& changes) {
   const std::string refused = source.refused;
+  OpeningRules openings(options.close, source.unit);
+  std::optional<HalfPlane> half = half_plane_of(options);
+  if (half) half->openings = &openings;
   try {
-    return make_solids(std::move(source), options.smallest_size, volumes, changes, half_plane_of(options));
+    NamedShape solids =
+        make_solids(std::move(source), options.smallest_size, volumes, changes, half, &openings);
+    openings.require_use();
+    return solids;
   } catch (const CadError& error) {
     if (refused.empty()) throw;
     throw CadError(fmt::format("{} ({}{})", error.what(), left_out, refused));

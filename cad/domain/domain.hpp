@@ -94,6 +94,9 @@ struct DomainOptions {
   /// Faces of the file that are left out: patterns of names, or numbers; of triangles, names of groups.
   std::vector<std::string> ignore = {};
   Caps caps = Caps::join;
+  /// Openings that are closed whatever their width: patterns for names of faces or groups beside them, or
+  /// boxes, six numbers in a text, that contain them. `refuse` alone: nothing is closed, however narrow.
+  std::vector<std::string> close = {};
   std::string encoding =
       {};  ///< of names in files that are not UTF-8 (geometry::decode_names); empty: latin-1
 
@@ -101,7 +104,7 @@ struct DomainOptions {
     using D = DomainOptions;
     return std::tuple(&D::file, &D::transport, &D::kind, &D::openings, &D::far_field, &D::default_far_field,
                       &D::trailing_edges, &D::baffles, &D::feature_angle, &D::voids, &D::smallest_size,
-                      &D::parts, &D::ignore, &D::caps, &D::encoding);
+                      &D::parts, &D::ignore, &D::caps, &D::close, &D::encoding);
   }
 };
 

@@ -184,9 +184,14 @@ void join_borders_beside(FacetSoup& soup, Changes& changes) {
   }
 }
 
-void close_facets(FacetSoup& soup, Changes& changes) {
+void close_facets(FacetSoup& soup, OpeningRules& rules, Changes& changes) {
   join_borders(soup, changes);
-  if (!is_open(soup)) return;
+  if (!is_open(soup) || rules.refuse()) return;
+  if (!rules.empty()) {
+    join_borders_beside(soup, changes);
+    close_named_openings(soup, rules, changes);
+    if (!is_open(soup)) return;
+  }
   const std::optional<FacetPlane> half = plane_of_open_sides(soup);
   if (cap_facets(soup, changes)) {
     if (half && half->position == 0) changes.push_back({"openings closed by caps" + half_hint(half)});
@@ -216,7 +221,8 @@ void refuse_open_sides(const FacetSoup& soup) {
                        [&](const OpenSide& side) { return sets.root(side.points[0]) == longest; });
   throw CadError(fmt::format(
       "{} is not closed: {} sides belong to one triangle only, in {} loops; the longest, of "
-      "length {:.6g}{}, passes {}; close the surface there and export it again{}",
+      "length {:.6g}{}, passes {}; close the surface there and export it again, or name it "
+      "in DomainOptions::close{}",
       soup.file, open.size(), loops, in_file(length[longest]), width_text(soup, own, length[longest]),
       place_in_file(soup.points[longest]), half_hint(plane_of_open_sides(soup))));
 }

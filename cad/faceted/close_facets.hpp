@@ -3,6 +3,7 @@
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/repair/change.hpp"
+#include "cad/repair/opening_rules.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,9 +14,10 @@ namespace aeroloom::cad {
 
 /// Closes open sides (sides of one triangle only). The steps below run in this order, each while sides are
 /// open. Borders are joined. Planar openings are capped. Borders beside each other are joined. Small and
-/// narrow openings are filled (fill_openings.hpp), then planar ones capped. Equal points must be one, and
-/// there may be no void triangles (weld_equal_points, drop_void_triangles).
-void close_facets(FacetSoup& soup, Changes& changes);
+/// narrow openings are filled (fill_openings.hpp), then planar ones capped. Rules come first: openings that
+/// they name are closed, or none at all. Equal points must be one, and there may be no void triangles
+/// (weld_equal_points, drop_void_triangles).
+void close_facets(FacetSoup& soup, OpeningRules& rules, Changes& changes);
 
 /// Splits triangles where open points lie on their open sides. Welds open points that are near each other, if
 /// that leaves fewer open sides.

@@ -42,9 +42,11 @@ PreparedTriangles prepare_triangles(const DomainOptions& options, CrossingFacets
   ignore_groups(soup, options.ignore, changes);
   report_step("repairing the triangles");
   std::optional<FacetPlane> plane;
-  if (is_half(options)) plane = close_half_facets(soup, *options.far_field, changes);
+  OpeningRules openings(options.close);
+  if (is_half(options)) plane = close_half_facets(soup, *options.far_field, openings, changes);
   const FacetComplex complex = make_facet_complex(std::move(soup), options.feature_angle * geometry::degree,
-                                                  changes, crossing, options.voids);
+                                                  changes, crossing, options.voids, &openings);
+  openings.require_use();
   report_step("making faces of the triangles");
   return {make_faceted_domain(options, complex, std::move(changes), plane), complex.united,
           complex.imprinted};
@@ -94,8 +96,10 @@ FacetSoup read_bodies(const FacetedBody& body, const DomainOptions& options, Cha
     for (auto& region : soup.regions) region.point = body.scale * region.point;
     bound_coordinates(soup);
   }
+  OpeningRules openings(body.name.empty() ? options.close : std::vector<std::string>{}, 1 / body.scale);
   const FacetComplex complex = make_facet_complex(std::move(soup), options.feature_angle * geometry::degree,
-                                                  changes, CrossingFacets::unite);
+                                                  changes, CrossingFacets::unite, {}, &openings);
+  openings.require_use();
   return soup_of(outer_walls(complex, changes), body.file);
 }
 

@@ -31,8 +31,8 @@ struct SpannedPolygon {
 
 class PlaneChainFiller {
 public:
-  PlaneChainFiller(FacetSoup& soup, const FacetPlane& plane)
-      : _soup(soup), _plane(plane), _diagonal(box_of_points(soup.points).diagonal()) {
+  PlaneChainFiller(FacetSoup& soup, const FacetPlane& plane, OpeningRules& openings)
+      : _soup(soup), _plane(plane), _openings(openings), _diagonal(box_of_points(soup.points).diagonal()) {
     for (std::size_t t = 0; t < soup.triangles.size(); ++t)
       _area += 0.5 * norm(area_vector2(corners_of(soup, t)));
     for (const FacetSide& side : sort_sides(soup.triangles)) _taken.emplace_back(side.low, side.high);
@@ -130,8 +130,15 @@ private:
     return span(chain, std::move(corners));
   }
 
-  bool is_bearable(const SpannedPolygon& polygon) const {
-    return !polygon.triangles.empty() && polygon.area <= tolerances::widest_filling * _area &&
+  bool is_named(const std::vector<std::int32_t>& chain) const {
+    Box box;
+    for (const std::int32_t p : chain) box.add(_soup.points[p]);
+    return _openings.take(names_beside(_soup, chain), box);
+  }
+
+  bool is_bearable(const SpannedPolygon& polygon, bool named) const {
+    if (polygon.triangles.empty() || named) return named && !polygon.triangles.empty();
+    return polygon.area <= tolerances::widest_filling * _area &&
            (polygon.deviation <= tolerances::planar_opening * _diagonal ||
             polygon.width() <= tolerances::widest_ruled * _diagonal);
   }
@@ -145,18 +152,21 @@ private:
       if (i > 0) length += distance(p, _soup.points[chain[i - 1]]);
     }
     const SpannedPolygon between = span_sides(chain);
-    const bool spanned = is_bearable(between);
+    const bool named = is_named(chain), spanned = is_bearable(between, named) && !_openings.refuse();
     SpannedPolygon down;
-    if (height <= tolerances::widest_ruled * _diagonal) down = drop_down(chain);
-    const bool dropped = is_bearable(down);
+    if (named || height <= tolerances::widest_ruled * _diagonal) down = drop_down(chain);
+    const bool dropped = is_bearable(down, named) && !_openings.refuse();
     const std::string text = fmt::format(
         "an opening of {} sides, {:.4g} long, that leaves the plane of symmetry {} by up "
         "to {:.4g} at {}",
         chain.size() - 1, in_file(length), name_of(_plane), in_file(height), place_in_file(where));
+    if (_openings.refuse())
+      throw CadError(fmt::format("{}: {} is not closed: DomainOptions::close refuses", _soup.file, text));
     if (!spanned && !dropped) {
       throw CadError(fmt::format(
           "{}: {} is too wide to be closed: {:.3g} in the mean, and {:.3g} ({} of the diagonal) is the "
-          "most. Remedy: close the surface there in the program that made it",
+          "most. Remedy: close the surface there in the program that made it, or name it in "
+          "DomainOptions::close",
           _soup.file, text, in_file(between.width()), in_file(tolerances::widest_ruled * _diagonal),
           tolerances::widest_ruled));
     }
@@ -194,14 +204,15 @@ private:
 
   FacetSoup& _soup;
   const FacetPlane& _plane;
+  OpeningRules& _openings;
   double _diagonal, _area = 0;
   std::vector<std::pair<std::int32_t, std::int32_t>> _taken;  ///< sides of triangles, ascending
 };
 
 }  // namespace
 
-void fill_chains(FacetSoup& soup, const FacetPlane& plane, Changes& changes) {
-  PlaneChainFiller(soup, plane).fill(changes);
+void fill_chains(FacetSoup& soup, const FacetPlane& plane, OpeningRules& openings, Changes& changes) {
+  PlaneChainFiller(soup, plane, openings).fill(changes);
   weld_equal_points(soup);
 }
 

@@ -5,6 +5,7 @@
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/model/library_unit.hpp"
+#include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
 #include "geometry/sort_unique.hpp"
 
@@ -59,7 +60,39 @@ public:
     if (std::ranges::count(openings, false, &Opening::small) > static_cast<std::ptrdiff_t>(most_narrow))
       return;
     drop_crossing(openings);
-    add(openings, changes);
+    add(openings, "a narrow opening", changes);
+  }
+
+  void close_named(OpeningRules& rules, Changes& changes) {
+    std::int32_t branch = -1;
+    const std::vector<OpenSide> sides = list_open_sides(_soup);
+    for (const OpenSide& side : sides) _ways.emplace_back(side.points[0], side.points[1]);
+    std::ranges::sort(_ways);
+    const auto loops = trace_open_loops(_soup, sides, branch);
+    if (!loops) return;
+    note_sides(*loops);
+    std::vector<Opening> openings;
+    for (const OpenLoop& loop : *loops) {
+      geometry::Box box;
+      for (const std::int32_t p : loop) box.add(_soup.points[p]);
+      if (!rules.take(names_beside(_soup, loop), box)) continue;
+      Opening& opening = openings.emplace_back(span(loop));
+      opening.small = false;
+    }
+    const std::vector<Opening> all = openings;
+    drop_crossing(openings);
+    std::erase_if(openings, [](const Opening& each) { return each.triangles.empty(); });
+    if (openings.size() < all.size()) {
+      const auto lost = std::ranges::find_if(all, [&](const Opening& each) {
+        return std::ranges::none_of(openings,
+                                    [&](const Opening& kept) { return kept.polygon == each.polygon; });
+      });
+      throw CadError(
+          fmt::format("{}: no triangles close the opening of {} sides at {} without crossing others. Remedy: "
+                      "close it in the program that made the file",
+                      _soup.file, lost->polygon.size(), place_in_file(_soup.points[lost->polygon.front()])));
+    }
+    add(openings, "an opening that the case names", changes);
   }
 
 private:
@@ -203,7 +236,7 @@ private:
     return static_cast<std::int32_t>(std::ranges::max_element(length) - length.begin());
   }
 
-  void add(const std::vector<Opening>& openings, Changes& changes) {
+  void add(const std::vector<Opening>& openings, const char* what, Changes& changes) {
     std::size_t holes = 0, sides = 0, triangles = 0;
     double longest = 0;
     Vec3 first;
@@ -223,12 +256,11 @@ private:
         FacetSoup::Group cap{name, {}};
         cap.cap = true;
         group = find_group(_soup, cap);
-        changes.push_back(
-            {fmt::format("a narrow opening of {} sides, {:.4g} long and {:.3g} wide in the mean, closed by "
-                         "{} triangles named '{}'",
-                         opening.polygon.size(), in_file(opening.length), in_file(opening.width()),
-                         opening.triangles.size(), name),
-             place});
+        changes.push_back({fmt::format("{} of {} sides, {:.4g} long and {:.3g} wide in the mean, closed by "
+                                       "{} triangles named '{}'",
+                                       what, opening.polygon.size(), in_file(opening.length),
+                                       in_file(opening.width()), opening.triangles.size(), name),
+                           place});
       }
       for (const geometry::TriangleCorners& t : opening.triangles) {
         _soup.triangles.push_back(t);
@@ -248,6 +280,25 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::string> names_beside(const FacetSoup& soup, std::span<const std::int32_t> points) {
+  std::vector<std::int32_t> sorted(points.begin(), points.end());
+  geometry::sort_unique(sorted);
+  std::vector<std::string> names;
+  for (const OpenSide& side : list_open_sides(soup)) {
+    const std::string& name = soup.groups[soup.group_of[side.triangle]].name;
+    if (std::ranges::all_of(side.points,
+                            [&](std::int32_t p) { return std::ranges::binary_search(sorted, p); }))
+      names.push_back(name);
+  }
+  geometry::sort_unique(names);
+  std::erase(names, "");
+  return names;
+}
+
+void close_named_openings(FacetSoup& soup, OpeningRules& rules, Changes& changes) {
+  OpeningFiller(soup).close_named(rules, changes);
+}
 
 void fill_openings(FacetSoup& soup, Changes& changes) {
   OpeningFiller(soup).fill(changes);

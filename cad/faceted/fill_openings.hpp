@@ -3,6 +3,7 @@
 
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/repair/change.hpp"
+#include "cad/repair/opening_rules.hpp"
 #include "geometry/half_edges.hpp"
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace aeroloom::cad {
@@ -43,5 +45,12 @@ std::vector<geometry::TriangleCorners> span_polygon(std::span<const geometry::Ve
 /// and become caps. Two loops beside each other, as of an end
 /// that is not welded, are one opening. What triangles would cross stays open, as all others do.
 void fill_openings(FacetSoup& soup, Changes& changes);
+
+/// Closes the openings that the rules name, whatever their width, by caps. Throws CadError where these would
+/// cross other triangles.
+void close_named_openings(FacetSoup& soup, OpeningRules& rules, Changes& changes);
+
+/// Names of the groups of the triangles at open sides between points of the loop.
+std::vector<std::string> names_beside(const FacetSoup& soup, std::span<const std::int32_t> points);
 
 }  // namespace aeroloom::cad

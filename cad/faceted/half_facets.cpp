@@ -277,7 +277,8 @@ void drop_unused_points(FacetSoup& soup) {
 
 }  // namespace
 
-FacetPlane close_half_facets(FacetSoup& soup, const FarFieldOptions& options, Changes& changes) {
+FacetPlane close_half_facets(FacetSoup& soup, const FarFieldOptions& options, OpeningRules& openings,
+                             Changes& changes) {
   weld_equal_points(soup);
   drop_flat_triangles(soup, changes);
   if (!open_sides(soup.triangles).empty()) drop_void_triangles(soup, changes);
@@ -301,7 +302,7 @@ FacetPlane close_half_facets(FacetSoup& soup, const FarFieldOptions& options, Ch
   weld_equal_points(soup);
   drop_flat_triangles(soup, changes);
   if (split_open_sides(soup, 0, NearPoints::in_chain, changes) > 0) drop_void_triangles(soup, changes);
-  fill_chains(soup, plane, changes);
+  fill_chains(soup, plane, openings, changes);
   PlaneCloser(soup, plane).close(changes);
   return plane;
 }

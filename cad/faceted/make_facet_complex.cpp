@@ -116,7 +116,7 @@ void name_interfaces(FacetSoup& soup, const std::vector<FacetRegions>& regions, 
 }
 
 /// Welds, drops and closes; the solids are those of the file where it is closed.
-FacetSolids close_soup(FacetSoup& soup, Changes& changes) {
+FacetSolids close_soup(FacetSoup& soup, OpeningRules& openings, Changes& changes) {
   weld_equal_points(soup);
   drop_flat_triangles(soup, changes);
   if (open_sides(soup.triangles).empty()) {
@@ -126,7 +126,7 @@ FacetSolids close_soup(FacetSoup& soup, Changes& changes) {
   } else {
     drop_void_triangles(soup, changes);
   }
-  close_facets(soup, changes);
+  close_facets(soup, openings, changes);
   refuse_open_sides(soup);
   return find_solids(soup);
 }
@@ -137,7 +137,8 @@ bool unite_solids(FacetSoup& soup, FacetSolids& solids, bool& imprinted, Changes
   Changes made;
   try {
     if (!unite_components(united, made)) return false;
-    FacetSolids found = close_soup(united, made);
+    OpeningRules none;
+    FacetSolids found = close_soup(united, none, made);
     soup = std::move(united), solids = std::move(found);
     changes.insert(changes.end(), made.begin(), made.end());
     return true;
@@ -156,13 +157,15 @@ bool unite_solids(FacetSoup& soup, FacetSolids& solids, bool& imprinted, Changes
 }  // namespace
 
 FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
-                                CrossingFacets crossing, const std::vector<std::string>& voids) {
+                                CrossingFacets crossing, const std::vector<std::string>& voids,
+                                OpeningRules* openings) {
   if (soup.cut_names > 0) changes.push_back({geometry::long_names_text(soup.cut_names), {}, 0, true});
   if (soup.zeroed > 0) {
     changes.push_back({fmt::format(
         "{} coordinates are so small beside the largest one that they count as zero", soup.zeroed)});
   }
-  FacetSolids solids = close_soup(soup, changes);
+  OpeningRules none;
+  FacetSolids solids = close_soup(soup, openings ? *openings : none, changes);
   bool imprinted = false;
   const bool united = crossing == CrossingFacets::unite && unite_solids(soup, solids, imprinted, changes);
   if (!imprinted) imprinted = imprint_solids(soup, solids, TouchingSolids::anyhow, changes);

@@ -4,6 +4,7 @@
 #include "cad/faceted/facet_complex.hpp"
 #include "cad/faceted/facet_soup.hpp"
 #include "cad/repair/change.hpp"
+#include "cad/repair/opening_rules.hpp"
 
 #include <cstdint>
 #include <string>
@@ -19,10 +20,10 @@ enum class CrossingFacets : std::uint8_t { join, unite };
 /// Repairs what has only one possible repair, finds the enclosed regions, and divides the triangles into
 /// faces. Faces end where the surface turns by more than `feature_angle` (radians), at borders of groups, and
 /// where more than two triangles meet. Solids whose name matches a pattern in `voids` are voids. Every change
-/// is listed. Throws CadError if the triangles are not closed, enclose nothing, or intersect and are neither
-/// joined nor united.
+/// is listed. `openings`: rules for what is open; null: none. Throws CadError if the triangles are not
+/// closed, enclose nothing, or intersect and are neither joined nor united.
 FacetComplex make_facet_complex(FacetSoup soup, double feature_angle, Changes& changes,
                                 CrossingFacets crossing = CrossingFacets::join,
-                                const std::vector<std::string>& voids = {});
+                                const std::vector<std::string>& voids = {}, OpeningRules* openings = nullptr);
 
 }  // namespace aeroloom::cad

@@ -77,6 +77,7 @@ public:
     _box = tight_box(_shape);
     _reach = tolerances::on_symmetry * _box.diagonal();
     _half.plane.axis = half.axis;
+    _openings = half.openings;
     choose_position(half.position);
   }
 
@@ -169,7 +170,9 @@ private:
       (distance_from(_half.plane, edge) <= _reach ? near : _beside).push_back(edge);
     const PutOnPlane put = put_on_plane(near, _half.plane);
     BRep_Builder builder;
-    for (const TopoDS_Edge& edge : near) add_feet(edge);
+    for (const TopoDS_Edge& edge : near)
+      for (const TopoDS_Vertex& vertex : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)})
+        _feet.Add(vertex);
     for (const TopoDS_Edge& edge : _beside) {
       for (const TopoDS_Vertex& vertex : {TopExp::FirstVertex(edge), TopExp::LastVertex(edge)}) {
         const gp_Pnt at = BRep_Tool::Pnt(vertex);
@@ -188,13 +191,7 @@ private:
          put.where, put.most});
   }
 
-  void add_feet(const TopoDS_Edge& edge) {
-    _feet.Add(TopExp::FirstVertex(edge));
-    _feet.Add(TopExp::LastVertex(edge));
-  }
-
-  /// Names of the faces along a chain, with the length of the chain.
-  std::string describe_chain(const BorderChain& chain, double length) const {
+  std::vector<std::string> names_along(const BorderChain& chain) const {
     TopTools_IndexedMapOfShape edges;
     for (const TopoDS_Edge& edge : chain.edges) edges.Add(edge);
     std::vector<std::string> names;
@@ -205,8 +202,21 @@ private:
           names.push_back(name);
       }
     }
+    return names;
+  }
+
+  /// Whether the rules name a chain, which may be wide then.
+  bool is_named(const BorderChain& chain) const {
+    if (_openings == nullptr) return false;
+    Box box;
+    for (const TopoDS_Edge& edge : chain.edges) box.add(tight_box(edge));
+    return _openings->take(names_along(chain), box);
+  }
+
+  /// Names of the faces along a chain, with the length of the chain.
+  std::string describe_chain(const BorderChain& chain, double length) const {
     return fmt::format("an opening of {} edges, {:.4g} long, of '{}'", chain.edges.size(), in_file(length),
-                       fmt::join(names, "', '"));
+                       fmt::join(names_along(chain), "', '"));
   }
 
   void add_cap(const TopoDS_Face& face) {
@@ -221,6 +231,8 @@ private:
     Vec3 branch;
     const auto chains = find_chains(_beside, _feet, branch);
     if (!chains) return fail(fmt::format("open edges branch at {}", place_in_file(branch)));
+    if (_openings != nullptr && _openings->refuse() && !chains->empty())
+      return fail("DomainOptions::close refuses to close openings beside the plane");
     const double walls = surface_area(_shape);
     for (const BorderChain& chain : *chains)
       if (!(chain.on_plane ? fill_down(chain, walls) : cap_loop(chain, walls))) return false;
@@ -228,14 +240,15 @@ private:
   }
 
   bool fill_down(const BorderChain& chain, double walls) {
+    const bool named = is_named(chain);
     const FillLimits limits{_reach, tolerances::planar_opening * _box.diagonal(),
-                            tolerances::widest_ruled * _box.diagonal()};
+                            (named ? 1 : tolerances::widest_ruled) * _box.diagonal()};
     const ChainFilling filling = fill_to_plane(chain, _half.plane, limits);
     double area = 0;
     for (const TopoDS_Face& face : filling.faces) area += surface_area(face);
     const std::string text = describe_chain(chain, filling.length);
     const bool is_wide = filling.is_wide || (filling.faces.size() > 1 && filling.width > limits.widest);
-    if (is_wide || filling.faces.empty() || area > tolerances::widest_filling * walls) {
+    if (is_wide || filling.faces.empty() || (!named && area > tolerances::widest_filling * walls)) {
       if (span(chain, text)) return true;
       return fail(
           fmt::format("{}, which leaves the plane of symmetry {} by up to {:.4g} at {}, is too wide to be "
@@ -277,7 +290,7 @@ private:
     double length = 0;
     for (const TopoDS_Edge& edge : chain.edges) length += length_along(edge);
     const std::string text = describe_chain(chain, length);
-    if (caps.size() != 1 || caps.front().area > tolerances::widest_filling * walls) {
+    if (caps.size() != 1 || (caps.front().area > tolerances::widest_filling * walls && !is_named(chain))) {
       if (span(chain, text)) return true;
       const gp_Pnt place = BRep_Tool::Pnt(TopExp::FirstVertex(chain.edges.front()));
       return fail(
@@ -354,6 +367,7 @@ private:
   TopTools_IndexedMapOfShape _feet;  ///< vertices on the plane
   std::vector<TopoDS_Face> _added;
   int _cap_count = 0;
+  OpeningRules* _openings = nullptr;
 };
 
 }  // namespace

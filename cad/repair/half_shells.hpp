@@ -4,6 +4,7 @@
 #include "cad/model/named_shape.hpp"
 #include "cad/repair/change.hpp"
 #include "cad/repair/on_plane.hpp"
+#include "cad/repair/opening_rules.hpp"
 
 #include <optional>
 #include <string>
@@ -18,6 +19,7 @@ namespace aeroloom::cad {
 struct HalfPlane {
   int axis = 1;
   std::optional<double> position = {};  ///< without: where the openings are, 0 before other places
+  OpeningRules* openings = nullptr;     ///< for openings beside the plane; null: none
 };
 
 /// What close_half made, or why it made nothing.

@@ -198,7 +198,7 @@ TopoDS_Shape make_compound(const std::vector<TopoDS_Solid>& solids) {
 }
 
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes,
-                       const std::optional<HalfPlane>& half) {
+                       const std::optional<HalfPlane>& half, OpeningRules* openings) {
   report_step("healing the shape");
   trim_spindle_tori(named, changes);
   Parts parts = take_apart(named.shape, named.labels, named.loose, changes);
@@ -213,7 +213,7 @@ NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes,
   }
   if (!parts.open_faces.IsEmpty()) {
     const SewingOptions options{largest_sewing_tolerance(smallest_size), !solids.empty() || !shells.empty(),
-                                half};
+                                half, openings};
     const std::vector<TopoDS_Shell> sewn = sew_open_faces(parts.open_faces, options, named, changes);
     shells.insert(shells.end(), sewn.begin(), sewn.end());
   }

@@ -4,6 +4,7 @@
 #include "cad/model/named_shape.hpp"
 #include "cad/repair/change.hpp"
 #include "cad/repair/half_shells.hpp"
+#include "cad/repair/opening_rules.hpp"
 #include "cad/repair/volumes.hpp"
 
 #include <optional>
@@ -26,8 +27,9 @@ TopoDS_Shape without_inner_faces(const TopoDS_Shape& solid);
 /// `changes`. Faces that bound no solid are in `loose` of the result: those inside of solids, loose ones, and
 /// open shells beside solids, which are sheets (sewing.hpp). Throws CadError that lists open edges if no
 /// closed solid results, and for solids without volume.
+/// `openings`: rules for what is open; null: none.
 /// Open halves are closed by the plane of symmetry `half` (half_shells.hpp), whose position is in the result.
 NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes, Changes& changes,
-                       const std::optional<HalfPlane>& half = {});
+                       const std::optional<HalfPlane>& half = {}, OpeningRules* openings = nullptr);
 
 }  // namespace aeroloom::cad

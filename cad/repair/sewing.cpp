@@ -159,14 +159,30 @@ bool close_bodies(const TopoDS_Shape& open, const std::vector<Cap>& caps) {
   return true;
 }
 
-/// Adds caps to sewn faces and sews once more; not complete where the openings are not planar.
-Sewn cap_and_sew(const Sewn& sewn, double diagonal, Changes& caps_made) {
+/// Whether the rules name the opening that a cap closes.
+bool is_named(const Cap& cap, const Sewn& sewn, OpeningRules* openings) {
+  if (openings == nullptr || openings->empty()) return false;
+  const TopTools_IndexedMapOfShape edges = map_of(cap.face, TopAbs_EDGE);
+  std::vector<std::string> names;
+  for (const TopoDS_Shape& face : shapes_in(map_of(sewn.shape, TopAbs_FACE))) {
+    for (TopExp_Explorer each(face, TopAbs_EDGE); each.More(); each.Next())
+      if (edges.Contains(each.Current())) names.push_back(shown_name(sewn.labels, face));
+  }
+  return openings->take(names, tight_box(cap.face));
+}
+
+/// Adds caps to sewn faces and sews once more; not complete where the openings are not planar. Those that the
+/// rules name may be as wide as they are.
+Sewn cap_and_sew(const Sewn& sewn, double diagonal, OpeningRules* openings, Changes& caps_made) {
   const std::vector<Cap> caps = cap_openings(open_edges(sewn.shape), tolerances::planar_opening * diagonal);
   if (caps.empty()) return {};
+  std::vector<Cap> unnamed;
   for (const Cap& cap : caps) {
+    if (is_named(cap, sewn, openings)) continue;
     if (cap.area < tolerances::narrowest_opening * diagonal * length_of(cap.face)) return {};
+    unnamed.push_back(cap);
   }
-  if (!close_bodies(sewn.shape, caps)) return {};
+  if (!unnamed.empty() && !close_bodies(sewn.shape, unnamed)) return {};
   TopTools_IndexedMapOfShape faces = map_of(sewn.shape, TopAbs_FACE);
   FaceLabels labels = sewn.labels;
   for (std::size_t i = 0; i < caps.size(); ++i) {
@@ -302,9 +318,9 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, const SewingOptions& opt
     return {sewn.closed, gap, {}};
   }
   for (const Sewn& open : tried) {
-    if (open.shape.IsNull()) continue;
+    if (open.shape.IsNull() || (options.openings != nullptr && options.openings->refuse())) continue;
     Changes caps_made;
-    Sewn capped = cap_and_sew(open, diagonal, caps_made);
+    Sewn capped = cap_and_sew(open, diagonal, options.openings, caps_made);
     if (!capped.complete) continue;
     changes.insert(changes.end(), caps_made.begin(), caps_made.end());
     const double gap = report_sewn(capped, faces.Extent(), changes);

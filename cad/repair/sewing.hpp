@@ -29,6 +29,7 @@ struct SewingOptions {
   double largest_tolerance = 0;
   bool beside_bodies = false;          ///< there are closed bodies beside these faces
   std::optional<HalfPlane> half = {};  ///< the plane of symmetry of a half model
+  OpeningRules* openings = nullptr;    ///< for what is open; null: none
 };
 
 /// Sews faces until all of them form closed shells. Tolerances grow from 1e-7 to 1e-4 of the diagonal, up to

@@ -156,6 +156,15 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
       sets("DomainOptions::caps",
            "Patches of faces that close planar openings ([Healing](real_cad.md)). `join`: that of the wall "
            "around the opening. `name`: `cap_1`, `cap_2` and so on. The faces have these names either way."));
+  keys.texts(
+      "close", draft.result.domain.close,
+      sets(
+          "DomainOptions::close",
+          {"Openings that get a closing face whatever their width: patterns for names of faces, or of groups "
+           "of triangles, beside them (as in `ignore`), or boxes that contain them, as a text of six numbers "
+           "(lower corner, upper corner). One without a match is an error. `[refuse]`: nothing is closed, "
+           "however narrow ([Openings](real_cad.md#openings)).",
+           "narrow and planar ones alone are closed", "[nozzle, '-1 -1 0 1 1 0.2']"}));
   keys.text("encoding", draft.result.domain.encoding,
             sets("DomainOptions::encoding",
                  {"Encoding of names in files of geometry, where they are not UTF-8: `latin-1`, "

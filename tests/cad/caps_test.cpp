@@ -157,6 +157,21 @@ TEST(Caps, DoNotMakeASheetABody) {
   }
 }
 
+TEST(Caps, AreAsWideAsTheCaseWants) {
+  const TopoDS_Shape tray =
+      compound_of(without(faces_of(BRepPrimAPI_MakeBox(3, 3, 0.2).Shape()), {{1.5, 1.5, 0.2}}));
+  DomainOptions options;
+  options.kind = DomainKind::fluid;
+  EXPECT_THROW(shapes::prepare(tray, options), CadError);
+  options.close = {"-1 -1 0.1 4 4 1"};
+  EXPECT_NEAR(shapes::prepare(tray, options).model.region_volume(0), 1.8, 1e-9);
+  options.close = {"-1 -1 -1 -0.5 4 1"};
+  EXPECT_THROW(shapes::prepare(tray, options), CadError);
+  options.close = {"refuse"};
+  const TopoDS_Shape box = compound_of(without(faces_of(make_box()), {{0.5, 1, 3}}));
+  EXPECT_THROW(shapes::prepare(box, options), CadError);
+}
+
 TEST(Caps, DoNotMakeSheetsOfSeveralFacesABody) {
   const TopoDS_Shape first = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 1, 1, 1).Shape();
   const TopoDS_Shape second = BRepPrimAPI_MakeBox(gp_Pnt(1, 0, 0), 1, 1, 1).Shape();

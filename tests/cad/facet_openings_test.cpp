@@ -24,9 +24,11 @@ struct Made {
   std::string changes;
 };
 
-Made made_of(const FacetSoup& soup) {
+Made made_of(const FacetSoup& soup, const std::vector<std::string>& close = {}) {
   Changes changes;
-  Made made{make_facet_complex(soup, feature_angle, changes), {}};
+  OpeningRules openings(close);
+  Made made{make_facet_complex(soup, feature_angle, changes, CrossingFacets::join, {}, &openings), {}};
+  openings.require_use();
   for (const Change& change : changes) made.changes += change.what + "\n";
   return made;
 }
@@ -123,6 +125,23 @@ TEST(FacetOpenings, ANarrowBentEndIsFilledAndAWideOneRefused) {
   EXPECT_NE(made.changes.find("a narrow opening of 60 sides"), std::string::npos) << made.changes;
   EXPECT_GT(volume_inside(made.complex), 1);
   EXPECT_THROW(made_of(bent_lens(1.5)), CadError);
+}
+
+TEST(FacetOpenings, WideOnesThatTheCaseNamesAreClosed) {
+  FacetSoup lens = bent_lens(1.5);
+  for (const std::string name : {"body*", "-2 -2 3 2 2 5"}) {
+    lens.groups.front().name = "body";
+    const Made made = made_of(lens, {name});
+    EXPECT_NE(made.changes.find("an opening that the case names of 60 sides"), std::string::npos)
+        << made.changes;
+    EXPECT_GT(volume_inside(made.complex), 8);
+  }
+  EXPECT_THROW(made_of(lens, {"other"}), CadError);
+  EXPECT_THROW(made_of(lens, {"-2 -2 3 2 2 3.5"}), CadError);
+  EXPECT_THROW(made_of(lens, {"1 2 3 4"}), CadError);
+  EXPECT_THROW(made_of(bent_lens(0.2), {"other"}), CadError);  // it closes, and the name has no opening
+  EXPECT_THROW(made_of(bent_lens(0.2), {"refuse"}), CadError);
+  EXPECT_THROW(made_of(lens, {"refuse", "body"}), CadError);
 }
 
 TEST(FacetOpenings, BordersBesideEachOtherGetThePointsOfBoth) {

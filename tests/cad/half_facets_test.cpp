@@ -36,13 +36,15 @@ struct Half {
   std::string changes;
 };
 
-Half half_of(FacetSoup soup, const FarFieldOptions& far_field = half()) {
+Half half_of(FacetSoup soup, const FarFieldOptions& far_field = half(),
+             const std::vector<std::string>& close = {}) {
   DomainOptions options;
   options.file = soup.file;
   options.kind = DomainKind::body;
   options.far_field = far_field;
   Changes changes;
-  const FacetPlane plane = close_half_facets(soup, far_field, changes);
+  OpeningRules openings(close);
+  const FacetPlane plane = close_half_facets(soup, far_field, openings, changes);
   const FacetComplex complex =
       make_facet_complex(std::move(soup), 40 * geometry::degree, changes, CrossingFacets::unite);
   Domain domain = make_faceted_domain(options, complex, changes, plane);
@@ -173,6 +175,14 @@ TEST(HalfFacets, WhatIsOpenAndWideIsRefusedWithItsSize) {
   const std::string refusal = half_refusal(soup);
   EXPECT_NE(refusal.find("is too wide to be closed"), std::string::npos) << refusal;
   EXPECT_NE(refusal.find("10 long"), std::string::npos) << refusal;
+}
+
+TEST(HalfFacets, AWideOpeningThatTheCaseNamesIsClosed) {
+  const FacetSoup soup = open_box({0, 0, 0}, {2, 2, 2}, {{0, 2}, {1, 2}});
+  EXPECT_NE(
+      half_of(soup, half(), {"1.9 -0.1 -0.1 2.1 2.1 2.1", "-1 -1 -1 3 3 3"}).changes.find("closed between"),
+      std::string::npos);
+  EXPECT_THROW(half_of(open_box({0, 0, 0}, {1, 3, 0.05}, {{0, 1}, {1, 3}}), half(), {"refuse"}), CadError);
 }
 
 TEST(HalfFacets, BodiesThatCrossAreClosedOneByOneAndUnited) {
