@@ -28,8 +28,9 @@ constexpr double fixed_above = 1.2;
 constexpr double least_for_features = 0.1;
 /// Of all elements, those that no feature takes, at least: counts of features are rough.
 constexpr double least_rest = 0.1;
-/// Elements that gaps may take where that is more than the budget.
-constexpr double most_in_gaps = 1e7;
+/// Elements that gaps may take where that is more than the budget, in all and over the target: gaps that
+/// narrow to nothing, as where walls cross, have no least size. Chosen, not measured.
+constexpr double most_in_gaps = 1e7, most_gaps_over_target = 500;
 /// Sizes on the body over those that counts of features led to, at most; the same where gaps rule.
 constexpr double coarsest_over_guess = 3, coarsest_with_gaps = 1.5;
 /// By this budget it is judged whether trailing edges are kept, if a user does not ask for more.
@@ -74,7 +75,8 @@ double least_left_over(double gaps) {
 FeatureBudget budget_for(double target, double feature_budget, double base) {
   const double most = feature_budget * target / base;
   const double left = base > fixed_above * target ? 1 : least_share;
-  return {1 + std::max(least_for_features, most - left), std::max(feature_budget, most_in_gaps / base)};
+  const double gaps = std::min(most_in_gaps, most_gaps_over_target * target) / base;
+  return {1 + std::max(least_for_features, most - left), std::max(feature_budget, gaps)};
 }
 
 /// Fills in how many elements are aimed at, features included, and the size on the body for it.
