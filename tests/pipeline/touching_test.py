@@ -10,7 +10,7 @@ from program import Run
 
 CASE = """
 geometry: {{file: "{file}"}}
-sizing: {{target_tetrahedra: 2000, feature_budget: 1}}
+sizing: {{target_tetrahedra: 2000, proximity: 0}}
 output: {{pictures: false}}
 """
 # Kind, distance and what is said; the block is 4 long.
