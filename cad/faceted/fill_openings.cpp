@@ -46,13 +46,8 @@ public:
   }
 
   void fill(Changes& changes) {
-    std::int32_t branch = -1;
-    const std::vector<OpenSide> sides = list_open_sides(_soup);
-    for (const OpenSide& side : sides) _ways.emplace_back(side.points[0], side.points[1]);
-    std::ranges::sort(_ways);
-    const auto loops = trace_open_loops(_soup, sides, branch);
+    const auto loops = trace();
     if (!loops) return;
-    note_sides(*loops);
     std::vector<Opening> openings;
     for (const OpenLoop& loop : *loops) openings.push_back(span(loop));
     join_loops(openings);
@@ -64,13 +59,8 @@ public:
   }
 
   void close_named(OpeningRules& rules, Changes& changes) {
-    std::int32_t branch = -1;
-    const std::vector<OpenSide> sides = list_open_sides(_soup);
-    for (const OpenSide& side : sides) _ways.emplace_back(side.points[0], side.points[1]);
-    std::ranges::sort(_ways);
-    const auto loops = trace_open_loops(_soup, sides, branch);
+    const auto loops = trace();
     if (!loops) return;
-    note_sides(*loops);
     std::vector<Opening> openings;
     for (const OpenLoop& loop : *loops) {
       geometry::Box box;
@@ -96,6 +86,17 @@ public:
   }
 
 private:
+  /// The loops around all openings; none where they branch.
+  std::optional<std::vector<OpenLoop>> trace() {
+    std::int32_t branch = -1;
+    const std::vector<OpenSide> sides = list_open_sides(_soup);
+    for (const OpenSide& side : sides) _ways.emplace_back(side.points[0], side.points[1]);
+    std::ranges::sort(_ways);
+    auto loops = trace_open_loops(_soup, sides, branch);
+    if (loops) note_sides(*loops);
+    return loops;
+  }
+
   /// The sides that triangles have at points of loops: no triangle of a filling may have one inside.
   void note_sides(const std::vector<OpenLoop>& loops) {
     std::vector<char> is_open(_soup.points.size(), 0);
