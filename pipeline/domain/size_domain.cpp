@@ -122,7 +122,9 @@ void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSi
   const double gaps = chosen.counted() * (chosen.features.gap_ratio - 1) / chosen.features.ratio;
   std::string why;
   if (gaps > named_gaps * target)
-    why = fmt::format(", some {:.2g} of them for one element across gaps between walls", gaps);
+    why = fmt::format(
+        ", some {:.2g} of them for one element across gaps between walls{}", gaps,
+        chosen.features.gaps_limited ? fmt::format(" wider than {:.3g}", chosen.features.gap_floor) : "");
   if (!costs.empty()) why += "; " + costs;
   if (ratio > 1)
     why +=

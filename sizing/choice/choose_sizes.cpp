@@ -119,7 +119,8 @@ PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahed
       base.options(),    base.body_size(), base.is_out_of_reach(), base.is_infeasible(), {},
       target_tetrahedra, target_tetrahedra};
   if (given.holds_features()) return preliminary;
-  preliminary.base = std::max(target_tetrahedra, base.tetrahedra());
+  // Where all fields were far too large nothing is known of features either.
+  if (std::isfinite(base.tetrahedra())) preliminary.base = std::max(target_tetrahedra, base.tetrahedra());
   preliminary.features = choose_feature_resolution(
       factory, base.options(), budget_for(target_tetrahedra, feature_budget, preliminary.base), coarsening,
       leaves_for(target_tetrahedra * budget_of_edges));

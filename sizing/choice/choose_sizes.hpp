@@ -47,10 +47,10 @@ struct PreliminarySizes {
 /// target counts everything but what requests ask for in regions and wakes. At least two fifths of it are
 /// left for what is not a feature finer than the minimum; if features take more, they may make it up to
 /// `feature_budget` times the target. Gaps get elements as small as they are wide whatever the target, within
-/// ten million elements; a quarter of the target is left then. If the target is out of reach, the nearest
-/// sizes are chosen. `near`: sizes of nearly the same model, to start from. The factory must look for gaps as
-/// closely as the options ask, or not at all. Collective. Throws std::invalid_argument for a target below
-/// one.
+/// ten million elements and 500 times the target; a quarter of the target is left then. If the target is out
+/// of reach, the nearest sizes are chosen. `near`: sizes of nearly the same model, to start from. The factory
+/// must look for gaps as closely as the options ask, or not at all. Collective. Throws std::invalid_argument
+/// for a target below one.
 ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
