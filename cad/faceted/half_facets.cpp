@@ -5,7 +5,7 @@
 #include "cad/faceted/facet_readers.hpp"
 #include "cad/faceted/facet_sides.hpp"
 #include "cad/faceted/fill_openings.hpp"
-#include "cad/faceted/plane_graph.hpp"
+#include "cad/faceted/plane_filling.hpp"
 #include "cad/model/library_unit.hpp"
 #include "cad/model/model.hpp"
 #include "cad/tolerances.hpp"
@@ -222,33 +222,12 @@ private:
   }
 
   bool fill(const std::vector<OpenSide>& sides) {
-    Vec3 normal;
-    normal[_plane.axis] = _plane.positive ? -1 : 1;
-    const CoordinatePlane flat(normal);
-    PlaneGraph graph;
-    graph.filling = PlaneFilling::alternating;
-    std::map<std::int32_t, std::int32_t> number;
-    std::vector<std::int32_t> points;
-    for (const OpenSide& side : sides) {
-      std::array<std::int32_t, 2> ends{};
-      for (int i = 0; i < 2; ++i) {
-        const auto [found, is_new] = number.emplace(side.points[i], static_cast<std::int32_t>(points.size()));
-        if (is_new)
-          points.push_back(side.points[i]), graph.places.push_back(flat(_soup.points[side.points[i]]));
-        ends[i] = found->second;
-      }
-      graph.sides.push_back(ends);
-    }
-    const auto triangles = fill_plane_graph(graph);
+    const auto triangles = triangles_on_plane(_soup, sides, _plane);
     if (!triangles) return false;
-    for (const auto& [a, b, c] : *triangles) {
-      const geometry::TriangleCorners corners = {points[a], points[b], points[c]};
-      const Vec3 area = cross(_soup.points[corners[1]] - _soup.points[corners[0]],
-                              _soup.points[corners[2]] - _soup.points[corners[0]]);
-      const bool turn = dot(area, normal) < 0;
-      _area += 0.5 * norm(area);
-      _soup.triangles.push_back({corners[0], corners[turn ? 2 : 1], corners[turn ? 1 : 2]});
+    for (const geometry::TriangleCorners& corners : *triangles) {
+      _soup.triangles.push_back(corners);
       _soup.group_of.push_back(_group);
+      _area += 0.5 * norm(area_vector2(corners_of(_soup, _soup.triangles.size() - 1)));
     }
     return true;
   }

@@ -9,7 +9,7 @@
 #include "cad/faceted/facet_walls.hpp"
 #include "cad/faceted/features.hpp"
 #include "cad/faceted/fill_openings.hpp"
-#include "cad/faceted/plane_graph.hpp"
+#include "cad/faceted/plane_filling.hpp"
 #include "cad/faceted/shape_facets.hpp"
 #include "cad/model/library_unit.hpp"
 #include "cad/tolerances.hpp"
@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,24 +80,7 @@ public:
 
   /// Between the border of the far field and the outlines of the bodies.
   void add_plane() {
-    Vec3 normal;
-    normal[_plane.axis] = _plane.positive ? -1 : 1;
-    const CoordinatePlane flat(normal);
-    PlaneGraph graph;
-    graph.filling = PlaneFilling::alternating;
-    std::map<std::int32_t, std::int32_t> number;
-    std::vector<std::int32_t> points;
-    for (const OpenSide& side : list_open_sides(_soup)) {
-      std::array<std::int32_t, 2> ends{};
-      for (int i = 0; i < 2; ++i) {
-        const auto [found, is_new] = number.emplace(side.points[i], static_cast<std::int32_t>(points.size()));
-        if (is_new)
-          points.push_back(side.points[i]), graph.places.push_back(flat(_soup.points[side.points[i]]));
-        ends[i] = found->second;
-      }
-      graph.sides.push_back(ends);
-    }
-    const auto triangles = fill_plane_graph(graph);
+    const auto triangles = triangles_on_plane(_soup, list_open_sides(_soup), _plane);
     if (!triangles) {
       throw CadError(
           fmt::format("outlines of the bodies cross or touch on the plane of symmetry {}. Remedy: repair the "
@@ -107,12 +89,8 @@ public:
     }
     _first_on_plane = _soup.triangles.size();
     _soup.groups.push_back({"symmetry", {}});
-    for (const auto& [a, b, c] : *triangles) {
-      const geometry::TriangleCorners corners = {points[a], points[b], points[c]};
-      const bool turn = dot(cross(_soup.points[corners[1]] - _soup.points[corners[0]],
-                                  _soup.points[corners[2]] - _soup.points[corners[0]]),
-                            normal) < 0;
-      _soup.triangles.push_back({corners[0], corners[turn ? 2 : 1], corners[turn ? 1 : 2]});
+    for (const geometry::TriangleCorners& corners : *triangles) {
+      _soup.triangles.push_back(corners);
       _soup.group_of.push_back(static_cast<std::int32_t>(_soup.groups.size()) - 1);
     }
   }
