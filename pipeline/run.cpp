@@ -8,16 +8,14 @@
 #include "pipeline/domain/face_patches.hpp"
 #include "pipeline/domain/length_ranges.hpp"
 #include "pipeline/domain/load_domain.hpp"
-#include "pipeline/domain/size_domain.hpp"
 #include "pipeline/finished_surface.hpp"
 #include "pipeline/finished_volume.hpp"
-#include "pipeline/forecast.hpp"
 #include "pipeline/layer_stage.hpp"
 #include "pipeline/report/pictures.hpp"
 #include "pipeline/run_identity.hpp"
 #include "pipeline/stage.hpp"
 #include "pipeline/stage_log.hpp"
-#include "pipeline/stage_products.hpp"
+#include "pipeline/surface_stages.hpp"
 #include "pipeline/volume_stages.hpp"
 #include "pipeline/write_outputs.hpp"
 
@@ -29,11 +27,6 @@
 
 namespace aeroloom::pipeline {
 namespace {
-
-/// Whether the model of the sizes is simpler than that of the domain.
-bool is_simplified(const domain::SizedDomain& sized) {
-  return !sized.findings.joined.groups.empty() || domain::has_closed(sized.findings.edges);
-}
 
 /// The finished volume.
 struct InspectedVolume : mesh::NumberedMesh {
@@ -88,9 +81,10 @@ private:
   void make(const End& end) {
     using report::ExitCode;
     const cases::TypedPatches domain = stage("geometry", ExitCode::cad, [&] { return load_geometry(); });
-    domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return size(domain); });
+    SurfaceStages first(_communicator, _input, *_checkpoints, _record);
+    domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return first.size(domain); });
     FinishedSurface surface =
-        stage("surface", ExitCode::surface, [&] { return find_or_build_surface(domain, std::move(sized)); });
+        stage("surface", ExitCode::surface, [&] { return first.mesh(domain, std::move(sized)); });
     const report::PictureSource pictured{surface, surface.types, domain.model.unit_name()};
     std::optional<report::LayerRecord> layers;
     VolumeProduct volume = report::with_pictures_of_failure(pictured, _input.output, _record.pictures, [&] {
@@ -128,12 +122,6 @@ private:
     return run_stage(_clock, name, code, work);
   }
 
-  std::optional<io::CheckpointContent> find(SavedStage saved, const char* name) {
-    std::optional<io::CheckpointContent> content = _checkpoints->find(saved);
-    if (content) _record.resumed.emplace_back(name);
-    return content;
-  }
-
   // --- geometry
 
   cases::TypedPatches load_geometry() {
@@ -156,7 +144,8 @@ private:
 
   /// With the report on rank 0 alone.
   cad::Domain find_or_load_domain() {
-    if (std::optional<io::CheckpointContent> found = find(SavedStage::geometry, "geometry")) {
+    if (std::optional<io::CheckpointContent> found = _checkpoints->find(SavedStage::geometry)) {
+      _record.resumed.emplace_back("geometry");
       std::optional<cad::Domain> domain;
       parallel::collectively(_communicator, parallel::ScopedCpu::As::repeated,
                              [&] { domain = domain::unpack_domain(found->common); });
@@ -181,133 +170,6 @@ private:
     _record.regions = model.region_count();
     _record.faces = model.face_count();
     _record.edges = model.edge_count();
-  }
-
-  // --- sizes, and the model they are for
-
-  domain::SizedDomain size(const cases::TypedPatches& domain) {
-    domain::SizedDomain sized = find_or_build_sizes(domain.model);
-    if (_communicator.is_root())
-      for (const std::string& warning : domain::warnings_of_lost_patches(domain, sized.model, _input))
-        parallel::log_warning(warning);
-    domain::require_walls_apart(sized);
-    require_memory(sized, types_of(sized.model.patches(), domain), _input);
-    return sized;
-  }
-
-  domain::SizedDomain find_or_build_sizes(const cad::Model& domain) {
-    if (std::optional<io::CheckpointContent> found = find(SavedStage::sizing, "sizing")) {
-      domain::SizedDomain sized = unpack_sizes(_communicator, std::move(*found), domain);
-      note_sizes(sized);
-      return sized;
-    }
-    domain::SizedDomain sized = build_sizes(domain, domain::Simplification::of(_input));
-    _checkpoints->keep(SavedStage::sizing,
-                       [&] { return _communicator.is_root() ? pack_sizes(sized) : io::CheckpointDraft(); });
-    return sized;
-  }
-
-  domain::SizedDomain build_sizes(const cad::Model& domain, const domain::Simplification& simplification) {
-    domain::SizedDomain sized = domain::size_domain(_communicator, domain, _input.sizing, simplification);
-    note_sizes(sized);
-    return sized;
-  }
-
-  void note_sizes(const domain::SizedDomain& sized) {
-    _record.sizes = sized.sizes;
-    _record.size_field_leaves = sized.field.leaf_count();
-    _record.face_names.clear();
-    for (cad::FaceId f = 0; f < sized.model.face_count(); ++f)
-      _record.face_names.push_back(sized.model.face(f).name);
-    _record.findings = sized.findings;
-    log_sizing(sized);
-    if (_communicator.is_root()) warn_of_sizes(sized);
-  }
-
-  // --- surface
-
-  /// `sized` may become that of the model as it was, with the surface.
-  FinishedSurface find_or_build_surface(const cases::TypedPatches& domain, domain::SizedDomain sized) {
-    const bool simplified = is_simplified(sized);
-    if (std::optional<surface::SurfaceMesh> known = find_surface(domain.model, sized)) {
-      if (is_simplified(sized) != simplified) note_sizes(sized);
-      parallel::add_pieces(static_cast<std::int64_t>(known->pieces.size()));
-      return finish_surface(domain, sized, std::move(*known));
-    }
-    surface::SurfaceMesh made = build_surface_or_advise(domain.model, sized);
-    FinishedSurface finished = finish_surface(domain, sized, std::move(made));
-    _checkpoints->keep(SavedStage::surface, [&] {
-      return pack_surface({finished, sized, is_simplified(sized) != simplified});
-    });
-    return finished;
-  }
-
-  std::optional<surface::SurfaceMesh> find_surface(const cad::Model& domain, domain::SizedDomain& sized) {
-    std::optional<io::CheckpointContent> found = _checkpoints->find(SavedStage::surface);
-    if (!found) return std::nullopt;
-    std::optional<surface::SurfaceMesh> known = unpack_surface(std::move(*found), domain, sized);
-    if (known)
-      _record.resumed.emplace_back("surface");
-    else
-      parallel::log_info("checkpoint: that surface is of other sizes: done anew");
-    return known;
-  }
-
-  /// Numbers the surface, checks it, and logs the result.
-  FinishedSurface finish_surface(const cases::TypedPatches& domain, const domain::SizedDomain& sized,
-                                 surface::SurfaceMesh surface) {
-    _record.surface = surface.report;
-    FinishedSurface finished{std::move(surface), sized.model, types_of(sized.model.patches(), domain),
-                             sized.sizes, sized.findings.counts.tetrahedra};
-    inspect_surface("the surface mesh", finished);
-    judge_chambers(finished, _input.chambers);
-    static_cast<report::SurfaceFigures&>(_record) = finished.figures;
-    log_surface(finished.report, finished.figures);
-    if (_communicator.is_root()) {
-      log_needles(finished.report, finished.figures.face_table);
-      warn_of_lost_area(finished.figures.patches);
-    }
-    return finished;
-  }
-
-  surface::SurfaceMesh build_surface(const domain::SizedDomain& sized) {
-    return surface::mesh_surface(sized.model, sized.field, _input.surface,
-                                 _checkpoints->tasks(SavedStage::surface));
-  }
-
-  /// The surface of the sized domain. Where joined faces or closed edges cannot be meshed, that of the model
-  /// as it was, and `sized` becomes its.
-  surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
-    if (!is_simplified(sized)) return build_surface(sized);
-    try {
-      return build_surface(sized);
-    } catch (const parallel::CollectiveError& error) {
-      if (error.kind() != parallel::FailureKind::input) throw;
-      log_surface_again(error.what());
-    } catch (const surface::SurfaceError& error) {
-      log_surface_again(error.what());
-    }
-    sized = build_sizes(domain, {cases::NarrowFaces::keep, cad::TrailingEdges::keep});
-    return build_surface(sized);
-  }
-
-  /// Meshes the surface; what fails near trailing edges that were closed may not fail where they stay.
-  surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, domain::SizedDomain& sized) {
-    const bool sharpened = _input.domain.trailing_edges.treatment == cad::TrailingEdges::sharpen;
-    const auto advised = [&](const std::string& text) {
-      return text +
-             "; or leave the trailing edges there as they are (geometry.sharpen_faces, "
-             "geometry.sharpen_width)";
-    };
-    try {
-      return build_surface(domain, sized);
-    } catch (const parallel::CollectiveError& error) {
-      if (!sharpened) throw;
-      throw parallel::CollectiveError(error.kind(), advised(error.what()));
-    } catch (const surface::SurfaceError& error) {
-      if (!sharpened) throw;
-      throw surface::SurfaceError(advised(error.what()));
-    }
   }
 
   // --- volume
