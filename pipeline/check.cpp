@@ -68,6 +68,8 @@ RunForecast forecast_run(const cases::TypedPatches& patches, const cases::Case& 
   forecast.sizes = sized.sizes;
   forecast.findings = sized.findings;
   forecast.found = sized.found;
+  if (const std::string& text = sized.findings.missed_target; communicator.is_root() && !text.empty())
+    parallel::log_warning("sizing: " + text);
   if (sized.level)
     forecast.levels = forecast_levels(*sized.level, sized.findings.counts, input.sizing, communicator.size());
   clock.end();

@@ -53,6 +53,8 @@ void log_sizing(const domain::SizedDomain& sized) {
 
 void warn_of_sizes(const domain::SizedDomain& sized) {
   const domain::SizingFindings& findings = sized.findings;
+  if (const std::string& text = findings.missed_target; !text.empty())
+    parallel::log_warning("sizing: " + text);
   if (const std::string text = describe(findings.walls.unseen); !text.empty())
     parallel::log_warning("sizing: " + text);
   if (const std::string text = findings.features ? describe(*findings.features) : std::string();

@@ -6,9 +6,12 @@
 #include "pipeline/forecast.hpp"
 #include "pipeline/stage_log.hpp"
 #include "pipeline/stage_products.hpp"
+#include "volume/volume_mesher.hpp"
 
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 namespace {
@@ -18,6 +21,28 @@ bool is_simplified(const domain::SizedDomain& sized) {
   return !sized.findings.joined.groups.empty() || domain::has_closed(sized.findings.edges);
 }
 
+/// Sizes that may be chosen once more are warned of when they are final, or where the work with them fails.
+template <class Work>
+void with_warnings(const domain::SizedDomain& sized, const Work& work) {
+  try {
+    work();
+  } catch (...) {
+    if (sized.field.communicator().is_root()) warn_of_sizes(sized);
+    throw;
+  }
+}
+
+/// The tetrahedra that are to be made inside a surface. Nothing where layers change it first, or where what
+/// is wrong with it is told later.
+std::optional<double> tetrahedra_inside(const surface::SurfaceMesh& surface, const cases::Case& input) {
+  if (input.layers.given) return std::nullopt;
+  try {
+    return volume::decompose({surface, input.volume}).report().expected_tetrahedra;
+  } catch (const parallel::CollectiveError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 domain::SizedDomain SurfaceStages::size(const cases::TypedPatches& domain) {
@@ -25,8 +50,10 @@ domain::SizedDomain SurfaceStages::size(const cases::TypedPatches& domain) {
   if (_communicator.is_root())
     for (const std::string& warning : domain::warnings_of_lost_patches(domain, sized.model, _input))
       parallel::log_warning(warning);
-  domain::require_walls_apart(sized);
-  require_memory(sized, types_of(sized.model.patches(), domain), _input);
+  with_warnings(sized, [&] {
+    domain::require_walls_apart(sized);
+    require_memory(sized, types_of(sized.model.patches(), domain), _input);
+  });
   return sized;
 }
 
@@ -58,23 +85,60 @@ void SurfaceStages::note_sizes(const domain::SizedDomain& sized) {
     _record.face_names.push_back(sized.model.face(f).name);
   _record.findings = sized.findings;
   log_sizing(sized);
-  if (_communicator.is_root()) warn_of_sizes(sized);
 }
 
 /// `sized` may become that of the model as it was, with the surface.
 FinishedSurface SurfaceStages::mesh(const cases::TypedPatches& domain, domain::SizedDomain sized) {
   const bool simplified = is_simplified(sized);
+  const sizing::SizingOptions sizes = sized.sizes;
   if (std::optional<surface::SurfaceMesh> known = find_surface(domain.model, sized)) {
-    if (is_simplified(sized) != simplified) note_sizes(sized);
+    if (is_simplified(sized) != simplified || !(sized.sizes == sizes)) note_sizes(sized);
+    if (_communicator.is_root()) warn_of_sizes(sized);
     parallel::add_pieces(static_cast<std::int64_t>(known->pieces.size()));
     return finish_surface(domain, sized, std::move(*known));
   }
-  surface::SurfaceMesh made = build_surface_or_advise(domain.model, sized);
-  FinishedSurface finished = finish_surface(domain, sized, std::move(made));
+  std::optional<surface::SurfaceMesh> made;
+  bool chosen_again = false;
+  with_warnings(sized, [&] {
+    made = build_surface_or_advise(domain.model, sized);
+    chosen_again = choose_again(sized, *made);
+  });
+  if (_communicator.is_root()) warn_of_sizes(sized);
+  FinishedSurface finished = finish_surface(domain, sized, std::move(*made));
   _checkpoints.keep(SavedStage::surface, [&] {
-    return pack_surface({finished, sized, is_simplified(sized) != simplified});
+    return pack_surface({finished, sized, chosen_again || is_simplified(sized) != simplified});
   });
   return finished;
+}
+
+/// Makes the surface again, with sizes that account for what is to be made inside of the last one, as long as
+/// that comes nearer to the target.
+bool SurfaceStages::choose_again(domain::SizedDomain& sized, surface::SurfaceMesh& made) {
+  constexpr int most_choices = 3;  // chosen, not measured
+  bool is_other = false;
+  std::optional<double> count;
+  const auto count_inside = [&] { return count ? count : count = tetrahedra_inside(made, _input); };
+  for (int choice = 0; choice < most_choices; ++choice) {
+    std::optional<domain::SizedDomain> again =
+        domain::size_again(sized, _input.sizing, {made.field, made.lowered, count_inside});
+    if (!again) break;
+    std::optional<surface::SurfaceMesh> other;
+    try {
+      other = build_surface(*again);
+    } catch (const surface::SurfaceError& error) {
+      parallel::log_verbose(fmt::format("surface: {}; the sizes before stay", error.what()));
+      break;
+    }
+    const std::optional<double> other_count = tetrahedra_inside(*other, _input);
+    if (!other_count || !domain::comes_nearer(*other_count, *count, *again, _input.sizing)) break;
+    sized = std::move(*again);
+    made = std::move(*other);
+    count = other_count;
+    note_sizes(sized);
+    is_other = true;
+  }
+  if (count) domain::note_count(sized, _input.sizing, *count);
+  return is_other;
 }
 
 std::optional<surface::SurfaceMesh> SurfaceStages::find_surface(const cad::Model& domain,

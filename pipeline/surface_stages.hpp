@@ -23,6 +23,7 @@ public:
   /// The sizes, and the model they are for.
   domain::SizedDomain size(const cases::TypedPatches& domain);
   /// The surface. Where it cannot be meshed with joined faces or closed edges, that of the model as it was.
+  /// Where sizes fell so much that the target is missed, of sizes that are chosen once more.
   FinishedSurface mesh(const cases::TypedPatches& domain, domain::SizedDomain sized);
 
 private:
@@ -34,6 +35,7 @@ private:
                                  surface::SurfaceMesh surface);
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized);
   surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized);
+  bool choose_again(domain::SizedDomain& sized, surface::SurfaceMesh& made);
   surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, domain::SizedDomain& sized);
 
   const parallel::Communicator& _communicator;

@@ -149,7 +149,7 @@ double PiecePool::predict(const PieceProblems& problems, const SizeField& field)
 }
 
 double PiecePool::most_triangles() const {
-  return std::max(few_triangles, _options.most_growth * _first);
+  return std::min(std::max(few_triangles, _options.most_growth * _first), _limit);
 }
 
 /// Depends on the piece problem and the field; model and options are the context of the store.

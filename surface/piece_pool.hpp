@@ -9,6 +9,7 @@
 #include "surface/division/task_distribution.hpp"
 #include "surface/surface_report.hpp"
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,8 +35,9 @@ public:
   /// Triangles predicted in the first round.
   double first_triangles() const { return _first; }
   /// Triangles that the whole surface may have in later rounds: SurfaceOptions::most_growth times those of
-  /// the first, but at least twenty thousand.
+  /// the first, but at least twenty thousand; not more than limit_to() allows.
   double most_triangles() const;
+  void limit_to(double triangles) { _limit = triangles; }
   /// Whether a face is cut into pieces; known on every rank.
   bool is_divided(cad::FaceId face) const { return _parts[face] > 1; }
   /// From the next round on, these faces are one piece each. Must be called alike on every rank.
@@ -77,7 +79,8 @@ private:
   parallel::TaskStore* _tasks;  // may be null
   TaskDistributor _distributor;
   bool _started = false;
-  double _first = 0;                   // triangles predicted in the first round
+  double _first = 0;  // triangles predicted in the first round
+  double _limit = std::numeric_limits<double>::infinity();
   std::vector<std::int32_t> _parts;    // per face: pieces, 0 before it is divided
   std::map<PieceKey, double> _costs;   // of faces prepared here in this round, in triangles to mesh
   std::map<PieceKey, Meshed> _meshed;  // on this rank

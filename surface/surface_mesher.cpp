@@ -205,6 +205,7 @@ private:
   /// The sources are the same on every rank: one gives them.
   void lower_sizes(std::span<const sizing::SizeSource> sources) {
     if (sources.empty()) return;
+    _lowered.insert(_lowered.end(), sources.begin(), sources.end());
     const bool gives = _field.communicator().is_root();
     _field = _field.refined(gives ? sources : std::span<const sizing::SizeSource>());
   }
@@ -216,8 +217,10 @@ private:
         "{:.2g} are allowed",
         triangles, _pool.first_triangles(), _pool.most_triangles());
     if (!_accepted) give_up(_last_message, tried);
-    parallel::log_verbose(fmt::format(
-        "surface: needles stay as they are: without them there would be about {:.2g} triangles", triangles));
+    parallel::log_verbose(
+        fmt::format("surface: needles stay as they are: without them there would be about {:.2g} triangles, "
+                    "{:.2g} are allowed",
+                    triangles, _pool.most_triangles()));
     return true;
   }
 
@@ -258,7 +261,10 @@ private:
     }
     SurfaceReport report = describe(curves, surface);
     report.needles = std::move(groups);
-    _accepted = SurfaceMesh{{mesh::number_mesh(std::move(surface)), _field}, std::move(report)};
+    constexpr double few_triangles = 1000;  // chosen, not measured
+    const auto triangles = static_cast<double>(report.triangles);
+    _pool.limit_to(std::max(_options.needle_growth * triangles, triangles + few_triangles));
+    _accepted = SurfaceMesh{{mesh::number_mesh(std::move(surface)), _field}, std::move(report), _lowered};
     return remedies;
   }
 
@@ -281,8 +287,9 @@ private:
   const CutOptions& _options;
   PiecePool _pool;
   SizeField _field;
-  std::vector<cad::VertexId> _short_legs;  // ascending
-  std::vector<ClosedCusp> _closed_cusps;   // of this round
+  std::vector<sizing::SizeSource> _lowered;  // the sources that _field got in these rounds
+  std::vector<cad::VertexId> _short_legs;    // ascending
+  std::vector<ClosedCusp> _closed_cusps;     // of this round
   int _rounds = 0, _needle_rounds = 0;
   std::string _last_message;
   std::optional<SurfaceMesh> _accepted;  // the last one without conflicts

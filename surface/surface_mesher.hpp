@@ -7,6 +7,8 @@
 #include "surface/surface_options.hpp"
 #include "surface/surface_report.hpp"
 
+#include <vector>
+
 namespace aeroloom::parallel {
 class TaskStore;
 }
@@ -17,6 +19,7 @@ namespace aeroloom::surface {
 /// the sources that rounds of local refinement added.
 struct SurfaceMesh : sizing::SizedSurface {
   SurfaceReport report;
+  std::vector<sizing::SizeSource> lowered = {};  ///< those sources, the same on every rank
 };
 
 /// Meshes the surface of the model on the ranks of the field. Pieces found in `tasks` are not meshed again,

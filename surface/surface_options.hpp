@@ -27,6 +27,8 @@ struct SurfaceOptions {
   int mending_rounds = 16;   ///< most rounds of local refinement where faces come too close
   double most_growth = 4;    ///< triangles after local refinement over those of the first round, at most
   int needle_rounds = 2;     ///< most rounds of refinement for needles that the CAD does not force
+  double needle_growth = 1.2;  ///< triangles after those rounds over those before, at most; 1,000 more are
+                               ///< allowed in any case
 };
 
 }  // namespace aeroloom::surface

@@ -7,6 +7,7 @@
 #include "pipeline/domain/level_sizes.hpp"
 #include "sizing/choice/choose_sizes.hpp"
 #include "sizing/choice/coincident_faces.hpp"
+#include "sizing/choice/predict_counts.hpp"
 #include "sizing/features/narrow_faces.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
 
@@ -35,6 +36,9 @@ constexpr double missed_target = 1.35;
 /// Logarithm of what a key does to the count, from which on it is named: about the logarithm of
 /// missed_target.
 constexpr double least_named_cost = 0.2;
+/// Tetrahedra that are to be made over those asked for, or the other way round, from which on sizes are
+/// chosen once more.
+constexpr double most_missed = 1.2;
 /// Of the target: elements in gaps that are named.
 constexpr double named_gaps = 0.25;
 
@@ -107,13 +111,12 @@ void tell_of_sources(const sizing::FieldFactory& factory, const sizing::ChosenSi
       chosen.counts.tetrahedra, chosen.aimed));
 }
 
-/// Warns where no sizes come near what was aimed at, with the keys that forbid it.
-void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
-                           const cases::SizingRequest& request, double target) {
+/// A sentence where no sizes come near what was aimed at, with the keys that forbid it.
+std::string describe_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSizes& chosen,
+                                   const cases::SizingRequest& request, double target) {
   const double ratio = chosen.counted() / target;
-  if (ratio < std::max(missed_target, 1.1 * request.feature_budget) && ratio > 1 / missed_target) return;
+  if (ratio < std::max(missed_target, 1.1 * request.feature_budget) && ratio > 1 / missed_target) return {};
   const std::string costs = describe_costs(sizing::costs_of_given(factory, chosen, request));
-  if (!factory.sampled().communicator().is_root()) return;
   const bool has_far_field = cad::is_around_bodies(factory.model());
   const std::string remedy =
       ratio > 1 ? fmt::format("{}a larger sizing.growth or larger sizes make it fewer",
@@ -129,10 +132,17 @@ void warn_of_missed_target(sizing::FieldFactory& factory, const sizing::ChosenSi
   if (ratio > 1)
     why +=
         fmt::format("; the least target that this case meets is about {:.2g}", sizing::least_target(chosen));
-  parallel::log_warning(fmt::format(
-      "sizing: sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}: {}", target,
-      chosen.counted(), why, remedy));
+  return fmt::format("sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are predicted{}: {}",
+                     target, chosen.counted(), why, remedy);
 }
+
+/// The purpose of a choice of sizes, and the sizes that it starts from.
+struct Aim {
+  sizing::FieldFor purpose;
+  /// Sizes for a model that is almost the same, where they are known and the target is to be met.
+  std::optional<sizing::SizingOptions> near;
+  Experience seen = {};
+};
 
 /// Sizes before any are chosen: those given, or what coarse fields promise of them.
 struct Trial {
@@ -149,10 +159,12 @@ TrialSizes trial_sizes(sizing::FieldFactory& factory, const sizing::SizingOption
 }
 
 Trial try_sizes(sizing::FieldFactory& factory, const cases::SizingRequest& request,
-                const std::optional<sizing::SizingOptions>& near) {
+                const std::optional<sizing::SizingOptions>& near, const Experience& seen) {
   const std::optional<double> target = target_of(request);
   if (!target) return {sizing::with_given({}, request), {}};
-  return {{}, sizing::preliminary_sizes(factory, *target, request.feature_budget, near, request)};
+  const double by_fields = *target / seen.bias;
+  const double aimed = std::max(by_fields, seen.at_places + sizing::least_share * by_fields);
+  return {{}, sizing::preliminary_sizes(factory, aimed, request.feature_budget, near, request)};
 }
 
 sizing::SizingOptions sizes_of_edges(sizing::FieldFactory& factory, const cases::SizingRequest& request,
@@ -164,24 +176,28 @@ sizing::SizingOptions sizes_of_edges(sizing::FieldFactory& factory, const cases:
 
 /// The sized domain of the factory's model, which stays as it is.
 SizedDomain finish(sizing::FieldFactory& factory, const cases::SizingRequest& request, const Trial& trial,
-                   JoinedFaces joined, sizing::FieldFor purpose) {
+                   JoinedFaces joined, const Aim& aim) {
   if (!trial.preliminary) {
-    sizing::ChosenSizes applied = sizing::apply_sizes(factory, trial.sizes, purpose);
+    sizing::ChosenSizes applied = sizing::apply_sizes(factory, trial.sizes, aim.purpose);
     SizingFindings findings{std::move(joined), applied.counts};
     findings.bounded = report_bounded_faces(factory, trial.sizes);
     findings.far_field = factory.sampled().far_field_decision();
     return {factory.model(), trial.sizes, std::move(applied.field), std::move(findings)};
   }
   const double target = *target_of(request);
-  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, *trial.preliminary, request, purpose);
+  sizing::ChosenSizes chosen = sizing::choose_sizes(factory, *trial.preliminary, request, aim.purpose);
+  for (double* count : {&chosen.counts.tetrahedra, &chosen.aimed}) *count *= aim.seen.bias;
   tell_of_sources(factory, chosen);
-  warn_of_missed_target(factory, chosen, request, target);
   SizingFindings findings{std::move(joined), chosen.counts};
+  findings.missed_target = describe_missed_target(factory, chosen, request, target);
   if (!request.holds_features())
     findings.features = report_features(factory.sampled(), chosen.features, chosen.counted());
   findings.bounded = report_bounded_faces(factory, chosen.options);
   findings.far_field = factory.sampled().far_field_decision();
-  return {factory.model(), chosen.options, std::move(chosen.field), std::move(findings)};
+  SizedDomain sized{factory.model(), chosen.options, std::move(chosen.field), std::move(findings)};
+  sized.on_top = chosen.counts.tetrahedra - chosen.counted();
+  sized.seen = aim.seen;
+  return sized;
 }
 
 sizing::SizeRequests requests_of(const cases::SizingRequest& request) {
@@ -225,24 +241,19 @@ std::vector<sizing::FaceRole> roles_of(const cad::Model& model, const cases::Siz
   return of_face;
 }
 
-/// The purpose of a choice of sizes, and the sizes that it starts from.
-struct Aim {
-  sizing::FieldFor purpose;
-  /// Sizes for a model that is almost the same, where they are known and the target is to be met.
-  std::optional<sizing::SizingOptions> near;
-};
-
 SizedDomain size_domain_near(const parallel::Communicator& communicator, const cad::Model& model,
                              const cases::SizingRequest& asked, const Simplification& simplification,
                              Aim aim) {
   std::optional<sizing::SizingOptions>& near = aim.near;
+  sizing::SizeRequests requests = requests_of(asked);
+  requests.places = aim.seen.places;
   const double thin = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
   const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   std::optional<sizing::FieldFactory> factory(
       std::in_place, sizing::SampledModel(communicator, model, roles_of(model, asked)), layers, fields,
-      requests_of(asked));
+      std::move(requests));
   std::optional<LevelRequest> of_level;
   if (asked.level) of_level = apply_level(*factory, asked);
   const cases::SizingRequest& request = of_level ? of_level->request : asked;
@@ -262,7 +273,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
       factory.emplace(std::move(of_joined));
     }
   }
-  const Trial trial = try_sizes(*factory, request, near);
+  const Trial trial = try_sizes(*factory, request, near, aim.seen);
   TrailingEdgeReport report;
   if (!edges.empty())
     report =
@@ -272,7 +283,7 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   if (closed && trial.preliminary) near = trial.preliminary->options;
   SizedDomain sized = closed ? size_domain_near(communicator, *closed, request,
                                                 {simplification.narrow_faces, cad::TrailingEdges::keep}, aim)
-                             : finish(*factory, request, trial, std::move(what), aim.purpose);
+                             : finish(*factory, request, trial, std::move(what), aim);
   if (!closed)
     sized.findings.walls = report_walls(model, coincident, *factory, sized.field.scaled(asked.scale));
   judge_again(report, sized.sizes);
@@ -318,6 +329,61 @@ SizedDomain size_domain(const parallel::Communicator& communicator, const cad::M
   if (communicator.is_root())
     parallel::log_info(fmt::format("sizing: all sizes times {:.6g} (sizing.scale)", request.scale));
   return sized;
+}
+
+std::optional<SizedDomain> size_again(const SizedDomain& sized, const cases::SizingRequest& given,
+                                      const MadeSurface& made) {
+  const cases::SizingRequest request = cases::in_model_units(given);
+  const std::optional<double> target = request.level ? std::nullopt : target_of(request);
+  if (!target || request.scale != 1) return std::nullopt;
+  const double forecast = sized.findings.counts.tetrahedra;
+  const bool has_lowered =
+      !made.places.empty() && sizing::count_everywhere(made.field) - sizing::count_everywhere(sized.field) >
+                                  (most_missed - 1) * *target;
+  if (!has_lowered && !sizing::is_steep(sized.sizes)) return std::nullopt;
+  const std::optional<double> count = made.count();
+  const double wanted = std::max(*target + sized.on_top, forecast);
+  if (!count || (*count<most_missed * wanted&& * count * most_missed> * target + sized.on_top))
+    return std::nullopt;
+  const parallel::Communicator& communicator = sized.field.communicator();
+  if (communicator.is_root())
+    parallel::log_info(
+        fmt::format("surface: about {:.2g} tetrahedra are to be made, not {:.2g}: sizes fell at {} places, "
+                    "and are chosen "
+                    "once more",
+                    *count, wanted, made.places.size()));
+  Experience seen = sized.seen;
+  seen.places.insert(seen.places.end(), made.places.begin(), made.places.end());
+  {
+    const sizing::SampledModel sampled(communicator, sized.model, roles_of(sized.model, request));
+    const double before = sizing::count_tetrahedra(sampled, sized.field),
+                 after = sizing::count_tetrahedra(sampled, made.field);
+    seen.at_places += after - before;
+    seen.bias = *count / (forecast / sized.seen.bias + after - before);
+  }
+  SizedDomain again = size_domain_near(communicator, sized.model, request,
+                                       {cases::NarrowFaces::keep, cad::TrailingEdges::keep},
+                                       {sizing::FieldFor::mesh, sized.sizes, std::move(seen)});
+  again.findings.joined = sized.findings.joined;
+  again.findings.edges = sized.findings.edges;
+  return again;
+}
+
+bool comes_nearer(double count, double other, const SizedDomain& sized, const cases::SizingRequest& request) {
+  const double wanted = target_of(request).value_or(0) + sized.on_top;
+  const auto error = [&](double each) { return std::abs(std::log(each / wanted)); };
+  return error(count) < error(other);
+}
+
+void note_count(SizedDomain& sized, const cases::SizingRequest& request, double count) {
+  const std::optional<double> target = request.level ? std::nullopt : target_of(request);
+  std::string& text = sized.findings.missed_target;
+  if (!target || !text.empty() || count < missed_target * (*target + sized.on_top)) return;
+  text = fmt::format(
+      "sizing.target_tetrahedra is {:.3g}, but about {:.2g} tetrahedra are to be made: at larger sizes walls "
+      "or "
+      "curves come too close to each other; the least target that this case meets is about {:.2g}",
+      *target, count, count);
 }
 
 }  // namespace aeroloom::domain

@@ -10,7 +10,9 @@
 #include "sizing/choice/levels.hpp"
 #include "sizing/field/size_field.hpp"
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace aeroloom::domain {
 
@@ -24,6 +26,13 @@ struct Simplification {
   }
 };
 
+/// What surfaces of earlier sizes have shown (size_again()).
+struct Experience {
+  std::vector<sizing::SizeSource> places = {};  ///< where sizes fell; each rank has all
+  double at_places = 0;                         ///< tetrahedra that fields predict for these
+  double bias = 1;                              ///< tetrahedra that are made over those that fields predict
+};
+
 struct SizedDomain {
   cad::Model model;  ///< after closing trailing edges and joining narrow faces
   sizing::SizingOptions sizes;
@@ -31,6 +40,8 @@ struct SizedDomain {
   SizingFindings findings;
   std::optional<sizing::Level> level = {};  ///< the level of these sizes
   std::optional<LevelFindings> found = {};  ///< by the level
+  double on_top = 0;                        ///< predicted tetrahedra that a target does not count
+  Experience seen = {};                     ///< that led to these sizes
 };
 
 /// Chooses all sizes that the user left open, within the bounds that the user gave. Closes blunt trailing
@@ -41,6 +52,27 @@ struct SizedDomain {
 SizedDomain size_domain(const parallel::Communicator& communicator, const cad::Model& model,
                         const cases::SizingRequest& request, const Simplification& simplification,
                         sizing::FieldFor purpose = sizing::FieldFor::mesh);
+
+/// The outcome of the surface stage.
+struct MadeSurface {
+  const sizing::SizeField& field;                 ///< after rounds in which sizes fell
+  const std::vector<sizing::SizeSource>& places;  ///< where, the same on every rank
+  /// The tetrahedra that are to be made inside this surface; nothing if that cannot be told. Collective.
+  std::function<std::optional<double>()> count;
+};
+
+/// Chooses sizes once more for the model of `sized` where far more or fewer tetrahedra are to be made than
+/// the target asks for: for rounds of the surface stage let sizes fall, or as forecasts err. Everything else
+/// gets so much coarser or finer that the target is met, as far as two fifths of it are left for that.
+/// Nothing where the sizes stay: they were given, or are of a scale or a level, or the count is as asked.
+/// Collective.
+std::optional<SizedDomain> size_again(const SizedDomain& sized, const cases::SizingRequest& request,
+                                      const MadeSurface& made);
+
+/// Whether `count` tetrahedra are nearer to the target than `other`.
+bool comes_nearer(double count, double other, const SizedDomain& sized, const cases::SizingRequest& request);
+/// Notes among the findings where so many tetrahedra are to be made that the target is missed by far.
+void note_count(SizedDomain& sized, const cases::SizingRequest& request, double count);
 
 /// Throws CollectiveError (input), with the faces, if faces lie on one another. Equal on every rank.
 void require_walls_apart(const SizedDomain& sized);

@@ -27,10 +27,11 @@ struct SizingFindings {
   sizing::PredictedCounts counts;              ///< predicted from the size field
   std::optional<FeatureReport> features = {};  ///< if sizes of features were chosen
   std::vector<NamedBound> bounded =
-      {};                         ///< faces where the smallest size prevents the wanted curvature angle
-  TrailingEdgeReport edges = {};  ///< blunt trailing edges, if they were examined
-  WallFindings walls = {};        ///< walls close to each other
-  std::string far_field = {};     ///< which faces are far field, and why
+      {};                          ///< faces where the smallest size prevents the wanted curvature angle
+  TrailingEdgeReport edges = {};   ///< blunt trailing edges, if they were examined
+  WallFindings walls = {};         ///< walls close to each other
+  std::string far_field = {};      ///< which faces are far field, and why
+  std::string missed_target = {};  ///< a sentence, where the target is missed by far
 };
 
 }  // namespace aeroloom::domain

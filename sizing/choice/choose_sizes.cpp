@@ -20,8 +20,8 @@ namespace {
 // Of the target. Sizes for a model that is almost the same, and those that coarse fields led to, are taken
 // over when they come as near as the second; sizes that only tell which faces are narrow, the third.
 constexpr double close_enough = 0.04, near_enough = 0.1, good_enough_to_start = 0.2;
-/// Of the target: what is left at least for everything but features where these take much, and where gaps do.
-constexpr double least_share = 0.4, least_share_with_gaps = 0.25;
+/// As least_share where gaps take much.
+constexpr double least_share_with_gaps = 0.25;
 /// Elements without features over the target, from which on these cannot be made fewer.
 constexpr double fixed_above = 1.2;
 /// Features get this part of the elements at least, where not even these are met.
@@ -71,12 +71,11 @@ double least_left_over(double gaps) {
   return std::max(least_share_with_gaps, least_share - std::max(0.0, gaps));
 }
 
-/// What features may add to `base` elements.
-FeatureBudget budget_for(double target, double feature_budget, double base) {
-  const double most = feature_budget * target / base;
-  const double left = base > fixed_above * target ? 1 : least_share;
-  const double gaps = std::min(most_in_gaps, most_gaps_over_target * target) / base;
-  return {1 + std::max(least_for_features, most - left), std::max(feature_budget, gaps)};
+/// What features may add to `base` elements. `left`: what is left beside them, over the base.
+FeatureBudget budget_for(const PreliminarySizes& preliminary, double base, double left) {
+  const double most = preliminary.feature_budget * preliminary.target / base;
+  const double gaps = std::min(most_in_gaps, most_gaps_over_target * preliminary.target) / base;
+  return {1 + std::max(least_for_features, most - left), std::max(preliminary.feature_budget, gaps)};
 }
 
 /// Fills in how many elements are aimed at, features included, and the size on the body for it.
@@ -116,14 +115,15 @@ PreliminarySizes preliminary_sizes(FieldFactory& factory, double target_tetrahed
   const double start = near && !given.surface_maximum ? near->surface_maximum : first_size(factory);
   base.run(start, near ? near_enough : close_enough, most_rounds);
   PreliminarySizes preliminary{
-      base.options(),    base.body_size(), base.is_out_of_reach(), base.is_infeasible(), {},
-      target_tetrahedra, target_tetrahedra};
+      base.options(),    base.body_size(),  base.is_out_of_reach(), base.is_infeasible(), {},
+      target_tetrahedra, target_tetrahedra, target_tetrahedra,      feature_budget};
   if (given.holds_features()) return preliminary;
   // Where all fields were far too large nothing is known of features either.
   if (std::isfinite(base.tetrahedra())) preliminary.base = std::max(target_tetrahedra, base.tetrahedra());
-  preliminary.features = choose_feature_resolution(
-      factory, base.options(), budget_for(target_tetrahedra, feature_budget, preliminary.base), coarsening,
-      leaves_for(target_tetrahedra * budget_of_edges));
+  const double left = preliminary.base > fixed_above * target_tetrahedra ? 1 : least_share;
+  preliminary.features =
+      choose_feature_resolution(factory, base.options(), budget_for(preliminary, preliminary.base, left),
+                                coarsening, leaves_for(target_tetrahedra * budget_of_edges));
   aim_at(preliminary, target_tetrahedra);
   return preliminary;
 }
@@ -151,6 +151,27 @@ ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, Fie
   return {options, std::move(field), counts, {}, 0};
 }
 
+namespace {
+
+/// The sizes where features get what a size on the body leaves, that nothing makes coarser.
+PreliminarySizes with_fewer_features(FieldFactory& factory, const PreliminarySizes& before, double body_size,
+                                     const GivenSizes& given) {
+  SizeSearch bare(factory, before.target, 1, {}, given);
+  bare.run(body_size, close_enough, 1);
+  PreliminarySizes now = before;
+  const double gaps = (before.features.gap_ratio - 1) * before.base;
+  now.options = bare.options();
+  now.body_size = body_size;
+  now.base = std::max(1.0, bare.tetrahedra());
+  now.features =
+      choose_feature_resolution(factory, now.options, budget_for(now, now.base, 1 + gaps / now.base),
+                                coarsening_for(before.target), leaves_for(before.target * budget_of_edges));
+  now.aimed = std::max(before.target, now.features.ratio * now.base);
+  return now;
+}
+
+}  // namespace
+
 ChosenSizes choose_sizes(FieldFactory& factory, const PreliminarySizes& preliminary, const GivenSizes& given,
                          FieldFor purpose) {
   if (preliminary.is_infeasible && purpose == FieldFor::forecast) {
@@ -159,14 +180,23 @@ ChosenSizes choose_sizes(FieldFactory& factory, const PreliminarySizes& prelimin
     applied.body_size = preliminary.body_size;
     return applied;
   }
-  const bool with_gaps = preliminary.features.gap_ratio > 1;
-  const double most_over_guess = with_gaps ? coarsest_with_gaps : coarsest_over_guess;
-  SizeSearch search(factory, preliminary.aimed, 1, preliminary.features, given);
-  search.run(preliminary.body_size, near_enough,
-             preliminary.is_out_of_reach ? rounds_out_of_reach : most_rounds,
-             preliminary.features.ratio > 1 ? most_over_guess * preliminary.body_size : 0);
-  ChosenSizes chosen = search.best(purpose);
-  chosen.features = at_count(preliminary.features, preliminary.base, chosen);
+  const auto search = [&](const PreliminarySizes& from) {
+    const double most_over_guess = from.features.gap_ratio > 1 ? coarsest_with_gaps : coarsest_over_guess;
+    SizeSearch found(factory, from.aimed, 1, from.features, given);
+    found.run(from.body_size, near_enough, from.is_out_of_reach ? rounds_out_of_reach : most_rounds,
+              from.features.ratio > 1 ? most_over_guess * from.body_size : 0);
+    return found;
+  };
+  SizeSearch found = search(preliminary);
+  const double most = preliminary.feature_budget * preliminary.target;
+  if (preliminary.features.ratio == 1 || found.tetrahedra() <= most || !std::isfinite(found.tetrahedra())) {
+    ChosenSizes chosen = found.best(purpose);
+    chosen.features = at_count(preliminary.features, preliminary.base, chosen);
+    return chosen;
+  }
+  const PreliminarySizes coarser = with_fewer_features(factory, preliminary, found.body_size(), given);
+  ChosenSizes chosen = search(coarser).best(purpose);
+  chosen.features = at_count(coarser.features, coarser.base, chosen);
   return chosen;
 }
 

@@ -24,6 +24,9 @@ struct ChosenSizes {
   double counted() const { return aimed > 0 ? aimed : counts.tetrahedra; }
 };
 
+/// Of the target: what is left at least for everything but features where these take much.
+inline constexpr double least_share = 0.4;
+
 /// Sizes that give the target within some twenty percent, by estimates alone
 /// (FieldFactory::estimate_tetrahedra). No feature is finer than the minimum. Collective. Throws as
 /// choose_sizes().
@@ -31,13 +34,14 @@ SizingOptions estimate_sizes(FieldFactory& factory, double target_tetrahedra, co
 
 /// Sizes estimated by coarse fields, before a field is built that is as fine as asked for.
 struct PreliminarySizes {
-  SizingOptions options;       ///< where no feature is finer than the minimum
-  double body_size;            ///< as in ChosenSizes
-  bool is_out_of_reach;        ///< nothing came near the target
-  bool is_infeasible;          ///< the given bounds take many times the target
-  FeatureResolution features;  ///< none are chosen if sizes of features are given
-  double base;                 ///< elements predicted without features, for which these are chosen
-  double aimed;                ///< elements that the field is to have, features included
+  SizingOptions options;          ///< where no feature is finer than the minimum
+  double body_size;               ///< as in ChosenSizes
+  bool is_out_of_reach;           ///< nothing came near the target
+  bool is_infeasible;             ///< the given bounds take many times the target
+  FeatureResolution features;     ///< none are chosen if sizes of features are given
+  double base;                    ///< elements predicted without features, for which these are chosen
+  double aimed;                   ///< elements that the field is to have, features included
+  double target, feature_budget;  ///< as asked for
   /// `options` with the sizes of features.
   SizingOptions with_features() const;
 };
@@ -46,11 +50,11 @@ struct PreliminarySizes {
 /// size on the body. The search varies it until the predicted count is within some percent of the target. The
 /// target counts everything but what requests ask for in regions and wakes. At least two fifths of it are
 /// left for what is not a feature finer than the minimum; if features take more, they may make it up to
-/// `feature_budget` times the target. Gaps get elements as small as they are wide whatever the target, within
-/// ten million elements and 500 times the target; a quarter of the target is left then. If the target is out
-/// of reach, the nearest sizes are chosen. `near`: sizes of nearly the same model, to start from. The factory
-/// must look for gaps as closely as the options ask, or not at all. Collective. Throws std::invalid_argument
-/// for a target below one.
+/// `feature_budget` times the target, and get less where the coarsest sizes leave no room for that. Gaps get
+/// elements as small as they are wide whatever the target, within ten million elements and 500 times the
+/// target; a quarter of the target is left then. If the target is out of reach, the nearest sizes are chosen.
+/// `near`: sizes of nearly the same model, to start from. The factory must look for gaps as closely as the
+/// options ask, or not at all. Collective. Throws std::invalid_argument for a target below one.
 ChosenSizes choose_sizes(FieldFactory& factory, double target_tetrahedra,
                          double feature_budget = default_feature_budget,
                          const std::optional<SizingOptions>& near = {}, const GivenSizes& given = {});
@@ -71,6 +75,9 @@ inline constexpr double least_coarse_forecast = 3e7;
 /// The second half of choose_sizes(): the field. Collective.
 ChosenSizes choose_sizes(FieldFactory& factory, const PreliminarySizes& preliminary, const GivenSizes& given,
                          FieldFor purpose = FieldFor::mesh);
+
+/// Whether sizes of a choice grow faster than the preset's: forecasts may be off by more than a quarter then.
+bool is_steep(const SizingOptions& chosen);
 
 /// The least target that the model meets, about, where the chosen sizes give more than was aimed at.
 double least_target(const ChosenSizes& chosen);

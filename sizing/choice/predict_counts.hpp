@@ -9,6 +9,9 @@ namespace aeroloom::sizing {
 /// h would be 6 sqrt(2) = 8.5 if they filled space, those of a body-centred lattice are 9.1.
 inline constexpr double tetrahedra_per_volume = 11.3;
 
+/// The tetrahedra of a field if all of its leaves were meshed. Takes no model. Collective.
+double count_everywhere(const SizeField& field);
+
 /// Triangles and tetrahedra of the mesh under a field. Collective, as what follows.
 PredictedCounts predict_counts(const SampledModel& sampled, const SizeField& field);
 /// The triangles of predict_counts() alone.

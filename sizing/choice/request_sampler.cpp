@@ -201,6 +201,8 @@ std::vector<SizeSource> RequestSampler::sample(const SampledModel& sampled, cons
   std::vector<SizeSource> mine = sample_regions(sampled, coarsening, which);
   const std::vector<SizeSource> in_cells = sample_cells(sampled, options, coarsening, which, any_number);
   mine.insert(mine.end(), in_cells.begin(), in_cells.end());
+  if (!sampled.communicator().is_root()) return mine;
+  for (const SizeSource& place : _requests.places) mine.push_back({place.point, coarsening * place.size});
   return mine;
 }
 

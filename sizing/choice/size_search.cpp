@@ -87,6 +87,11 @@ SizingOptions sizes_for(double body_size, const FieldFactory& factory, const Giv
   return with_given(options, given);
 }
 
+bool is_steep(const SizingOptions& chosen) {
+  constexpr double rounding = 1e-6;
+  return chosen.growth > (1 + rounding) * preset_growth;
+}
+
 double first_size(const FieldFactory& factory) {
   return largest_extent(factory) / body_over_first;
 }

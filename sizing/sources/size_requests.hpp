@@ -70,6 +70,7 @@ struct SizeRequests {
   std::vector<WakeSize> wakes = {};
   std::vector<EdgeSize> edges = {};
   std::vector<SizeLine> lines = {};
+  std::vector<SizeSource> places = {};  ///< points with sizes; each rank has all
 };
 
 /// Throws std::invalid_argument, with the key, where a pattern matches no face of the model.

@@ -1,6 +1,5 @@
 #include "pipeline/domain/size_domain.hpp"
 
-#include "parallel/observation/warnings.hpp"
 #include "pipeline/stage_products.hpp"
 #include "sizing/choice/predict_counts.hpp"
 #include "sizing/lifting/trailing_edges.hpp"
@@ -123,15 +122,13 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
   int met = 0;
   for (unsigned chosen = 0; chosen < 1u << keys.size(); chosen += 13) {
     const cases::SizingRequest request = target_beside(chosen);
-    parallel::take_warnings(world);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
-    const parallel::Warnings warnings = parallel::take_warnings(world);
     const double error = std::log(sized.findings.counts.tetrahedra / 30'000);
     met += std::abs(error) < std::log(1.25);
     if (std::abs(error) > std::log(1.45)) {
       EXPECT_GT(error, 0) << chosen;
-      ASSERT_FALSE(warnings.kept.empty()) << chosen;
-      EXPECT_NE(warnings.kept.back().message.find("; "), std::string::npos) << warnings.kept.back().message;
+      const std::string& text = sized.findings.missed_target;
+      EXPECT_NE(text.find("; "), std::string::npos) << chosen << ": " << text;
     }
     EXPECT_EQ(sized.sizes, sizing::with_given(sized.sizes, request)) << chosen;
   }
@@ -158,20 +155,15 @@ TEST(SizeDomain, ChoosesTheSameOnAnyNumberOfRanks) {
 TEST(SizeDomain, NamesTheKeyThatForbidsTheTarget) {
   const Model model = cad::shapes::split_cylinder(0.5, 1.5);
   const auto world = parallel::Communicator::world();
-  parallel::take_warnings(world);
   cases::SizingRequest request;
   request.target_tetrahedra = 1000;
   request.curvature_angle = 4;
   request.minimum = 0.01;
   const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
-  const parallel::Warnings warnings = parallel::take_warnings(world);
   EXPECT_GT(sized.findings.counts.tetrahedra, 2000);
-  if (!world.is_root()) return;
-  ASSERT_EQ(warnings.kept.size(), 1u);
-  EXPECT_NE(warnings.kept[0].message.find("sizing.curvature_angle makes it"), std::string::npos)
-      << warnings.kept[0].message;
-  EXPECT_EQ(warnings.kept[0].message.find("sizing.growth makes it"), std::string::npos)
-      << warnings.kept[0].message;
+  const std::string& text = sized.findings.missed_target;
+  EXPECT_NE(text.find("sizing.curvature_angle makes it"), std::string::npos) << text;
+  EXPECT_EQ(text.find("sizing.growth makes it"), std::string::npos) << text;
 }
 
 // Bounds that were chosen follow those that are given.
