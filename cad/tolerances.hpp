@@ -121,6 +121,12 @@ inline constexpr double planar_opening = 1e-5;
 /// An opening whose area over the length of its outline is smaller (of the same diagonal) is a gap to sew,
 /// not an opening to cap: ten times the last of `sewing`.
 inline constexpr double narrowest_opening = 1e-3;
+/// Unless it is compact: its area over the square of that length is that of a strip ten times as long as
+/// wide.
+inline constexpr double slender_opening = 0.02;
+/// An opening that is no plane is small if it has less of the area of the walls, and is shorter around (of
+/// the diagonal). Chosen, not measured.
+inline constexpr double small_opening_area = 0.01, small_opening_length = 0.2;
 /// `aeroloom check` lists shorter edges (of the diagonal). Equal to `most_noise`: closed noise leaves nothing
 /// shorter.
 inline constexpr double short_edge = 1e-5;

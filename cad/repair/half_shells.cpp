@@ -6,6 +6,8 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/border_chains.hpp"
+#include "cad/repair/filled_loops.hpp"
+#include "cad/repair/half_cut.hpp"
 #include "cad/repair/narrow_loops.hpp"
 #include "cad/repair/plane_loops.hpp"
 #include "cad/repair/sewing.hpp"
@@ -19,11 +21,9 @@
 
 #include <BOPTools_AlgoTools.hxx>
 #include <BRepAdaptor_Curve.hxx>
-#include <BRepAlgoAPI_Common.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepGProp.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
@@ -124,44 +124,21 @@ private:
     const double beyond =
         positive ? _half.plane.position - _box.low[axis] : _box.high[axis] - _half.plane.position;
     if (beyond <= _reach) return true;
-    for (const double aside : {0.0, 0.5 * _reach, -0.5 * _reach}) {
-      Vec3 low = _box.low - _box.diagonal() * Vec3{1, 1, 1},
-           high = _box.high + _box.diagonal() * Vec3{1, 1, 1};
-      (positive ? low : high)[axis] = _half.plane.position + (positive ? aside : -aside);
-      BRepAlgoAPI_Common common;
-      TopTools_ListOfShape shapes, tools;
-      for (const TopoDS_Shape& face : shapes_in(map_of(_shape, TopAbs_FACE))) shapes.Append(face);
-      tools.Append(BRepPrimAPI_MakeBox(to_gp(low), to_gp(high)).Solid());
-      common.SetArguments(shapes);
-      common.SetTools(tools);
-      common.SetRunParallel(false);
-      common.SetToFillHistory(true);
-      report_step("cutting an open half at its plane of symmetry");
-      common.Build();
-      if (!common.IsDone() || common.HasErrors() || common.Shape().IsNull()) continue;
-      const Box box = tight_box(common.Shape());
-      if (box.empty() ||
-          (positive ? _half.plane.position - box.low[axis] : box.high[axis] - _half.plane.position) > _reach)
-        continue;
-      for (const TopoDS_Shape& face : shapes) {
-        if (!_half.labels.IsBound(face)) continue;
-        const FaceLabel label = _half.labels.Find(face);
-        for (const TopoDS_Shape& image : common.Modified(face)) _half.labels.Bind(image, label);
-      }
-      _shape = common.Shape();
-      Vec3 at = box.center();
-      at[axis] = _half.plane.position;
-      _half.changes.push_back(
-          {fmt::format("an open half reached {:.4g} beyond its plane of symmetry {}: cut there",
-                       in_file(beyond), name_of(_half.plane)),
-           at, std::abs(aside)});
-      _box = box;
-      return true;
-    }
-    return fail(
-        fmt::format("it reaches {:.3g} beyond the plane of symmetry {}, and the CAD library does not "
-                    "cut it there",
-                    in_file(beyond), name_of(_half.plane)));
+    const std::optional<HalfCut> cut = cut_open_half(_shape, {_half.plane, positive, _reach}, _half.labels);
+    if (!cut)
+      return fail(
+          fmt::format("it reaches {:.3g} beyond the plane of symmetry {}, and the CAD library does not "
+                      "cut it there",
+                      in_file(beyond), name_of(_half.plane)));
+    _shape = cut->shape;
+    _box = tight_box(_shape);
+    Vec3 at = _box.center();
+    at[axis] = _half.plane.position;
+    _half.changes.push_back(
+        {fmt::format("an open half reached {:.4g} beyond its plane of symmetry {}: cut there",
+                     in_file(beyond), name_of(_half.plane)),
+         at, std::abs(cut->aside)});
+    return true;
   }
 
   void put_border_on_plane() {
@@ -233,13 +210,13 @@ private:
     if (!chains) return fail(fmt::format("open edges branch at {}", place_in_file(branch)));
     if (_openings != nullptr && _openings->refuse() && !chains->empty())
       return fail("DomainOptions::close refuses to close openings beside the plane");
-    const double walls = surface_area(_shape);
+    _walls = surface_area(_shape);
     for (const BorderChain& chain : *chains)
-      if (!(chain.on_plane ? fill_down(chain, walls) : cap_loop(chain, walls))) return false;
+      if (!(chain.on_plane ? fill_down(chain) : cap_loop(chain))) return false;
     return true;
   }
 
-  bool fill_down(const BorderChain& chain, double walls) {
+  bool fill_down(const BorderChain& chain) {
     const bool named = is_named(chain);
     const FillLimits limits{_reach, tolerances::planar_opening * _box.diagonal(),
                             (named ? 1 : tolerances::widest_ruled) * _box.diagonal()};
@@ -248,8 +225,8 @@ private:
     for (const TopoDS_Face& face : filling.faces) area += surface_area(face);
     const std::string text = describe_chain(chain, filling.length);
     const bool is_wide = filling.is_wide || (filling.faces.size() > 1 && filling.width > limits.widest);
-    if (is_wide || filling.faces.empty() || (!named && area > tolerances::widest_filling * walls)) {
-      if (span(chain, text)) return true;
+    if (is_wide || filling.faces.empty() || (!named && area > tolerances::widest_filling * _walls)) {
+      if (span(chain, text, named)) return true;
       return fail(
           fmt::format("{}, which leaves the plane of symmetry {} by up to {:.4g} at {}, is too wide to be "
                       "closed",
@@ -266,7 +243,7 @@ private:
   }
 
   /// Closes a narrow chain by one face, as a blunt trailing edge that ends at the plane.
-  bool span(const BorderChain& chain, const std::string& text) {
+  bool span(const BorderChain& chain, const std::string& text, bool named) {
     std::vector<TopoDS_Edge> loop = chain.edges;
     const TopoDS_Vertex begin = TopExp::FirstVertex(loop.front(), true),
                         end = TopExp::LastVertex(loop.back(), true);
@@ -275,33 +252,34 @@ private:
       if (!chord.IsDone()) return false;
       loop.push_back(chord.Edge());
     }
-    const std::optional<Cap> cap = span_narrow_loop(
+    std::optional<Cap> cap = span_narrow_loop(
         loop, {tolerances::planar_opening * _box.diagonal(), tolerances::widest_ruled * _box.diagonal()});
-    if (!cap) return false;
-    add_cap(cap->face);
+    if (cap) return add_filling(*cap, text, "a narrow");
+    cap = fill_narrow_loop(loop, {_box.diagonal(), _walls}, named);
+    return cap && add_filling(*cap, text, "an uneven");
+  }
+
+  bool add_filling(const Cap& cap, const std::string& text, const char* form) {
+    add_cap(cap.face);
     _half.changes.push_back(
-        {fmt::format("{}: closed by a narrow face of area {:.4g}", text, in_file(cap->area, 2)), cap->center,
-         cap->deviation});
+        {fmt::format("{}: closed by {} face of area {:.4g}", text, form, in_file(cap.area, 2)), cap.center,
+         cap.deviation});
     return true;
   }
 
-  bool cap_loop(const BorderChain& chain, double walls) {
+  bool cap_loop(const BorderChain& chain) {
     const std::vector<Cap> caps = cap_openings(chain.edges, tolerances::planar_opening * _box.diagonal());
+    const bool named = is_named(chain);
     double length = 0;
     for (const TopoDS_Edge& edge : chain.edges) length += length_along(edge);
     const std::string text = describe_chain(chain, length);
-    if (caps.size() != 1 || (caps.front().area > tolerances::widest_filling * walls && !is_named(chain))) {
-      if (span(chain, text)) return true;
-      const gp_Pnt place = BRep_Tool::Pnt(TopExp::FirstVertex(chain.edges.front()));
-      return fail(
-          fmt::format("{}, at {}, is no small planar one and does not lead to the plane of symmetry {}", text,
-                      place_in_file(to_vec(place)), name_of(_half.plane)));
-    }
-    add_cap(caps.front().face);
-    _half.changes.push_back(
-        {fmt::format("{}: closed by a planar face of area {:.4g}", text, in_file(caps.front().area, 2)),
-         caps.front().center, caps.front().deviation});
-    return true;
+    if (caps.size() == 1 && (caps.front().area <= tolerances::widest_filling * _walls || named))
+      return add_filling(caps.front(), text, "a planar");
+    if (span(chain, text, named)) return true;
+    const gp_Pnt place = BRep_Tool::Pnt(TopExp::FirstVertex(chain.edges.front()));
+    return fail(
+        fmt::format("{}, at {}, is no small or narrow one and does not lead to the plane of symmetry {}",
+                    text, place_in_file(to_vec(place)), name_of(_half.plane)));
   }
 
   TopoDS_Compound everything() const {
@@ -362,7 +340,7 @@ private:
   ClosedHalf _half;
   TopoDS_Shape _shape;
   Box _box;
-  double _reach = 0;
+  double _reach = 0, _walls = 0;     ///< area of the walls
   std::vector<TopoDS_Edge> _beside;  ///< open edges that are not on the plane
   TopTools_IndexedMapOfShape _feet;  ///< vertices on the plane
   std::vector<TopoDS_Face> _added;

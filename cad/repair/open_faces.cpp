@@ -5,6 +5,7 @@
 #include "cad/model/shape_map.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/half_shells.hpp"
+#include "cad/repair/plane_loops.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,17 +22,20 @@
 namespace aeroloom::cad {
 namespace {
 
-/// The name of the only face around an edge, or of its solid; empty where the file names neither.
-std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, const FaceLabels& labels) {
+/// The only face around an open edge.
+TopoDS_Shape face_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape) {
   for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    for (TopExp_Explorer edges(faces.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
-      if (!edges.Current().IsSame(edge)) continue;
-      const FaceLabel* label = labels.Seek(faces.Current());
-      if (label == nullptr) return {};
-      return label->name.empty() ? label->solid : label->name;
-    }
+    for (TopExp_Explorer edges(faces.Current(), TopAbs_EDGE); edges.More(); edges.Next())
+      if (edges.Current().IsSame(edge)) return faces.Current();
   }
   return {};
+}
+
+/// The name of the only face around an edge, or of its solid; empty where the file names neither.
+std::string name_around(const TopoDS_Edge& edge, const TopoDS_Shape& shape, const FaceLabels& labels) {
+  const FaceLabel* label = labels.Seek(face_around(edge, shape));
+  if (label == nullptr) return {};
+  return label->name.empty() ? label->solid : label->name;
 }
 
 std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels) {
@@ -47,6 +51,34 @@ std::string list_open_edges(const TopoDS_Shape& shape, const FaceLabels& labels)
     if (!name.empty()) text += fmt::format(" of '{}'", name);
   }
   return text + (edges.size() > shown ? "; ..." : "");
+}
+
+/// A sentence about the longest opening: its edges, length, place and the faces around it. Empty where open
+/// edges form no loops, or a single one that the list of edges tells.
+std::string describe_longest_opening(const TopoDS_Shape& shape, const FaceLabels& labels) {
+  constexpr std::size_t most_names = 5;  // a message of some lines
+  const std::vector<TopoDS_Edge> edges = open_edges(shape);
+  const auto loops = find_loops(edges);
+  if (!loops || edges.empty()) return {};
+  double longest = -1;
+  const std::vector<TopoDS_Edge>* widest = nullptr;
+  for (const std::vector<TopoDS_Edge>& loop : *loops) {
+    double length = 0;
+    for (const TopoDS_Edge& edge : loop) length += GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edge));
+    if (length > longest) longest = length, widest = &loop;
+  }
+  Box box;
+  std::vector<std::string> names;
+  for (const TopoDS_Edge& edge : *widest) {
+    box.add(tight_box(edge));
+    const std::string name = shown_name(labels, face_around(edge, shape));
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  std::string text =
+      fmt::format(" The longest of {} opening(s) has {} edges, is {:.4g} long around {}", loops->size(),
+                  widest->size(), in_file(longest), place_in_file(box.center()));
+  if (names.size() > most_names) names.resize(most_names), names.emplace_back("...");
+  return text + (names.empty() ? "." : fmt::format(", beside '{}'.", fmt::join(names, "', '")));
 }
 
 /// Names of faces outside of closed shells.
@@ -104,10 +136,14 @@ void refuse_open(const TopTools_IndexedMapOfShape& faces, const Sewn& last, cons
   }
   throw CadError(
       fmt::format("the faces do not close to a solid, even sewn with a tolerance of {:.3g} ({:.0e} of "
-                  "the diagonal), and their openings are no small planar ones: {}.{} {}",
+                  "the diagonal), and their openings are no small planar ones: {}.{}{} {}",
                   in_file(last.tolerance), last.fraction,
                   last.shape.IsNull() ? "nothing was sewn" : list_open_edges(last.shape, last.labels),
-                  half_remedy(last, reasons), remedy.empty() ? "Close the gaps in the CAD program" : remedy));
+                  last.shape.IsNull() ? "" : describe_longest_opening(last.shape, last.labels),
+                  half_remedy(last, reasons),
+                  remedy.empty() ? "Close the gaps in the CAD program, or name what a face shall close in "
+                                   "DomainOptions::close"
+                                 : remedy));
 }
 
 std::vector<TopoDS_Edge> open_edges(const TopoDS_Shape& shape) {

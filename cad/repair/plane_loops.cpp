@@ -142,6 +142,17 @@ void nest(std::vector<PlaneLoop>& loops, double tolerance) {
 
 }  // namespace
 
+std::optional<std::vector<std::vector<TopoDS_Edge>>> find_loops(const std::vector<TopoDS_Edge>& edges) {
+  const auto wires = chain_wires(edges);
+  if (!wires) return std::nullopt;
+  std::vector<std::vector<TopoDS_Edge>> loops;
+  for (const TopoDS_Wire& wire : *wires) {
+    std::vector<TopoDS_Edge>& loop = loops.emplace_back();
+    for (TopoDS_Iterator each(wire); each.More(); each.Next()) loop.push_back(TopoDS::Edge(each.Value()));
+  }
+  return loops;
+}
+
 std::optional<std::vector<PlaneLoop>> find_plane_loops(const std::vector<TopoDS_Edge>& edges,
                                                        double tolerance, const std::optional<gp_Pln>& plane) {
   const auto wires = chain_wires(edges);

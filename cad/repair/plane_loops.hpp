@@ -43,8 +43,13 @@ struct Cap {
   TopoDS_Face face;
   geometry::Vec3 center;
   double area = 0;
-  double deviation = 0;  ///< largest distance of the opening's edges from the plane
+  double deviation = 0;    ///< largest distance of the opening's edges from the plane, or the surface
+  bool is_filled = false;  ///< it is no plane (filled_loops.hpp)
 };
+
+/// Edges that share vertices as simple closed loops, in order and oriented along them. Empty if they form
+/// none.
+std::optional<std::vector<std::vector<TopoDS_Edge>>> find_loops(const std::vector<TopoDS_Edge>& edges);
 
 /// Planar faces that close the openings bounded by `open` edges, one per opening. Openings inside others of
 /// the same plane become holes. Empty if an opening is no simple closed loop or leaves its plane by more than

@@ -7,6 +7,7 @@
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
 #include "cad/model/topology/model_topology.hpp"
+#include "cad/repair/cap_choice.hpp"
 #include "cad/repair/noise.hpp"
 #include "cad/repair/noise_faces.hpp"
 #include "cad/repair/open_faces.hpp"
@@ -40,10 +41,6 @@
 
 namespace aeroloom::cad {
 namespace {
-
-/// A shape that is open wider than this fraction of its faces' area is a sheet, not a body with an opening:
-/// an open half of a sphere, half of whose area its cap has, still is a body. Chosen, not measured.
-constexpr double widest_opening = 0.5;
 
 void move_labels(const TopTools_IndexedMapOfShape& faces, const BRepBuilderAPI_Sewing& sewing,
                  FaceLabels& labels) {
@@ -123,66 +120,14 @@ double report_sewn(const Sewn& sewn, int face_count, Changes& changes) {
   return gap.width;
 }
 
-double area_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(shape, properties);
-  return std::abs(properties.Mass());
-}
-
 double length_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::LinearProperties(shape, properties);
   return properties.Mass();
 }
 
-/// Whether the caps close bodies: what hangs together must be open no wider than a body is, each piece for
-/// itself.
-bool close_bodies(const TopoDS_Shape& open, const std::vector<Cap>& caps) {
-  TopoDS_Compound all;
-  BRep_Builder builder;
-  builder.MakeCompound(all);
-  builder.Add(all, open);
-  TopTools_IndexedMapOfShape cap_faces;
-  for (const Cap& cap : caps) {
-    builder.Add(all, cap.face);
-    cap_faces.Add(cap.face);
-  }
-  TopTools_ListOfShape pieces;
-  BOPTools_AlgoTools::MakeConnexityBlocks(all, TopAbs_EDGE, TopAbs_FACE, pieces);
-  for (const TopoDS_Shape& piece : pieces) {
-    double walls = 0, openings = 0;
-    for (TopExp_Explorer faces(piece, TopAbs_FACE); faces.More(); faces.Next()) {
-      (cap_faces.Contains(faces.Current()) ? openings : walls) += area_of(faces.Current());
-    }
-    if (openings > widest_opening * walls) return false;
-  }
-  return true;
-}
-
-/// Whether the rules name the opening that a cap closes.
-bool is_named(const Cap& cap, const Sewn& sewn, OpeningRules* openings) {
-  if (openings == nullptr || openings->empty()) return false;
-  const TopTools_IndexedMapOfShape edges = map_of(cap.face, TopAbs_EDGE);
-  std::vector<std::string> names;
-  for (const TopoDS_Shape& face : shapes_in(map_of(sewn.shape, TopAbs_FACE))) {
-    for (TopExp_Explorer each(face, TopAbs_EDGE); each.More(); each.Next())
-      if (edges.Contains(each.Current())) names.push_back(shown_name(sewn.labels, face));
-  }
-  return openings->take(names, tight_box(cap.face));
-}
-
-/// Adds caps to sewn faces and sews once more; not complete where the openings are not planar. Those that the
-/// rules name may be as wide as they are.
-Sewn cap_and_sew(const Sewn& sewn, double diagonal, OpeningRules* openings, Changes& caps_made) {
-  const std::vector<Cap> caps = cap_openings(open_edges(sewn.shape), tolerances::planar_opening * diagonal);
-  if (caps.empty()) return {};
-  std::vector<Cap> unnamed;
-  for (const Cap& cap : caps) {
-    if (is_named(cap, sewn, openings)) continue;
-    if (cap.area < tolerances::narrowest_opening * diagonal * length_of(cap.face)) return {};
-    unnamed.push_back(cap);
-  }
-  if (!unnamed.empty() && !close_bodies(sewn.shape, unnamed)) return {};
+/// Adds caps to sewn faces and sews once more.
+Sewn cap_and_sew(const Sewn& sewn, const std::vector<Cap>& caps, Changes& caps_made) {
   TopTools_IndexedMapOfShape faces = map_of(sewn.shape, TopAbs_FACE);
   FaceLabels labels = sewn.labels;
   for (std::size_t i = 0; i < caps.size(); ++i) {
@@ -191,9 +136,10 @@ Sewn cap_and_sew(const Sewn& sewn, double diagonal, OpeningRules* openings, Chan
     label.cap = true;
     labels.Bind(caps[i].face, label);
     faces.Add(caps[i].face);
-    caps_made.push_back({fmt::format("a planar opening of area {:.6g} closed by a face named '{}'",
-                                     in_file(caps[i].area, 2), label.name),
-                         caps[i].center, caps[i].deviation});
+    caps_made.push_back(
+        {fmt::format("a{} opening of area {:.6g} closed by a face named '{}'",
+                     caps[i].is_filled ? "n uneven" : " planar", in_file(caps[i].area, 2), label.name),
+         caps[i].center, caps[i].deviation});
   }
   Sewn capped = sew_once(faces, sewn.tolerance, labels);
   capped.fraction = sewn.fraction;
@@ -317,21 +263,27 @@ SewnShells sew(const TopTools_IndexedMapOfShape& faces, const SewingOptions& opt
     labels = sewn.labels;
     return {sewn.closed, gap, {}};
   }
-  for (const Sewn& open : tried) {
-    if (open.shape.IsNull() || (options.openings != nullptr && options.openings->refuse())) continue;
-    Changes caps_made;
-    Sewn capped = cap_and_sew(open, diagonal, options.openings, caps_made);
-    if (!capped.complete) continue;
-    changes.insert(changes.end(), caps_made.begin(), caps_made.end());
-    const double gap = report_sewn(capped, faces.Extent(), changes);
-    labels = capped.labels;
-    return {capped.closed, gap, {}};
-  }
+  const auto cap = [&](CapForm form) -> std::optional<SewnShells> {
+    for (const Sewn& open : tried) {
+      if (open.shape.IsNull() || (options.openings != nullptr && options.openings->refuse())) continue;
+      const std::vector<Cap> caps = choose_caps(open, diagonal, options.openings, form);
+      Changes caps_made;
+      const Sewn capped = caps.empty() ? Sewn{} : cap_and_sew(open, caps, caps_made);
+      if (!capped.complete) continue;
+      changes.insert(changes.end(), caps_made.begin(), caps_made.end());
+      const double gap = report_sewn(capped, faces.Extent(), changes);
+      labels = capped.labels;
+      return SewnShells{capped.closed, gap, {}};
+    }
+    return std::nullopt;
+  };
+  if (const std::optional<SewnShells> planar = cap(CapForm::planar)) return *planar;
   std::string fault;
   if (options.half) {
     const std::optional<SewnShells> half = close_best_half(tried, *options.half, labels, changes, fault);
     if (half) return *half;
   }
+  if (const std::optional<SewnShells> filled = cap(CapForm::any)) return *filled;
   refuse_open(faces, tried.back(), labels, {options.beside_bodies, fault});
 }
 

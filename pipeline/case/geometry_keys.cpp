@@ -154,7 +154,7 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
   keys.choice<cad::Caps>(
       "caps", draft.result.domain.caps, {{"join", cad::Caps::join}, {"name", cad::Caps::name}},
       sets("DomainOptions::caps",
-           "Patches of faces that close planar openings ([Healing](real_cad.md)). `join`: that of the wall "
+           "Patches of faces that close openings ([Healing](real_cad.md)). `join`: that of the wall "
            "around the opening. `name`: `cap_1`, `cap_2` and so on. The faces have these names either way."));
   keys.texts(
       "close", draft.result.domain.close,
@@ -164,7 +164,7 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
            "of triangles, beside them (as in `ignore`), or boxes that contain them, as a text of six numbers "
            "(lower corner, upper corner). One without a match is an error. `[refuse]`: nothing is closed, "
            "however narrow ([Openings](real_cad.md#openings)).",
-           "narrow and planar ones alone are closed", "[nozzle, '-1 -1 0 1 1 0.2']"}));
+           "narrow, small and planar ones alone are closed", "[nozzle, '-1 -1 0 1 1 0.2']"}));
   keys.text("encoding", draft.result.domain.encoding,
             sets("DomainOptions::encoding",
                  {"Encoding of names in files of geometry, where they are not UTF-8: `latin-1`, "

@@ -69,7 +69,7 @@ constexpr std::array words_beyond{
                "quadratic curved curvedelements meshorder"},
     OtherWords{
         "Wrapping",
-        "surfaces are not wrapped: holes that are not planar and leaks have to be closed in the CAD",
+        "surfaces are not wrapped: wide holes that are not planar and leaks have to be closed in the CAD",
         "wrap wrapper shrinkwrap wrapping surfacewrap leakdetection leak capholes patchholes holepatching"},
     OtherWords{"Surfaces alone",
                "a run always fills the volume; the surface comes with it, in 'surface.pvtp'",

@@ -17,6 +17,7 @@
 #include <BRepFill.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <gp_Ax2.hxx>
@@ -139,6 +140,17 @@ Faces uneven() {
           polygon({e, f, g, h})};
 }
 
+/// A wedge whose tip is cut by a cylinder and open: three edges that are in no plane.
+Faces open_round_tip() {
+  const TopoDS_Face root = polygon({{0, 0, 0}, {1, 0, 0.05}, {1, 0, -0.05}});
+  const TopoDS_Shape wedge = BRepPrimAPI_MakePrism(root, gp_Vec(0, 3, 0)).Shape();
+  const gp_Ax2 axis({0.5, 0, -1}, {0, 0, 1});
+  Faces faces =
+      open_at(BRepAlgoAPI_Common(wedge, BRepPrimAPI_MakeCylinder(axis, 2, 2).Shape()).Shape(), {{1, 0}});
+  std::erase_if(faces, [](const TopoDS_Face& face) { return shapes::center_of(face).y > 1.9; });
+  return faces;
+}
+
 struct OpenHalf {
   const char* name;
   TopoDS_Shape (*make)();
@@ -162,6 +174,7 @@ const OpenHalf halves[] = {
     {"AcrossByALittle", [] { return moved(flat_box(), -2e-3); }, 0, 0.396, 3.188, 1},
     {"BluntWing", [] { return moved(blunt_wing(0), 0); }, {}, 0.04, 8.1, 1},
     {"BluntWingBeside", [] { return moved(blunt_wing(0.02), 1e-4); }, 0, 0.04, 8.13, 1},
+    {"OpenRoundTip", [] { return moved(open_round_tip(), 0); }, {}, 0.098948, 4.207063, 1},
     {"Uneven", [] { return moved(uneven(), 0); }, {}, 2, 8, 1},
 };
 
