@@ -251,12 +251,13 @@ void log_pinned(const attribution::PinnedReport& report) {
   };
   log_info(fmt::format(
       "improve: of the tetrahedra below target {} are pinned by {} sharp places of the CAD, {} "
-      "are at {} narrow regions and gaps that are finer than their elements, {}{} are neither",
+      "are at {} narrow regions and gaps that are finer than their elements, {}{}{} are neither",
       part(report.pinned), report.entities.size(), part(report.at_features), report.features.size(),
       report.held.tetrahedra == 0
           ? ""
           : part(report.held) +
                 " have a side or all corners on a surface or front of layers that stays as it is, ",
+      report.beside.tetrahedra == 0 ? "" : part(report.beside) + " have a corner in common with such ones, ",
       part(report.rest)));
 }
 

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::attribution {
 namespace {
@@ -53,7 +54,7 @@ public:
         _walls(_vertex_faces) {
     _report.smallest_angle = target;
     _report.largest_angle = largest_allowed(target);
-    _report.pinned = _report.at_features = _report.held = _report.rest = {0, target, largest_allowed(target)};
+    for (MissedTarget* kind : all_kinds()) *kind = {0, target, largest_allowed(target)};
   }
 
   PinnedReport run() {
@@ -63,6 +64,7 @@ public:
     _narrow = find_narrow_edges(_mesh, _edges);
     if (!_surface_may_change) _on_layers = find_layer_vertices(_mesh);
     for (std::size_t i = 0; i < _mesh.pieces.size(); ++i) classify(i);
+    tell_apart_the_rest();
     return merge();
   }
 
@@ -85,6 +87,10 @@ private:
   void collect_edges();
   void list_sharp_curves();
   void classify(std::size_t piece);
+  void tell_apart_the_rest();
+  std::array<MissedTarget*, 5> all_kinds() {
+    return {&_report.pinned, &_report.at_features, &_report.held, &_report.beside, &_report.rest};
+  }
   bool pinned_by_faces(std::size_t piece, const BadTet& bad);
   bool pinned_by_curves(std::size_t piece, const BadTet& bad,
                         const std::vector<std::array<LocalIndex, 4>>& corners);
@@ -109,6 +115,8 @@ private:
   WallFinder _walls;
   SharpCurves _sharp_curves;
   std::vector<std::vector<BadTet>> _bad;              // per piece
+  std::vector<std::pair<std::size_t, BadTet>> _left;  // with their pieces: those that nothing explains yet
+  std::vector<GlobalIndex> _explained;                // vertices of those that the CAD explains
   std::vector<std::vector<std::uint8_t>> _on_layers;  // per piece and vertex, where surfaces may not change
   std::vector<EdgeName> _edges;                       // of bad tetrahedra on all ranks, ascending
   std::vector<EdgeWedge> _wedges;                     // per edge
@@ -294,7 +302,33 @@ MissedTarget& PinnedSearch::kind_of(std::size_t i, const BadTet& bad,
 
 void PinnedSearch::classify(std::size_t i) {
   const std::vector<std::array<LocalIndex, 4>> corners = sharp_corners(_mesh.pieces[i]);
-  for (const BadTet& bad : _bad[i]) count(kind_of(i, bad, corners), bad.angles);
+  const std::vector<GlobalIndex>& names = _mesh.numbering.vertices[i];
+  for (const BadTet& bad : _bad[i]) {
+    MissedTarget& kind = kind_of(i, bad, corners);
+    if (&kind == &_report.rest) {
+      _left.emplace_back(i, bad);
+      continue;
+    }
+    count(kind, bad.angles);
+    const LocalIndex* c = _mesh.pieces[i].cell(bad.tet);
+    if (&kind != &_report.held)
+      for (int k = 0; k < 4; ++k) _explained.push_back(names[c[k]]);
+  }
+}
+
+/// Those beside others that the CAD explains, and the rest.
+void PinnedSearch::tell_apart_the_rest() {
+  geometry::sort_unique(_explained);
+  _explained = _mesh.communicator.all_gather_items<GlobalIndex>(_explained);
+  geometry::sort_unique(_explained);
+  for (const auto& [i, bad] : _left) {
+    const LocalIndex* c = _mesh.pieces[i].cell(bad.tet);
+    const std::vector<GlobalIndex>& names = _mesh.numbering.vertices[i];
+    const bool is_beside = std::any_of(c, c + 4, [&](LocalIndex v) {
+      return std::binary_search(_explained.begin(), _explained.end(), names[v]);
+    });
+    count(is_beside ? _report.beside : _report.rest, bad.angles);
+  }
 }
 
 void PinnedSearch::total(MissedTarget& kind) const {
@@ -340,10 +374,10 @@ PinnedReport PinnedSearch::merge() {
     known.smallest_dihedral = std::min(known.smallest_dihedral, entity.smallest_dihedral);
   }
   merge_features();
-  for (MissedTarget* kind : {&_report.pinned, &_report.at_features, &_report.held, &_report.rest})
-    total(*kind);
+  for (MissedTarget* kind : all_kinds()) total(*kind);
   _report.tetrahedra = _report.pinned.tetrahedra;
-  for (const MissedTarget* kind : {&_report.at_features, &_report.held, &_report.rest}) {
+  for (const MissedTarget* kind : all_kinds()) {
+    if (kind == &_report.pinned) continue;
     _report.others += kind->tetrahedra;
     _report.smallest_angle = std::min(_report.smallest_angle, kind->smallest_angle);
     _report.largest_angle = std::max(_report.largest_angle, kind->largest_angle);

@@ -49,7 +49,8 @@ struct PinnedReport {
   std::vector<UnresolvedFeature> features;  ///< by faces
   MissedTarget pinned;                      ///< forced by an angle of the CAD
   MissedTarget at_features;                 ///< not pinned, across a narrow region or gap
-  MissedTarget held;  ///< neither, with three or more corners on a fixed surface or on layers
+  MissedTarget held;    ///< neither, with three or more corners on a fixed surface or on layers
+  MissedTarget beside;  ///< none of these, with a corner of one that is pinned or at a feature
   MissedTarget rest;
   std::int64_t tetrahedra = 0;  ///< pinned ones
   std::int64_t others = 0;      ///< bad ones that are not pinned
@@ -65,9 +66,10 @@ mesh::DihedralRange suspect_angles(double target_angle);
 /// Farther from the curve, it is pinned if the gap it spans and its smallest angle are at least half the
 /// wedge's there. It is pinned on a boundary triangle that fills a corner of less than the target between two
 /// curves. Of the others, those with an edge across a narrow region or reaching across a narrow gap are at
-/// that feature. If the surface must stay, others with three or four corners on it are held. `suspects` are
-/// the tetrahedra outside suspect_angles(), as mesh::summarise_quality finds them. Collective; equal on all
-/// ranks and for any number of ranks.
+/// that feature. If the surface must stay, others with three or four corners on it are held. Others that
+/// share a corner with a pinned one or one at a feature have to fit around it: they are beside it. `suspects`
+/// are the tetrahedra outside suspect_angles(), as mesh::summarise_quality finds them. Collective; equal on
+/// all ranks and for any number of ranks.
 PinnedReport find_pinned(const mesh::NumberedMesh& mesh, double target_angle,
                          const mesh::CellsOutside& suspects, bool surface_may_change);
 

@@ -78,23 +78,25 @@ std::string below_target(const Json& report) {
     return number(find(report, fmt::format("/improve/below_target/{}/tetrahedra", kind)));
   };
   const double pinned = tetrahedra("pinned"), features = tetrahedra("unresolved_features"),
-               held = tetrahedra("held_by_surface"), rest = tetrahedra("rest");
+               held = tetrahedra("held_by_surface"), beside = tetrahedra("beside"), rest = tetrahedra("rest");
+  const double all = pinned + features + held + beside + rest;
   const std::string target = degrees(find(report, "/improve/target_angle_deg"));
   if (find(report, "/improve/enabled") != Json(true))
     return "<li>" + badge("plain", "target") +
            " Improvement was switched off (<code>improve.enabled</code>).</li>\n";
-  if (pinned + features + held + rest == 0)
+  if (all == 0)
     return fmt::format(
         "<li>{} Every tetrahedron reaches the target of {} (<code>improve.target_angle</code>).</li>\n",
         badge("good", "target"), target);
   std::string text =
       fmt::format("<li>{} {} below the target of {}:", badge(rest > 0 ? "fair" : "good", "target"),
-                  counted(pinned + features + held + rest, "tetrahedron is", "tetrahedra are"), target);
+                  counted(all, "tetrahedron is", "tetrahedra are"), target);
   if (pinned > 0) text += fmt::format(" {} forced by sharp angles of the CAD;", count(pinned));
   if (features > 0)
     text += fmt::format(" {} at narrow regions or gaps finer than the elements;", count(features));
   if (held > 0)
     text += fmt::format(" {} on a surface or on layers that were to stay as they are;", count(held));
+  if (beside > 0) text += fmt::format(" {} beside such ones;", count(beside));
   text += rest > 0 ? fmt::format(" {} that no sharp angle, strip or gap of the CAD explains.", count(rest))
                    : " all that are left are explained.";
   return text + "</li>\n";

@@ -98,6 +98,7 @@ Json improve_json(const cases::Case& input, const RunRecord& record) {
            {{"pinned", missed_target_json(record.pinned.pinned)},
             {"unresolved_features", missed_target_json(record.pinned.at_features)},
             {"held_by_surface", missed_target_json(record.pinned.held)},
+            {"beside", missed_target_json(record.pinned.beside)},
             {"rest", missed_target_json(record.pinned.rest)}}}};
 }
 

@@ -83,7 +83,7 @@ def main():
         kinds = report["improve"]["below_target"]
         assert kinds["pinned"]["tetrahedra"] == report["improve"]["pinned_tetrahedra"], kinds
         assert kinds["unresolved_features"]["tetrahedra"] == sum(f["tetrahedra"] for f in report["unresolved_features"])
-        assert sum(kinds[k]["tetrahedra"] for k in ("unresolved_features", "held_by_surface", "rest")) == \
+        assert sum(kinds[k]["tetrahedra"] for k in ("unresolved_features", "held_by_surface", "beside", "rest")) == \
             report["improve"]["unpinned_below_target"], kinds
         assert (kinds["rest"]["smallest_dihedral_deg"] is None) == (kinds["rest"]["tetrahedra"] == 0), kinds
         assert [s["name"] for s in report["stages"]] == ["start", "input", "improve", "inspect", "output"], \

@@ -226,6 +226,31 @@ TEST(Pinned, TellsFeaturesFinerThanTheElements) {
   EXPECT_EQ(report.smallest_angle, feature.smallest_dihedral);
 }
 
+// Flat tetrahedra in the open: one has a corner of a strip, another has none.
+TEST(Pinned, TellsWhatIsBesideFeatures) {
+  const auto world = parallel::Communicator::world();
+  mesh::DistributedMesh mesh = make_strip(world, 0.1, 4, 2);
+  mesh.piece_count += 2;
+  for (int i = 0; i < 2; ++i) {
+    if ((4 + i) % world.size() != world.rank()) continue;
+    Piece piece;
+    piece.id = 4 + i;
+    const double x = i == 0 ? 0 : -5;
+    piece.coordinates = {x, 0, 0, x - 1, 0.8, 0, x - 1, -0.8, 0, x - 0.6, 0, 0.05};
+    piece.vertex_dimension = {i == 0 ? CadDimension::edge : CadDimension::region, CadDimension::region,
+                              CadDimension::region, CadDimension::region};
+    piece.vertex_entity = {i == 0 ? 1 : 0, 0, 0, 0};
+    piece.cells = {0, 1, 2, 3};
+    if (i == 0) piece.shared_vertices = {0}, piece.shared_keys = {0};
+    mesh.pieces.push_back(piece);
+  }
+  const PinnedReport report = find(mesh, 28);
+  EXPECT_EQ(report.at_features.tetrahedra, 8);
+  EXPECT_EQ(report.beside.tetrahedra, 1);
+  EXPECT_EQ(report.rest.tetrahedra, 1);
+  EXPECT_EQ(report.others, 10);
+}
+
 TEST(Pinned, DoesNotExcuseTrianglesBetweenVerticesOfOneCurve) {
   const PinnedReport report = find(make_strip(parallel::Communicator::world(), 0.1, 4, 1), 28);
   EXPECT_TRUE(report.features.empty());
