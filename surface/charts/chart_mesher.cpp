@@ -290,6 +290,7 @@ FaceMesh mesh_charts(const cad::Model& model, const sizing::SizeField& field, co
   FaceMesh mesh;
   mesh.face = surface.face;
   mesh.fixed = vertices.border_count();
+  mesh.slits = slits_of(surface);
   const std::vector<Chart> charts =
       make_charts(model, field, surface, {.spread = options.chart_spread}, vertices);
   ChartFiller filler(model, field, options, vertices);

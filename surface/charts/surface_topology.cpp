@@ -182,4 +182,15 @@ double surface_area(const ChartSurface& surface) {
   return area;
 }
 
+std::vector<std::array<std::int32_t, 2>> slits_of(const ChartSurface& surface) {
+  std::vector<std::array<std::int32_t, 2>> used, slits;
+  for (const auto& [from, to] : surface.loop_edges)
+    used.push_back({surface.mesh_vertex[from], surface.mesh_vertex[to]});
+  std::sort(used.begin(), used.end());
+  for (const auto& [a, b] : used)
+    if (a < b && std::binary_search(used.begin(), used.end(), std::array{b, a})) slits.push_back({a, b});
+  slits.erase(std::unique(slits.begin(), slits.end()), slits.end());
+  return slits;
+}
+
 }  // namespace aeroloom::surface

@@ -43,6 +43,10 @@ std::vector<ChartSurface> separate_parts(const ChartSurface& surface,
 std::int32_t label_components(const std::vector<geometry::HalfEdge>& twins,
                               const std::vector<std::int32_t>& label, std::vector<std::int32_t>& component);
 
+/// The edges that the border uses from both sides, as where two solids touch along a seam: pairs of mesh
+/// vertices, the lower one first, ascending.
+std::vector<std::array<std::int32_t, 2>> slits_of(const ChartSurface& surface);
+
 /// Whether a connected surface is a disk or a disk with holes, as a chart must be.
 bool is_planar_domain(const ChartSurface& surface);
 

@@ -111,6 +111,9 @@ public:
     for (const auto& triangle : mesh.triangles) _surface.corner_uv.push_back(parameters(triangle));
     _surface.mesh_vertex = background.on_loops;
     _surface.mesh_vertex.resize(mesh.points.size(), -1);
+    if (mesh.slits.empty()) return;
+    const std::vector<std::int32_t> all(mesh.triangles.size(), 0);
+    _surface = std::move(separate_parts(_surface, open_half_edges(mesh), all, 1).front());
   }
 
   /// Divides the edges on loops at the fine vertices.

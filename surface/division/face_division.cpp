@@ -38,8 +38,7 @@ double count_parts(double load, std::int32_t group, const SurfaceOptions& option
 
 /// The background as the decomposition sees it.
 partition::BackgroundSurface weigh(const FaceMesh& mesh, const sizing::SizeField& field) {
-  partition::BackgroundSurface surface{
-      mesh.points, mesh.triangles, geometry::match_half_edges(mesh.triangles), {}};
+  partition::BackgroundSurface surface{mesh.points, mesh.triangles, open_half_edges(mesh), {}};
   for (const auto& [a, b, c] : mesh.triangles) {
     const geometry::Vec3 p = mesh.points[a], q = mesh.points[b], r = mesh.points[c];
     double density = 0;

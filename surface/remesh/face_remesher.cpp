@@ -25,6 +25,7 @@ FaceRemesher::FaceRemesher(const cad::Model& model, const sizing::SizeField& fie
     : _model(model), _field(field), _mesh(mesh) {
   const auto count = static_cast<std::int32_t>(mesh.points.size());
   _links.build(mesh.triangles, count);
+  if (!mesh.slits.empty()) open_slits();
   _movable.assign(count, 1);
   std::fill_n(_movable.begin(), std::min(mesh.fixed, count), 0);
   for (const auto& triangle : _links.triangles) {
@@ -38,6 +39,19 @@ FaceRemesher::FaceRemesher(const cad::Model& model, const sizing::SizeField& fie
   _next.assign(count, 0);
   measure_vertices();
   _most_vertices = bound_vertices();
+}
+
+/// Slits become borders, whose edges stay.
+void FaceRemesher::open_slits() {
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(_links.triangles.size()); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const geometry::LinkedEdge edge = geometry::linked_edge(t, i), twin = _links.twin(edge);
+      if (twin == geometry::no_linked_edge || !_mesh.is_slit(_links.origin(edge), _links.target(edge)))
+        continue;
+      _links.join(edge, geometry::no_linked_edge);
+      _links.join(twin, geometry::no_linked_edge);
+    }
+  }
 }
 
 void FaceRemesher::measure_vertices() {

@@ -59,6 +59,7 @@ private:
     geometry::LinkedEdge outside;
   };
 
+  void open_slits();
   void measure_vertices();
   geometry::Vec3 fan_normal(std::int32_t vertex);
   VertexPlace place_of(std::int32_t vertex) const;

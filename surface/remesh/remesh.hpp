@@ -3,8 +3,10 @@
 #pragma once
 
 #include "cad/model/model.hpp"
+#include "geometry/half_edges.hpp"
 #include "sizing/field/size_field.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -18,13 +20,22 @@ struct FaceMesh {
   std::vector<geometry::Vec2> uv;                      ///< parameters of each point on the CAD surface
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen against the outward normal
   std::int32_t fixed = 0;                              ///< the first `fixed` vertices lie on borders and stay
+  std::vector<std::array<std::int32_t, 2>> slits =
+      {};  ///< edges inside that stay, the lower vertex first, ascending
   /// A vertex inside the face that is a CAD vertex (apexes.hpp).
   struct ApexVertex {
     std::int32_t at = 0;
     cad::VertexId vertex = cad::no_entity;
   };
   std::vector<ApexVertex> apexes;
+
+  bool is_slit(std::int32_t a, std::int32_t b) const {
+    return std::binary_search(slits.begin(), slits.end(), std::array{std::min(a, b), std::max(a, b)});
+  }
 };
+
+/// The opposite half-edge of each half-edge; -1 on borders and slits.
+std::vector<geometry::HalfEdge> open_half_edges(const FaceMesh& mesh);
 
 struct Remeshing {
   int sweeps = 6;       ///< after these few vertices still move; chosen, not measured
