@@ -25,6 +25,7 @@
 #include "geometry/long_names.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -155,6 +156,8 @@ std::optional<HalfPlane> half_plane_of(const DomainOptions& options) {
     case Symmetry::z:
       return HalfPlane{2, far_field.symmetry_position};
     case Symmetry::automatic:
+      if (far_field.shape == FarFieldShape::hemisphere) return HalfPlane{std::nullopt};
+      break;
     case Symmetry::none:
       break;
   }
@@ -192,8 +195,11 @@ FluidShape make_fluid(NamedShape source, const DomainOptions& options, const std
   if (decision.kind == DomainKind::body) {
     drop_loose(solids, changes);
     DomainOptions at_plane = options;
-    if (solids.symmetry_position && at_plane.far_field)
+    if (solids.symmetry_position && at_plane.far_field) {
+      constexpr std::array planes{Symmetry::x, Symmetry::y, Symmetry::z};
+      at_plane.far_field->symmetry = planes[solids.symmetry_axis];
       at_plane.far_field->symmetry_position = solids.symmetry_position;
+    }
     FluidShape fluid = surround_bodies(std::move(solids), at_plane, distrust, volumes, changes);
     fluid.decision = std::move(decision), fluid.hull = hull;
     fluid.triangulated = triangulated && !fluid.mixed;

@@ -66,6 +66,7 @@ struct NamedShape {
   /// Length in the file's unit of the unit of `shape`, `gap` and `precision` (library_unit.hpp).
   double unit = 1;
   std::optional<double> symmetry_position = {};  ///< of the plane that closed an open half
+  int symmetry_axis = 1;                         ///< of that plane
   double gap = 0;                                ///< widest gap closed by sewing or as noise
   double precision = 0;                          ///< precision of points that the file states; 0: none
   std::string refused = {};  ///< what the CAD library says of entities that it leaves out; empty: none

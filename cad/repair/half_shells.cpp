@@ -76,9 +76,8 @@ public:
     }
     _box = tight_box(_shape);
     _reach = tolerances::on_symmetry * _box.diagonal();
-    _half.plane.axis = half.axis;
     _openings = half.openings;
-    choose_position(half.position);
+    choose_plane(half);
   }
 
   ClosedHalf close() {
@@ -94,21 +93,18 @@ private:
     return false;
   }
 
-  void choose_position(const std::optional<double>& position) {
-    const std::vector<TopoDS_Edge> open = open_edges(_shape);
-    double most = 0;
-    for (const double candidate :
-         position ? std::vector{*position}
-                  : std::vector{0.0, _box.low[_half.plane.axis], _box.high[_half.plane.axis]}) {
-      const AxisPlane plane{_half.plane.axis, candidate};
-      const double length = length_on(plane, open, _reach);
-      if (length > most) most = length, _half.plane = plane;
+  void choose_plane(const HalfPlane& half) {
+    if (const auto plane = plane_along(open_edges(_shape), _box, half)) {
+      _half.plane = *plane;
+      return;
     }
-    if (most > 0 || position) _half.plane.position = position.value_or(_half.plane.position);
-    if (most > 0) return;
-    if (position && _box.low[_half.plane.axis] < *position && *position < _box.high[_half.plane.axis]) return;
+    if (half.axis && half.position) {
+      _half.plane = {*half.axis, *half.position};
+      if (_box.low[*half.axis] < *half.position && *half.position < _box.high[*half.axis]) return;
+    }
     fail(fmt::format("no open edge is nearer than {:.3g} ({:.0e} of the diagonal) to the plane of symmetry{}",
-                     in_file(_reach), tolerances::on_symmetry, position ? " " + name_of(_half.plane) : ""));
+                     in_file(_reach), tolerances::on_symmetry,
+                     half.position ? " " + name_of(_half.plane) : ""));
   }
 
   bool is_positive() const {
@@ -353,6 +349,23 @@ private:
 ClosedHalf close_half(const TopoDS_Shape& open, const FaceLabels& labels, const HalfPlane& half) {
   report_step("closing an open half at its plane of symmetry");
   return HalfCloser(open, labels, half).close();
+}
+
+std::optional<AxisPlane> plane_along(const std::vector<TopoDS_Edge>& open, const Box& box,
+                                     const HalfPlane& half) {
+  const double reach = tolerances::on_symmetry * box.diagonal();
+  std::optional<AxisPlane> best;
+  double most = 0;
+  for (const int axis : half.axis ? std::vector{*half.axis} : std::vector{0, 1, 2}) {
+    std::vector<double> positions{half.position.value_or(0)};
+    if (half.axis && !half.position) positions.insert(positions.end(), {box.low[axis], box.high[axis]});
+    for (const double position : positions) {
+      const AxisPlane plane{axis, position};
+      const double length = length_on(plane, open, reach);
+      if (length > most) most = length, best = plane;
+    }
+  }
+  return best;
 }
 
 std::optional<AxisPlane> plane_of_openings(const std::vector<TopoDS_Edge>& open, double diagonal) {

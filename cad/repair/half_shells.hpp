@@ -17,7 +17,7 @@ namespace aeroloom::cad {
 
 /// The plane of symmetry that the case asks for.
 struct HalfPlane {
-  int axis = 1;
+  std::optional<int> axis = 1;          ///< without: that of the coordinate plane with most open edges
   std::optional<double> position = {};  ///< without: where the openings are, 0 before other places
   OpeningRules* openings = nullptr;     ///< for openings beside the plane; null: none
 };
@@ -37,6 +37,11 @@ struct ClosedHalf {
 /// openings elsewhere get caps. The plane itself closes the rest with faces of which none is left in a half
 /// far field. The shape stays as it is; labels follow.
 ClosedHalf close_half(const TopoDS_Shape& open, const FaceLabels& labels, const HalfPlane& half);
+
+/// The plane near which most of the open edges lie, of those that `half` allows: at 0, or at the ends of the
+/// box on its axis. Empty if there is none.
+std::optional<AxisPlane> plane_along(const std::vector<TopoDS_Edge>& open, const Box& box,
+                                     const HalfPlane& half);
 
 /// The axis of the coordinate plane near which all open edges lie, for messages. Empty if there is none.
 std::optional<AxisPlane> plane_of_openings(const std::vector<TopoDS_Edge>& open, double diagonal);

@@ -134,13 +134,56 @@ void keep_loose(const TopTools_IndexedMapOfShape& faces, const std::vector<TopoD
   }
 }
 
+void note_plane(const SewnShells& sewn, NamedShape& named) {
+  if (!sewn.plane) return;
+  named.symmetry_axis = sewn.plane->axis;
+  named.symmetry_position = sewn.plane->position;
+}
+
+/// Faces of no shell beside bodies bound a half where they are open on the plane of symmetry: its shells,
+/// sewn with the open faces. None if they do not close; all stay then as they are.
+std::vector<TopoDS_Shell> sew_loose_half(Parts& parts, const SewingOptions& options, NamedShape& named,
+                                         Changes& changes) {
+  if (!options.half || !options.beside_bodies || parts.loose_faces.IsEmpty()) return {};
+  const Box box = tight_box(named.shape);
+  TopoDS_Compound loose;
+  BRep_Builder builder;
+  builder.MakeCompound(loose);
+  for (const TopoDS_Shape& face : shapes_in(parts.loose_faces)) builder.Add(loose, face);
+  const auto plane = plane_along(open_edges(loose), box, *options.half);
+  if (!plane) return {};
+  const double reach = tolerances::on_symmetry * box.diagonal();
+  const auto is_on_plane = [&](const TopoDS_Shape& face) {
+    const Box own = tight_box(face);
+    return std::abs(own.low[plane->axis] - plane->position) <= reach &&
+           std::abs(own.high[plane->axis] - plane->position) <= reach;
+  };
+  TopTools_IndexedMapOfShape faces = parts.open_faces, left;
+  for (const TopoDS_Shape& face : shapes_in(parts.loose_faces)) (is_on_plane(face) ? left : faces).Add(face);
+  SewingOptions at_plane = options;
+  at_plane.half->axis = plane->axis, at_plane.half->position = plane->position;
+  try {
+    FaceLabels labels = named.labels;
+    Changes made;
+    const SewnShells sewn = sew(faces, at_plane, labels, made);
+    named.labels = labels, named.gap = sewn.gap;
+    note_plane(sewn, named);
+    changes.insert(changes.end(), made.begin(), made.end());
+    parts.open_faces.Clear();
+    parts.loose_faces = left;
+    return sewn.shells;
+  } catch (const CadError&) {
+    return {};
+  }
+}
+
 /// Sews open faces to shells. Where there are bodies without them, sheets that do not close are loose faces.
 std::vector<TopoDS_Shell> sew_open_faces(const TopTools_IndexedMapOfShape& faces,
                                          const SewingOptions& options, NamedShape& named, Changes& changes) {
   try {
     const SewnShells sewn = sew(faces, options, named.labels, changes);
     named.gap = sewn.gap;
-    if (sewn.plane) named.symmetry_position = sewn.plane->position;
+    note_plane(sewn, named);
     return sewn.shells;
   } catch (const CadError& error) {
     if (!options.beside_bodies || !are_sheets(faces)) throw;
@@ -211,12 +254,11 @@ NamedShape make_solids(NamedShape named, double smallest_size, Volumes& volumes,
     add_faces(named.shape, named.labels, parts.open_faces);
     parts.loose_faces.Clear();
   }
-  if (!parts.open_faces.IsEmpty()) {
-    const SewingOptions options{largest_sewing_tolerance(smallest_size), !solids.empty() || !shells.empty(),
-                                half, openings};
-    const std::vector<TopoDS_Shell> sewn = sew_open_faces(parts.open_faces, options, named, changes);
-    shells.insert(shells.end(), sewn.begin(), sewn.end());
-  }
+  const SewingOptions options{largest_sewing_tolerance(smallest_size), !solids.empty() || !shells.empty(),
+                              half, openings};
+  std::vector<TopoDS_Shell> sewn = sew_loose_half(parts, options, named, changes);
+  if (!parts.open_faces.IsEmpty()) sewn = sew_open_faces(parts.open_faces, options, named, changes);
+  shells.insert(shells.end(), sewn.begin(), sewn.end());
   const std::vector<TopoDS_Solid> promoted = nest_shells(shells, volumes);
   solids.insert(solids.end(), promoted.begin(), promoted.end());
   if (solids.empty()) throw CadError("there are no faces to make a solid of");

@@ -96,10 +96,16 @@ std::vector<std::string> stray_names(const Sewn& sewn) {
 
 /// Where open edges lie in one coordinate plane, or why the plane of symmetry closes nothing.
 std::string half_remedy(const Sewn& open, const OpenReasons& reasons) {
+  constexpr std::size_t most_tried = 500;  // open edges; closing those of damaged files takes long. Chosen
   if (!reasons.half.empty())
     return fmt::format(" Nor does the plane of symmetry close them: {}.", reasons.half);
   if (open.shape.IsNull()) return {};
-  const auto plane = plane_of_openings(open_edges(open.shape), tight_box(open.shape).diagonal());
+  const std::vector<TopoDS_Edge> edges = open_edges(open.shape);
+  auto plane = plane_of_openings(edges, tight_box(open.shape).diagonal());
+  for (int axis = 0; axis < 3 && !plane && edges.size() <= most_tried; ++axis) {
+    const ClosedHalf closed = close_half(open.shape, open.labels, {axis});
+    if (closed.fault.empty()) plane = closed.plane;
+  }
   if (!plane) return {};
   return fmt::format(
       " It seems to be half of a model, open on the plane {0} = {1:.6g}: FarFieldOptions::symmetry "
@@ -129,9 +135,9 @@ void refuse_open(const TopTools_IndexedMapOfShape& faces, const Sewn& last, cons
                                        fmt::join(strays, "', '"));
   if (faces.Extent() == 1) {
     const Box box = tight_box(faces(1));
-    throw CadError(fmt::format("a single face '{}', around {}, bounds no volume: {}. {}",
+    throw CadError(fmt::format("a single face '{}', around {}, bounds no volume: {}.{} {}",
                                shown_name(labels, faces(1)), place_in_file(box.center()),
-                               list_open_edges(faces(1), labels),
+                               list_open_edges(faces(1), labels), half_remedy(last, reasons),
                                remedy.empty() ? "Add the faces that close it in the CAD program" : remedy));
   }
   throw CadError(

@@ -140,6 +140,11 @@ Faces uneven() {
           polygon({e, f, g, h})};
 }
 
+/// Loose faces of an open half beside a closed body.
+TopoDS_Shape beside_solid(const TopoDS_Shape& solid) {
+  return shapes::compound_of<TopoDS_Shape>({moved(flat_box(), 0), solid});
+}
+
 /// A wedge whose tip is cut by a cylinder and open: three edges that are in no plane.
 Faces open_round_tip() {
   const TopoDS_Face root = polygon({{0, 0, 0}, {1, 0, 0.05}, {1, 0, -0.05}});
@@ -174,6 +179,22 @@ const OpenHalf halves[] = {
     {"AcrossByALittle", [] { return moved(flat_box(), -2e-3); }, 0, 0.396, 3.188, 1},
     {"BluntWing", [] { return moved(blunt_wing(0), 0); }, {}, 0.04, 8.1, 1},
     {"BluntWingBeside", [] { return moved(blunt_wing(0.02), 1e-4); }, 0, 0.04, 8.13, 1},
+    {"BesideAClosedBody",
+     [] {
+       return beside_solid(box({5, 0.5, 0}, {6, 1.5, 1}));
+     },
+     {},
+     1.4,
+     9.2,
+     1},
+    {"BesideAClosedHalf",
+     [] {
+       return beside_solid(box({5, 0, 0}, {6, 1, 1}));
+     },
+     {},
+     1.4,
+     8.2,
+     2},
     {"OpenRoundTip", [] { return moved(open_round_tip(), 0); }, {}, 0.098948, 4.207063, 1},
     {"Uneven", [] { return moved(uneven(), 0); }, {}, 2, 8, 1},
 };
@@ -228,7 +249,53 @@ TEST(HalfShells, RefuseWhatIsOpenWideBesideThePlane) {
   EXPECT_NE(message.find("leaves the plane of symmetry y = 0 by up to 1 at ("), std::string::npos) << message;
 }
 
+// A face that is drawn on the plane bounds no half, nor does a stray one that ends there.
+TEST(HalfShells, StrayFacesAtThePlaneAreDropped) {
+  for (const TopoDS_Face& stray : {polygon({{-5, 0, -5}, {9, 0, -5}, {9, 0, 5}, {-5, 0, 5}}),
+                                   polygon({{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}})}) {
+    const Domain domain =
+        shapes::prepare(shapes::compound_of<TopoDS_Shape>({box({0, 0, 0}, {2, 1, 1}), stray}), with_plane());
+    EXPECT_EQ(changes_about(domain.report.changes, "belongs to no solid: dropped").size(), 1u);
+    EXPECT_EQ(shapes::faces_of_patch(domain.model, "symmetry").size(), 1u);
+  }
+}
+
+// A hemisphere takes the coordinate plane with most open edges, as for triangles.
+TEST(HalfShells, AHemisphereFindsTheirPlane) {
+  for (const int axis : {0, 1, 2}) {
+    DomainOptions options = with_plane();
+    options.far_field->symmetry = Symmetry::automatic;
+    gp_Pnt low(-1, -1, -1), high(1, 2, 3);
+    low.SetCoord(axis + 1, 0);
+    Faces faces = open_at(box(low, high), {{axis, 0}});
+    const double flat = high.Coord(axis + 1);
+    std::erase_if(faces, [&](const TopoDS_Face& face) {  // not closed by planar caps alone
+      return std::abs(shapes::center_of(face)[axis] - flat) > 1e-9 &&
+             shapes::center_of(face)[(axis + 1) % 3] < -0.9;
+    });
+    faces.push_back([&] {
+      gp_Pnt a(low), b(low), c(low), d(low);
+      const int across = (axis + 2) % 3;
+      for (gp_Pnt* p : {&b, &c}) p->SetCoord(across + 1, high.Coord(across + 1));
+      for (gp_Pnt* p : {&c, &d}) p->SetCoord(axis + 1, flat);
+      a.SetCoord(axis + 1, 0.01);
+      return polygon({a, b, c, d});
+    }());
+    const Domain domain = shapes::prepare(shapes::compound_of(faces), options);
+    const std::vector<FaceId> plane = shapes::faces_of_patch(domain.model, "symmetry");
+    ASSERT_EQ(plane.size(), 1u);
+    half_models::ExactCoordinate(axis, 0).check_face(domain.model, plane.front());
+  }
+}
+
 TEST(HalfShells, AreRecognisedWithoutAPlane) {
+  const std::string wing = shapes::refusal(moved(blunt_wing(0), 0));
+  EXPECT_NE(wing.find("half of a model, open on the plane y = 0"), std::string::npos) << wing;
+  const gp_Ax2 axes({0, 0, 0}, {1, 0, 0}, {0, 0, -1});
+  const Faces bent = open_at(BRepPrimAPI_MakeCylinder(axes, 1, 4, pi).Shape(), {{0, 0}, {0, 4}, {1, 0}});
+  ASSERT_EQ(bent.size(), 1u);
+  const std::string face = shapes::refusal(moved(bent, 0));
+  EXPECT_NE(face.find("half of a model, open on the plane y = 0"), std::string::npos) << face;
   const std::string message = shapes::refusal(moved(flat_box(), 0));
   EXPECT_NE(message.find("half of a model, open on the plane y = 0: FarFieldOptions::symmetry 'y' closes it"),
             std::string::npos)
