@@ -35,6 +35,9 @@ using geometry::Vec3;
 constexpr int edge_samples = 24, all_points = 160, fewest_points = 4, most_points = 16;
 /// More edges than these take long, and are no missing face.
 constexpr std::size_t most_edges = 60;
+/// Of the area over the square of the length: in a strip sixty times as long as wide surfaces take long to
+/// bend. Chosen, not measured.
+constexpr double slenderest = 0.004;
 /// Of the parameters on each side, where the surface is looked at for folds.
 constexpr int fold_samples = 12;
 /// Between the surface and the loop, as cosine of the angle of their normals.
@@ -202,6 +205,7 @@ std::optional<Cap> fill_narrow_loop(const std::vector<TopoDS_Edge>& loop, const 
   for (std::size_t i = 0; i < points.size(); ++i)
     least.length += distance(points[i], points[(i + 1) % points.size()]);
   if (!named && !is_small_or_narrow(least, walls)) return std::nullopt;
+  if (least.area < slenderest * least.length * least.length) return std::nullopt;
   std::optional<Cap> cap = fill_loop(loop, tolerances::planar_opening * walls.diagonal);
   if (!cap || named || is_small_or_narrow(*cap, walls)) return cap;
   return std::nullopt;

@@ -248,10 +248,11 @@ private:
       if (!chord.IsDone()) return false;
       loop.push_back(chord.Edge());
     }
-    std::optional<Cap> cap = span_narrow_loop(
+    const std::vector<Cap> caps = span_narrow_loop(
         loop, {tolerances::planar_opening * _box.diagonal(), tolerances::widest_ruled * _box.diagonal()});
-    if (cap) return add_filling(*cap, text, "a narrow");
-    cap = fill_narrow_loop(loop, {_box.diagonal(), _walls}, named);
+    for (const Cap& each : caps) add_filling(each, text, "a narrow");
+    if (!caps.empty()) return true;
+    const std::optional<Cap> cap = fill_narrow_loop(loop, {_box.diagonal(), _walls}, named);
     return cap && add_filling(*cap, text, "an uneven");
   }
 

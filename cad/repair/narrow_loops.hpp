@@ -3,7 +3,6 @@
 
 #include "cad/repair/plane_loops.hpp"
 
-#include <optional>
 #include <vector>
 
 #include <TopoDS_Edge.hxx>
@@ -16,8 +15,9 @@ struct NarrowLimits {
   double widest = 0;  ///< largest mean width of the face: twice its area over its border's length
 };
 
-/// A face over a closed loop of edges, which are oriented and in order: planar, or ruled between two opposite
-/// edges of four. It shares the edges. Empty if it is neither, or would be too wide.
-std::optional<Cap> span_narrow_loop(const std::vector<TopoDS_Edge>& loop, const NarrowLimits& limits);
+/// Faces over a closed loop of edges, which are oriented and in order: planar, or ruled between two opposite
+/// edges of four. Longer loops are first cut along the shortest lines between vertices that face each other,
+/// as at the kinks of a wing's trailing edge. They share the edges. Empty if a part is neither, or too wide.
+std::vector<Cap> span_narrow_loop(const std::vector<TopoDS_Edge>& loop, const NarrowLimits& limits);
 
 }  // namespace aeroloom::cad

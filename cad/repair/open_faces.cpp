@@ -6,9 +6,11 @@
 #include "cad/model/to_vec.hpp"
 #include "cad/repair/half_shells.hpp"
 #include "cad/repair/plane_loops.hpp"
+#include "cad/tolerances.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRep_Tool.hxx>
@@ -101,11 +103,20 @@ std::string half_remedy(const Sewn& open, const OpenReasons& reasons) {
     return fmt::format(" Nor does the plane of symmetry close them: {}.", reasons.half);
   if (open.shape.IsNull()) return {};
   const std::vector<TopoDS_Edge> edges = open_edges(open.shape);
-  auto plane = plane_of_openings(edges, tight_box(open.shape).diagonal());
+  const double diagonal = tight_box(open.shape).diagonal();
+  auto plane = plane_of_openings(edges, diagonal);
+  double most = 0;
+  std::optional<AxisPlane> closing;
   for (int axis = 0; axis < 3 && !plane && edges.size() <= most_tried; ++axis) {
     const ClosedHalf closed = close_half(open.shape, open.labels, {axis});
-    if (closed.fault.empty()) plane = closed.plane;
+    if (!closed.fault.empty()) continue;
+    double length = 0;
+    for (const TopoDS_Edge& edge : edges)
+      if (distance_from(closed.plane, edge) <= tolerances::on_symmetry * diagonal)
+        length += GCPnts_AbscissaPoint::Length(BRepAdaptor_Curve(edge));
+    if (length > most) most = length, closing = closed.plane;
   }
+  if (!plane) plane = closing;
   if (!plane) return {};
   return fmt::format(
       " It seems to be half of a model, open on the plane {0} = {1:.6g}: FarFieldOptions::symmetry "

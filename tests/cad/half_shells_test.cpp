@@ -4,6 +4,7 @@
 #include "tests/cad/half_models.hpp"
 #include "tests/cad/model_checks.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -132,6 +133,24 @@ Faces blunt_wing(double twist) {
           polygon({far_nose, far_high, far_low})};
 }
 
+/// As blunt_wing, of two panels with different sweep: the trailing edge has a kink.
+Faces kinked_wing() {
+  const auto at = [](double x, double chord, double y) {
+    return std::array<gp_Pnt, 3>{gp_Pnt(x, y, 0), gp_Pnt(x + chord, y, 0.01), gp_Pnt(x + chord, y, -0.01)};
+  };
+  const std::array stations{at(0, 1, 0), at(0.5, 1, 2), at(2, 1, 4)};
+  const auto wall = [](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& c, const gp_Pnt& d) {
+    return BRepFill::Face(BRepBuilderAPI_MakeEdge(a, b).Edge(), BRepBuilderAPI_MakeEdge(d, c).Edge());
+  };
+  Faces faces{polygon({stations[2][0], stations[2][1], stations[2][2]})};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto &in = stations[i], &out = stations[i + 1];
+    faces.push_back(wall(in[0], in[1], out[1], out[0]));
+    faces.push_back(wall(in[0], out[0], out[2], in[2]));
+  }
+  return faces;
+}
+
 /// The border is no plane curve: its corners are off the plane by up to 1e-4.
 Faces uneven() {
   const gp_Pnt a(0, 0, 0), b(2, 1e-4, 0), c(2, 0, 1), d(0, 5e-5, 1), e(0, 1, 0), f(2, 1, 0), g(2, 1, 1),
@@ -196,6 +215,7 @@ const OpenHalf halves[] = {
      8.2,
      2},
     {"OpenRoundTip", [] { return moved(open_round_tip(), 0); }, {}, 0.098948, 4.207063, 1},
+    {"KinkedWing", [] { return moved(kinked_wing(), 0); }, {}, 0.040000, 8.101756, 1},
     {"Uneven", [] { return moved(uneven(), 0); }, {}, 2, 8, 1},
 };
 
