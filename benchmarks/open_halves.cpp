@@ -15,6 +15,7 @@
 // blunt_base: a body of revolution without its base.
 // overlapping: a fuselage that reaches 1 % of its length across its plane.
 // open_tip: a wing without its tip, which is no plane.
+// kinked_wing: a wing of two panels, open at its root, without its blunt trailing edge.
 // hatch: a fuselage that lacks a face which is no plane.
 #include "benchmarks/wing_sections.hpp"
 
@@ -196,6 +197,18 @@ Half wing_root() {
   });
 }
 
+Half kinked_wing() {
+  const SpanSection root{0, 0, 300, 0.01}, kink{120, 400, 200, 0.01}, tip{320, 900, 90, 0.01};
+  const TopoDS_Solid body =
+      solid_of({side(root, kink, 1), side(root, kink, -1), end_of(root, kink), side(kink, tip, 1),
+                side(kink, tip, -1), end_of(kink, tip), cap(root), cap(tip)},
+               1e-6);
+  return open(body, [](const gp_Pnt& at) {
+    const double y = at.Y(), rear = y < 400 ? 300 + 20 * y / 400 : 320 + 90 * (y - 400) / 500;
+    return y < 899 && at.X() > rear - 1;
+  });
+}
+
 Half jagged() {
   const TopoDS_Shape body = fuselage_with_wing();
   TopoDS_Shape cut = body;
@@ -281,6 +294,7 @@ const std::map<std::string, std::function<Half()>> halves = {
     {"fin_on_plane", fin_on_plane},
     {"nacelle", nacelle},
     {"wing_root", wing_root},
+    {"kinked_wing", kinked_wing},
     {"jagged", jagged},
     {"offset_small", [] { return beside(1e-5 * length); }},
     {"offset_large", [] { return beside(1e-3 * length); }},

@@ -25,8 +25,8 @@ from printed_table import PrintedTable, add_page_option
 
 LIMIT_S = 120
 AREA = 1e-3  # of the body's walls
-HALVES = ["fin_on_plane.brep", "nacelle.step", "wing_root.igs", "jagged.brep", "offset_small.step", "offset_large.step", "uneven.igs",
-          "two_solids.brep", "blunt_base.step", "overlapping.igs", "open_tip.brep", "hatch.step"]
+HALVES = ["fin_on_plane.brep", "nacelle.step", "wing_root.igs", "kinked_wing.step", "jagged.brep", "offset_small.step",
+          "offset_large.step", "uneven.igs", "two_solids.brep", "blunt_base.step", "overlapping.igs", "open_tip.brep", "hatch.step"]
 WITH_LAYERS = ["nacelle.step", "wing_root.igs", "fin_on_plane.brep"]
 LAYERS = {"first": 0.5, "growth": 1.3, "count": 5}
 
