@@ -113,7 +113,11 @@ SymmetryPlane find_automatic(const TopoDS_Shape& bodies, const Box& box) {
 SymmetryPlane find_on_axis(int axis, const FarFieldOptions& options, const NamedShape& named) {
   const TopoDS_Shape& bodies = named.shape;
   const Box box = tight_box(bodies);
-  if (options.symmetry_position) return plane_at(axis, *options.symmetry_position, box, "as requested");
+  if (options.symmetry_position) {
+    const bool was_open = named.symmetry_position == options.symmetry_position;
+    return plane_at(axis, *options.symmetry_position, box,
+                    was_open ? "the body is open there" : "as requested");
+  }
   const double tolerance = tolerances::same_place * box.diagonal();
   if (box.low[axis] < -tolerance && box.high[axis] > tolerance) {
     return plane_at(axis, 0, box, "the body reaches across it");

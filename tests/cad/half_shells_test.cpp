@@ -305,6 +305,7 @@ TEST(HalfShells, AHemisphereFindsTheirPlane) {
     const std::vector<FaceId> plane = shapes::faces_of_patch(domain.model, "symmetry");
     ASSERT_EQ(plane.size(), 1u);
     half_models::ExactCoordinate(axis, 0).check_face(domain.model, plane.front());
+    EXPECT_EQ(changes_about(domain.report.changes, " = 0: the body is open there").size(), 1u);
   }
 }
 
