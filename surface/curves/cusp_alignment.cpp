@@ -70,11 +70,20 @@ private:
       parameters.push_back(*parameter);
     }
     const bool forward = std::is_sorted(parameters.begin(), parameters.end());
-    if (forward != _follower.first) return;
+    if (forward != _follower.first || passes_next(parameters)) return;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
       _curves.parameters[_led[i] - _model.vertex_count()] = parameters[i];
       _curves.points[_led[i]] = _model.edge_point(_follower.edge, parameters[i]);
     }
+  }
+
+  /// Whether the last of the first vertices would lie at the one after them, or beyond it: those of the other
+  /// half do not move with them.
+  bool passes_next(const std::vector<double>& parameters) const {
+    std::vector<double> all = _curves.chain_parameters(_model, _follower.edge);
+    if (!_follower.first) std::reverse(all.begin(), all.end());
+    const double next = all[parameters.size() + 1];
+    return _follower.first ? parameters.back() >= next : parameters.back() <= next;
   }
 
   const Model& _model;

@@ -11,8 +11,8 @@ std::vector<CurveVertex> near_half(const cad::Model& model, const CurveMesh& cur
 /// Treats the corners that are closed (sizing/field/closed_corners.hpp), as far as their curves are nearer to
 /// each other than `widest`. There the vertices of one curve move along it until they are as far from the CAD
 /// vertex as those of the other curve. The next vertices move by decreasing steps. A corner stays as it is
-/// where its curves are too short for that. The curve with the lower id leads, unless the other one has
-/// followed a third curve before. The same on every rank.
+/// where its curves are too short for that, or a vertex would pass the next one. The curve with the lower id
+/// leads, unless the other one has followed a third curve before. The same on every rank.
 void align_cusps(const cad::Model& model, double widest, CurveMesh& curves);
 
 }  // namespace aeroloom::surface

@@ -4,12 +4,15 @@
 #include "mesh/checks/validity.hpp"
 #include "mesh/quality/quality.hpp"
 #include "sizing/field/closed_corners.hpp"
+#include "surface/curves/cusp_alignment.hpp"
 #include "surface/surface_mesher.hpp"
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/references.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -174,6 +177,47 @@ TEST(CuspsLocal, HaveVerticesOppositeEachOther) {
   }
   const double end = std::sqrt(2 * radius * sizing::closing_gap(sizes));
   for (std::size_t i = 1; away[0][i] < end; ++i) EXPECT_NEAR(away[0][i], away[1][i], 1e-9);
+}
+
+/// Vertices at these distances from the ends of two edges alone.
+CurveMesh vertices_at(const Model& model, const std::array<cad::EdgeEnd, 2>& ends,
+                      const std::array<std::vector<double>, 2>& distances) {
+  CurveMesh curves;
+  for (cad::VertexId v = 0; v < model.vertex_count(); ++v) curves.points.push_back(model.vertex(v));
+  for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
+    curves.first_interior.push_back(static_cast<std::int32_t>(curves.points.size()));
+    for (int i = 0; i < 2; ++i) {
+      std::vector<double> parameters;
+      for (const double distance : distances[i]) {
+        if (ends[i].edge == e) parameters.push_back(*cad::parameter_at(model, ends[i], distance));
+      }
+      std::sort(parameters.begin(), parameters.end());
+      for (const double parameter : parameters) {
+        curves.parameters.push_back(parameter);
+        curves.points.push_back(model.edge_point(e, parameter));
+      }
+    }
+  }
+  curves.first_interior.push_back(static_cast<std::int32_t>(curves.points.size()));
+  return curves;
+}
+
+TEST(CuspsLocal, KeepTheOrderOfVerticesOfTheOtherHalf) {
+  const Model model = cube_with_cusp();
+  const sizing::SizeField field = sizing::build_size_field(Communicator::world(), model, sizes);
+  const SharpCorner corner = discretise_curves(model, field).sharp_corners.front();
+  // Two of four are in the first half: beside the one at 0.35 the second would pass the other two.
+  const std::vector<double> sparse{0.1, 0.35, 0.45}, dense{0.1, 0.15, 0.2, 0.3};
+  for (const bool first_leads : {true, false}) {
+    CurveMesh curves =
+        vertices_at(model, corner.ends, {first_leads ? sparse : dense, first_leads ? dense : sparse});
+    curves.sharp_corners = {corner};
+    align_cusps(model, 1, curves);
+    for (const cad::EdgeEnd& end : corner.ends) {
+      const std::vector<double> along = curves.chain_parameters(model, end.edge);
+      EXPECT_TRUE(std::is_sorted(along.begin(), along.end(), std::less_equal<>())) << first_leads;
+    }
+  }
 }
 
 TEST(CuspsLocal, StayWhereTheCurvesAreApart) {
