@@ -111,22 +111,35 @@ std::string reason_of(const ChartSurface& surface, const front::FrontError& erro
                      geometry::place_text(place_of_triangle(surface, first.second)));
 }
 
+/// The loop edges of a chart that are too long: those that cross. Where none does, the chords of all have
+/// left the face on one side of the other: a border that bends is nearer to the next one than its chord.
+std::vector<std::int32_t> edges_at_fault(const front::FrontError& error, const ChartBoundary& boundary) {
+  std::vector<std::int32_t> edges;
+  for (const front::CrossingEdges& crossing : error.crossings()) {
+    edges.push_back(crossing.first);
+    edges.push_back(crossing.second);
+  }
+  if (edges.empty()) {
+    edges.resize(boundary.input.edges.size());
+    std::iota(edges.begin(), edges.end(), 0);
+  }
+  return edges;
+}
+
 /// Where loops cross, both curves are too coarse for the gap between them: half their length is field_size
 /// for.
 FaceConflict conflict_of(const cad::Model& model, const ChartSurface& surface, const front::FrontError& error,
                          const ChartBoundary& boundary, const FaceVertices& vertices) {
   std::vector<sizing::SizeSource> remedy;
   std::vector<mesh::SharedVertexKey> named;
-  for (const front::CrossingEdges& crossing : error.crossings()) {
-    for (const std::int32_t e : {crossing.first, crossing.second}) {
-      for (const std::int32_t end : boundary.input.edges[e]) {
-        const std::int32_t v = boundary.face_vertex[end];
-        if (v < vertices.border_count()) named.push_back(vertices.vertex_keys[v]);
-      }
-      const geometry::Vec3 a = vertices.points[boundary.face_vertex[boundary.input.edges[e][0]]];
-      const geometry::Vec3 b = vertices.points[boundary.face_vertex[boundary.input.edges[e][1]]];
-      if (distance(a, b) > 0) remedy.push_back({0.5 * (a + b), 0.5 * distance(a, b)});
+  for (const std::int32_t e : edges_at_fault(error, boundary)) {
+    for (const std::int32_t end : boundary.input.edges[e]) {
+      const std::int32_t v = boundary.face_vertex[end];
+      if (v < vertices.border_count()) named.push_back(vertices.vertex_keys[v]);
     }
+    const geometry::Vec3 a = vertices.points[boundary.face_vertex[boundary.input.edges[e][0]]];
+    const geometry::Vec3 b = vertices.points[boundary.face_vertex[boundary.input.edges[e][1]]];
+    if (distance(a, b) > 0) remedy.push_back({0.5 * (a + b), 0.5 * distance(a, b)});
   }
   std::string where = remedy.empty() ? std::string()
                                      : fmt::format(" near {}, size {:.4g} there",
