@@ -137,6 +137,7 @@ void SizeSearch::run(double first_size, double largest_error, int most_rounds, d
       if (tells) slope = std::clamp(measured, steepest_slope, flattest_slope);
     }
     (error > 0 ? finest : coarsest) = size;
+    if (!(finest < coarsest)) break;  // the bound was tried: nothing is left
     last_size = size, last_error = error;
     size -= std::clamp(error / slope, -largest_step, largest_step);
     if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
