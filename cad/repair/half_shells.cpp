@@ -98,9 +98,10 @@ private:
       _half.plane = *plane;
       return;
     }
-    if (half.axis && half.position) {
-      _half.plane = {*half.axis, *half.position};
-      if (_box.low[*half.axis] < *half.position && *half.position < _box.high[*half.axis]) return;
+    if (half.axis) {
+      _half.plane = {*half.axis, half.position.value_or(0)};
+      const double position = _half.plane.position;
+      if (_box.low[*half.axis] < position && position < _box.high[*half.axis]) return;
     }
     fail(fmt::format("no open edge is nearer than {:.3g} ({:.0e} of the diagonal) to the plane of symmetry{}",
                      in_file(_reach), tolerances::on_symmetry,
@@ -359,7 +360,11 @@ std::optional<AxisPlane> plane_along(const std::vector<TopoDS_Edge>& open, const
   double most = 0;
   for (const int axis : half.axis ? std::vector{*half.axis} : std::vector{0, 1, 2}) {
     std::vector<double> positions{half.position.value_or(0)};
-    if (half.axis && !half.position) positions.insert(positions.end(), {box.low[axis], box.high[axis]});
+    const double low = box.low[axis], high = box.high[axis];
+    // A body that reaches across 0 by little is to end there.
+    const bool is_across =
+        low < -reach && high > reach && std::min(-low, high) <= tolerances::widest_ruled * box.diagonal();
+    if (half.axis && !half.position && !is_across) positions.insert(positions.end(), {low, high});
     for (const double position : positions) {
       const AxisPlane plane{axis, position};
       const double length = length_on(plane, open, reach);

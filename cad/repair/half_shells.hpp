@@ -39,7 +39,7 @@ struct ClosedHalf {
 ClosedHalf close_half(const TopoDS_Shape& open, const FaceLabels& labels, const HalfPlane& half);
 
 /// The plane near which most of the open edges lie, of those that `half` allows: at 0, or at the ends of the
-/// box on its axis. Empty if there is none.
+/// box on its axis, unless that reaches a little beyond 0. Empty if there is none.
 std::optional<AxisPlane> plane_along(const std::vector<TopoDS_Edge>& open, const Box& box,
                                      const HalfPlane& half);
 

@@ -21,6 +21,7 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <gp_Ax1.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Trsf.hxx>
 
@@ -72,6 +73,14 @@ TopoDS_Shape moved(const Faces& faces, double by) {
 /// A flat body, open where it is widest.
 Faces flat_box() {
   return open_at(box({0, 0, 0}, {2, 0.2, 1}), {{1, 0}});
+}
+
+/// A flat body without its base, whose border crosses the plane: no edge of it is within reach.
+TopoDS_Shape tilted() {
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1({1, 0, 0}, {0, 0, 1}), 5e-4);
+  const Faces faces = open_at(box({0, 0, 0}, {2, 0.1, 1}), {{1, 0}, {0, 2}});
+  return BRepBuilderAPI_Transform(shapes::compound_of(faces), turn, true).Shape();
 }
 
 /// A tube along the plane, whose half has two openings on it.
@@ -216,6 +225,7 @@ const OpenHalf halves[] = {
      2},
     {"OpenRoundTip", [] { return moved(open_round_tip(), 0); }, {}, 0.098948, 4.207063, 1},
     {"KinkedWing", [] { return moved(kinked_wing(), 0); }, {}, 0.040000, 8.101756, 1},
+    {"Tilted", tilted, {}, 0.2, 2.6, 1},
     {"Uneven", [] { return moved(uneven(), 0); }, {}, 2, 8, 1},
 };
 
