@@ -97,41 +97,8 @@ void declare_parts(KeyTable& keys, CaseDraft& draft) {
                       });
 }
 
-void declare_geometry(KeyTable& keys, CaseDraft& draft) {
-  using cad::DomainKind;
-  keys.path("file", draft.result.domain.file,
-            common({"The CAD file: STEP, IGES or BREP; or flat triangles: STL, OBJ, OFF, PLY, .poly or "
-                    ".smesh ([Faceted models](faceted.md)). The path is relative to the folder of the case, "
-                    "or else to the working directory; on the command line always to the working directory. "
-                    "`${NAME}` in it is an environment variable. Needed, unless `builtin` is given.",
-                    "", "aircraft.step"}));
-  keys.choice<Builtin>("builtin", draft.builtin, {{"transport", Builtin::transport}},
-                       {"A built-in shape, to try the program without CAD. `transport`: an aircraft of about "
-                        "38 m length and 34 m span.",
-                        "", "transport"});
-  keys.choice<DomainKind>(
-      "domain", draft.result.domain.kind,
-      {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}},
-      sets("DomainOptions::kind",
-           common("What the solids of the file are. `fluid`: the space to mesh. `body`: bodies in a far "
-                  "field that the program adds. `auto` decides and says why ([Fluid or "
-                  "body](configuration/geometry.md#fluid-or-body)). Set it where `auto` is wrong.")));
-  keys.choice<cad::Baffles>(
-      "baffles", draft.result.domain.baffles,
-      {{"keep", cad::Baffles::keep}, {"refuse", cad::Baffles::refuse}},
-      sets("DomainOptions::baffles",
-           "What becomes of a face inside of the fluid, which has the fluid on both sides. `keep`: it is "
-           "meshed "
-           "once, as an inner patch of its name ([Baffles](real_cad.md#baffles)). `refuse`: it is an error, "
-           "with name and place."));
-  keys.choice<NarrowFaces>(
-      "narrow_faces", draft.result.narrow_faces, {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}},
-      "`join`: a face narrower than `sizing.minimum` becomes part of a neighbour that continues it smoothly "
-      "([Narrow faces](real_cad.md#narrow-faces)). `keep`: its borders stay in the mesh.");
-  keys.choice<ChamberUse>(
-      "chambers", draft.result.chambers, {{"refuse", ChamberUse::refuse}, {"keep", ChamberUse::keep}},
-      "A region whose space falls into parts that nothing joins, such as the fluid around a body and that in "
-      "a void of it. `refuse`: an error that lists volumes and places. `keep`: all are meshed.");
+/// What is left out of a file, closed in it, and how its names are read.
+void declare_reading(KeyTable& keys, CaseDraft& draft) {
   keys.number(
       "feature_angle", draft.result.domain.feature_angle, Range::between(5, 180, "degrees"),
       sets("DomainOptions::feature_angle", {"For files of triangles: a side becomes an edge of the mesh if "
@@ -172,6 +139,44 @@ void declare_geometry(KeyTable& keys, CaseDraft& draft) {
                   "escapes for other letters, and needs none. Without it, each byte is a letter of latin-1 "
                   "([Names](real_cad.md#names)).",
                   "latin-1", "GB18030"}));
+}
+
+void declare_geometry(KeyTable& keys, CaseDraft& draft) {
+  using cad::DomainKind;
+  keys.path("file", draft.result.domain.file,
+            common({"The CAD file: STEP, IGES or BREP; or flat triangles: STL, OBJ, OFF, PLY, .poly or "
+                    ".smesh ([Faceted models](faceted.md)). The path is relative to the folder of the case, "
+                    "or else to the working directory; on the command line always to the working directory. "
+                    "`${NAME}` in it is an environment variable. Needed, unless `builtin` is given.",
+                    "", "aircraft.step"}));
+  keys.choice<Builtin>("builtin", draft.builtin, {{"transport", Builtin::transport}},
+                       {"A built-in shape, to try the program without CAD. `transport`: an aircraft of about "
+                        "38 m length and 34 m span.",
+                        "", "transport"});
+  keys.choice<DomainKind>(
+      "domain", draft.result.domain.kind,
+      {{"auto", DomainKind::automatic}, {"fluid", DomainKind::fluid}, {"body", DomainKind::body}},
+      sets("DomainOptions::kind",
+           common("What the solids of the file are. `fluid`: the space to mesh. `body`: bodies in a far "
+                  "field that the program adds. `auto` decides and says why ([Fluid or "
+                  "body](configuration/geometry.md#fluid-or-body)). Set it where `auto` is wrong.")));
+  keys.choice<cad::Baffles>(
+      "baffles", draft.result.domain.baffles,
+      {{"keep", cad::Baffles::keep}, {"refuse", cad::Baffles::refuse}},
+      sets("DomainOptions::baffles",
+           "What becomes of a face inside of the fluid, which has the fluid on both sides. `keep`: it is "
+           "meshed "
+           "once, as an inner patch of its name ([Baffles](real_cad.md#baffles)). `refuse`: it is an error, "
+           "with name and place."));
+  keys.choice<NarrowFaces>(
+      "narrow_faces", draft.result.narrow_faces, {{"join", NarrowFaces::join}, {"keep", NarrowFaces::keep}},
+      "`join`: a face narrower than `sizing.minimum` becomes part of a neighbour that continues it smoothly "
+      "([Narrow faces](real_cad.md#narrow-faces)). `keep`: its borders stay in the mesh.");
+  keys.choice<ChamberUse>(
+      "chambers", draft.result.chambers, {{"refuse", ChamberUse::refuse}, {"keep", ChamberUse::keep}},
+      "A region whose space falls into parts that nothing joins, such as the fluid around a body and that in "
+      "a void of it. `refuse`: an error that lists volumes and places. `keep`: all are meshed.");
+  declare_reading(keys, draft);
   declare_trailing_edges(keys, draft);
   declare_parts(keys, draft);
   declare_dimensions(

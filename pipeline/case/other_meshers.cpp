@@ -273,7 +273,7 @@ std::span<const OtherWords> values_otherwise() {
 std::optional<std::string> answer_to_key(const std::string& key) {
   const std::string letters = bare(key);
   for (const auto table : {out_of_scope(), named_otherwise(), values_otherwise()})
-    if (const auto answer = answer_of(table, letters)) return answer;
+    if (auto answer = answer_of(table, letters)) return answer;
   return std::nullopt;
 }
 
@@ -284,7 +284,7 @@ std::optional<std::string> answer_to_path(const std::string& path) {
 std::optional<std::string> answer_to_value(const std::string& value) {
   const std::string letters = bare(value);
   for (const auto table : {out_of_scope(), values_otherwise()})
-    if (const auto answer = answer_of(table, letters)) return answer;
+    if (auto answer = answer_of(table, letters)) return answer;
   return std::nullopt;
 }
 

@@ -39,6 +39,8 @@ constexpr double least_named_cost = 0.2;
 /// Tetrahedra that are to be made over those asked for, or the other way round, from which on sizes are
 /// chosen once more.
 constexpr double most_missed = 1.2;
+/// The same where features that were to make it more are among them.
+constexpr double most_with_features = 1.3;
 /// Of the target: elements in gaps that are named.
 constexpr double named_gaps = 0.25;
 
@@ -342,9 +344,11 @@ std::optional<SizedDomain> size_again(const SizedDomain& sized, const cases::Siz
                                   (most_missed - 1) * *target;
   if (!has_lowered && !sizing::is_steep(sized.sizes)) return std::nullopt;
   const std::optional<double> count = made.count();
-  const double wanted = std::max(*target + sized.on_top, forecast);
-  if (!count || (*count<most_missed * wanted&& * count * most_missed> * target + sized.on_top))
-    return std::nullopt;
+  const double asked = *target + sized.on_top, wanted = std::max(asked, forecast);
+  const bool is_known = !sized.findings.missed_target.empty();
+  const bool too_many =
+      count && (*count > most_missed * wanted || (!is_known && *count > most_with_features * asked));
+  if (!count || !(too_many || *count * most_missed < asked)) return std::nullopt;
   const parallel::Communicator& communicator = sized.field.communicator();
   if (communicator.is_root())
     parallel::log_info(

@@ -33,6 +33,8 @@ constexpr double least_rest = 0.1;
 constexpr double most_in_gaps = 1e7, most_gaps_over_target = 500;
 /// Sizes on the body over those that counts of features led to, at most; the same where gaps rule.
 constexpr double coarsest_over_guess = 3, coarsest_with_gaps = 1.5;
+/// Of what a target and its features may take: the rest, at most, where features have to get fewer.
+constexpr double most_of_rest = 0.75;
 /// By this budget it is judged whether trailing edges are kept, if a user does not ask for more.
 constexpr double budget_of_edges = 5;
 /// Of faces, for which a field is built without asking first how large it would be; chosen, not
@@ -153,16 +155,23 @@ ChosenSizes apply_sizes(FieldFactory& factory, const SizingOptions& options, Fie
 
 namespace {
 
-/// The sizes where features get what a size on the body leaves, that nothing makes coarser.
-PreliminarySizes with_fewer_features(FieldFactory& factory, const PreliminarySizes& before, double body_size,
+/// The sizes where features get what the rest leaves of their budget. The body keeps the size that it had
+/// before features were too many, or has the coarsest where that leaves them little.
+PreliminarySizes with_fewer_features(FieldFactory& factory, const PreliminarySizes& before, double coarsest,
                                      const GivenSizes& given) {
-  SizeSearch bare(factory, before.target, 1, {}, given);
-  bare.run(body_size, close_enough, 1);
+  const auto try_body = [&](double size) {
+    SizeSearch search(factory, before.target, 1, {}, given);
+    search.run(size, close_enough, 1);
+    return search;
+  };
+  std::optional<SizeSearch> bare(try_body(before.body_size));
+  if (bare->tetrahedra() > most_of_rest * before.feature_budget * before.target)
+    bare.emplace(try_body(coarsest));
   PreliminarySizes now = before;
   const double gaps = (before.features.gap_ratio - 1) * before.base;
-  now.options = bare.options();
-  now.body_size = body_size;
-  now.base = std::max(1.0, bare.tetrahedra());
+  now.options = bare->options();
+  now.body_size = bare->body_size();
+  now.base = std::max(1.0, bare->tetrahedra());
   now.features =
       choose_feature_resolution(factory, now.options, budget_for(now, now.base, 1 + gaps / now.base),
                                 coarsening_for(before.target), leaves_for(before.target * budget_of_edges));

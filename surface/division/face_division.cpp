@@ -119,7 +119,8 @@ std::optional<DividedProblem> divide(const DivisionRequest& wanted, int power, C
   const auto& [model, problem, group, parts, options] = wanted;
   const sizing::SizeField& fine = sizes.fine();
   const DivisionSteps& steps = options.division;
-  const auto angle_for = [&](bool step) { return step ? options.cut_angle : 0; };
+  const double cut_angle = options.cut_angle;
+  const auto angle_for = [cut_angle](bool step) { return step ? cut_angle : 0; };
 
   std::optional<Background> background =
       mesh_background(model, problem, sizes.field(power), std::ldexp(1.0, power), options);
