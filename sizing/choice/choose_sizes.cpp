@@ -35,6 +35,8 @@ constexpr double most_in_gaps = 1e7, most_gaps_over_target = 500;
 constexpr double coarsest_over_guess = 3, coarsest_with_gaps = 1.5;
 /// Of what a target and its features may take: the rest, at most, where features have to get fewer.
 constexpr double most_of_rest = 0.75;
+/// Of all: features other than gaps, at least, that it helps to have fewer of.
+constexpr double worth_cutting = 0.1;
 /// By this budget it is judged whether trailing edges are kept, if a user does not ask for more.
 constexpr double budget_of_edges = 5;
 /// Of faces, for which a field is built without asking first how large it would be; chosen, not
@@ -175,6 +177,8 @@ PreliminarySizes with_fewer_features(FieldFactory& factory, const PreliminarySiz
   now.features =
       choose_feature_resolution(factory, now.options, budget_for(now, now.base, 1 + gaps / now.base),
                                 coarsening_for(before.target), leaves_for(before.target * budget_of_edges));
+  // Where the body has finer elements than a gap here, it may get coarser ones.
+  if (now.features.gap_floor == 0) now.features.gap_floor = before.features.gap_floor;
   now.aimed = std::max(before.target, now.features.ratio * now.base);
   return now;
 }
@@ -198,7 +202,10 @@ ChosenSizes choose_sizes(FieldFactory& factory, const PreliminarySizes& prelimin
   };
   SizeSearch found = search(preliminary);
   const double most = preliminary.feature_budget * preliminary.target;
-  if (preliminary.features.ratio == 1 || found.tetrahedra() <= most || !std::isfinite(found.tetrahedra())) {
+  // Gaps are resolved whatever the target.
+  const double others = (preliminary.features.ratio - preliminary.features.gap_ratio) * preliminary.base;
+  if (others < worth_cutting * found.tetrahedra() || found.tetrahedra() <= most ||
+      !std::isfinite(found.tetrahedra())) {
     ChosenSizes chosen = found.best(purpose);
     chosen.features = at_count(preliminary.features, preliminary.base, chosen);
     return chosen;
