@@ -111,6 +111,22 @@ FinishedSurface SurfaceStages::mesh(const cases::TypedPatches& domain, domain::S
   return finished;
 }
 
+/// The surface of the sized domain; nothing where it cannot be meshed.
+std::optional<surface::SurfaceMesh> SurfaceStages::attempt_surface(const domain::SizedDomain& sized) {
+  const auto tell = [](const char* what) {
+    parallel::log_verbose(fmt::format("surface: {}; the sizes before stay", what));
+  };
+  try {
+    return build_surface(sized);
+  } catch (const parallel::CollectiveError& error) {
+    if (error.kind() != parallel::FailureKind::input) throw;
+    tell(error.what());
+  } catch (const surface::SurfaceError& error) {
+    tell(error.what());
+  }
+  return std::nullopt;
+}
+
 /// Makes the surface again, with sizes that account for what is to be made inside of the last one, as long as
 /// that comes nearer to the target.
 bool SurfaceStages::choose_again(domain::SizedDomain& sized, surface::SurfaceMesh& made) {
@@ -122,13 +138,8 @@ bool SurfaceStages::choose_again(domain::SizedDomain& sized, surface::SurfaceMes
     std::optional<domain::SizedDomain> again =
         domain::size_again(sized, _input.sizing, {made.field, made.lowered, count_inside});
     if (!again) break;
-    std::optional<surface::SurfaceMesh> other;
-    try {
-      other = build_surface(*again);
-    } catch (const surface::SurfaceError& error) {
-      parallel::log_verbose(fmt::format("surface: {}; the sizes before stay", error.what()));
-      break;
-    }
+    std::optional<surface::SurfaceMesh> other = attempt_surface(*again);
+    if (!other) break;
     const std::optional<double> other_count = tetrahedra_inside(*other, _input);
     if (!other_count || !domain::comes_nearer(*other_count, *count, *again, _input.sizing)) break;
     sized = std::move(*again);

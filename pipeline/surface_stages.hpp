@@ -34,6 +34,7 @@ private:
   FinishedSurface finish_surface(const cases::TypedPatches& domain, const domain::SizedDomain& sized,
                                  surface::SurfaceMesh surface);
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized);
+  std::optional<surface::SurfaceMesh> attempt_surface(const domain::SizedDomain& sized);
   surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized);
   bool choose_again(domain::SizedDomain& sized, surface::SurfaceMesh& made);
   surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, domain::SizedDomain& sized);
