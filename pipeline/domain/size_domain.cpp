@@ -370,6 +370,7 @@ std::optional<SizedDomain> size_again(const SizedDomain& sized, const cases::Siz
                                        {sizing::FieldFor::mesh, sized.sizes, std::move(seen)});
   again.findings.joined = sized.findings.joined;
   again.findings.edges = sized.findings.edges;
+  judge_again(again.findings.edges, again.sizes);
   return again;
 }
 
