@@ -111,11 +111,9 @@ FinishedSurface SurfaceStages::mesh(const cases::TypedPatches& domain, domain::S
   return finished;
 }
 
-/// The surface of the sized domain; nothing where it cannot be meshed.
-std::optional<surface::SurfaceMesh> SurfaceStages::attempt_surface(const domain::SizedDomain& sized) {
-  const auto tell = [](const char* what) {
-    parallel::log_verbose(fmt::format("surface: {}; the sizes before stay", what));
-  };
+/// The surface of the sized domain; nothing where it cannot be meshed. `tell` gets the reason.
+std::optional<surface::SurfaceMesh> SurfaceStages::attempt_surface(
+    const domain::SizedDomain& sized, const std::function<void(const std::string&)>& tell) {
   try {
     return build_surface(sized);
   } catch (const parallel::CollectiveError& error) {
@@ -138,7 +136,9 @@ bool SurfaceStages::choose_again(domain::SizedDomain& sized, surface::SurfaceMes
     std::optional<domain::SizedDomain> again =
         domain::size_again(sized, _input.sizing, {made.field, made.lowered, count_inside});
     if (!again) break;
-    std::optional<surface::SurfaceMesh> other = attempt_surface(*again);
+    std::optional<surface::SurfaceMesh> other = attempt_surface(*again, [](const std::string& what) {
+      parallel::log_verbose(fmt::format("surface: {}; the sizes before stay", what));
+    });
     if (!other) break;
     const std::optional<double> other_count = tetrahedra_inside(*other, _input);
     if (!other_count || !domain::comes_nearer(*other_count, *count, *again, _input.sizing)) break;
@@ -191,14 +191,7 @@ surface::SurfaceMesh SurfaceStages::build_surface(const domain::SizedDomain& siz
 /// as it was, and `sized` becomes its.
 surface::SurfaceMesh SurfaceStages::build_surface(const cad::Model& domain, domain::SizedDomain& sized) {
   if (!is_simplified(sized)) return build_surface(sized);
-  try {
-    return build_surface(sized);
-  } catch (const parallel::CollectiveError& error) {
-    if (error.kind() != parallel::FailureKind::input) throw;
-    log_surface_again(error.what());
-  } catch (const surface::SurfaceError& error) {
-    log_surface_again(error.what());
-  }
+  if (auto made = attempt_surface(sized, log_surface_again)) return std::move(*made);
   sized = build_sizes(domain, {cases::NarrowFaces::keep, cad::TrailingEdges::keep});
   return build_surface(sized);
 }

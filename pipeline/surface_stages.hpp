@@ -8,7 +8,9 @@
 #include "pipeline/report/run_record.hpp"
 #include "surface/surface_mesher.hpp"
 
+#include <functional>
 #include <optional>
+#include <string>
 
 namespace aeroloom::pipeline {
 
@@ -34,7 +36,8 @@ private:
   FinishedSurface finish_surface(const cases::TypedPatches& domain, const domain::SizedDomain& sized,
                                  surface::SurfaceMesh surface);
   surface::SurfaceMesh build_surface(const domain::SizedDomain& sized);
-  std::optional<surface::SurfaceMesh> attempt_surface(const domain::SizedDomain& sized);
+  std::optional<surface::SurfaceMesh> attempt_surface(const domain::SizedDomain& sized,
+                                                      const std::function<void(const std::string&)>& tell);
   surface::SurfaceMesh build_surface(const cad::Model& domain, domain::SizedDomain& sized);
   bool choose_again(domain::SizedDomain& sized, surface::SurfaceMesh& made);
   surface::SurfaceMesh build_surface_or_advise(const cad::Model& domain, domain::SizedDomain& sized);
