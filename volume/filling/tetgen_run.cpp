@@ -139,6 +139,8 @@ void run_phases(tetgenmesh& mesh) {
   clock_t unused = 0;
   mesh.initializepools();
   mesh.transfernodes();
+  // Else points nearer to each other than 1e-8 of the box, which the surface has, become one.
+  mesh.b->minedgelength = 0;
   exactinit(0, 0, 0, mesh.xmax - mesh.xmin, mesh.ymax - mesh.ymin, mesh.zmax - mesh.zmin);
   mesh.incrementaldelaunay(unused);
   if (mesh.in->numberoffacets == 0) return;

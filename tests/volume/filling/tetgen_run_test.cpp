@@ -76,6 +76,19 @@ TEST(RunTetgen, gives_the_delaunay_mesh_of_points_alone_with_their_hull) {
   EXPECT_GT(on_hull.size(), 10u);
 }
 
+/// Walls of a detail may be that near to each other where the far field is large.
+TEST(RunTetgen, keeps_points_apart_that_are_nearer_than_a_billionth_of_the_box) {
+  std::vector<Vec3> points;
+  for (int corner = 0; corner < 8; ++corner)
+    points.push_back({corner % 2 ? 1.0 : -1.0, corner / 2 % 2 ? 1.0 : -1.0, corner / 4 ? 1.0 : -1.0});
+  points.push_back({0.1, 0.2, 0.3});
+  points.push_back({0.1, 0.2 + 1e-10, 0.3});
+  const TetgenMesh mesh = run_tetgen(flat(points), {});
+  std::set<LocalIndex> used;
+  for (const LocalCell& cell : mesh.cells) used.insert(cell.begin(), cell.end());
+  EXPECT_EQ(used.size(), points.size());
+}
+
 /// An open sheet: both sides of each triangle are seen.
 TEST(RunTetgen, keeps_triangles_that_are_not_closed) {
   surfaces::Surface surface = surfaces::cube({0, 0, 0}, 1, 3);
