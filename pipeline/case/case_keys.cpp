@@ -47,12 +47,15 @@ void declare_sizing(KeyTable& keys, CaseDraft& draft) {
               common({"Largest ratio of sizes of neighbouring elements. A ratio near 1 makes the mesh "
                       "smoother and larger.",
                       shortest(preset.growth), shortest(preset.growth)}));
-  keys.number("proximity", sizing.proximity, Range::between(0, 20, "elements"),
-              {"Least number of elements across a thin part of the body and across a gap; 0: no condition.",
-               shortest(preset.proximity), shortest(preset.proximity)});
+  keys.number(
+      "proximity", sizing.proximity, Range::between(0, 20, "elements"),
+      {"Least number of elements across a thin part of the body and across a gap; 0: no condition. By "
+       "default nothing is asked across the inside of a body, which has no mesh, but that triangles "
+       "of both its sides stay half its thickness apart.",
+       "1 across gaps", "1"});
   keys.number("gap_proximity", sizing.gap_proximity, Range::between(0, 20, "elements"),
               {"The same across gaps alone: between walls with fluid between them, such as slat and wing.",
-               "`proximity`", "4"});
+               "`proximity` if given, else 1", "4"});
   keys.number(
       "target_tetrahedra", sizing.target_tetrahedra, Range::between(100, 1e10),
       common({"Number of tetrahedra that the chosen sizes aim at. The first key to change for a finer or "

@@ -249,12 +249,11 @@ SizedDomain size_domain_near(const parallel::Communicator& communicator, const c
   std::optional<sizing::SizingOptions>& near = aim.near;
   sizing::SizeRequests requests = requests_of(asked);
   requests.places = aim.seen.places;
-  const double thin = asked.proximity.value_or(sizing::SizingOptions{}.proximity);
-  const double layers = std::max(thin, asked.gap_proximity.value_or(thin));
+  const sizing::GapDemand gaps = sizing::gap_demand(sizing::with_given({}, asked));
   const std::optional<double> target = asked.level ? std::nullopt : target_of(asked);
   const auto fields = target ? sizing::Fields::several : sizing::Fields::one;
   std::optional<sizing::FieldFactory> factory(
-      std::in_place, sizing::SampledModel(communicator, model, roles_of(model, asked)), layers, fields,
+      std::in_place, sizing::SampledModel(communicator, model, roles_of(model, asked)), gaps, fields,
       std::move(requests));
   std::optional<LevelRequest> of_level;
   if (asked.level) of_level = apply_level(*factory, asked);

@@ -179,7 +179,8 @@ PreliminarySizes with_fewer_features(FieldFactory& factory, const PreliminarySiz
                                 coarsening_for(before.target), leaves_for(before.target * budget_of_edges));
   // Where the body has finer elements than a gap here, it may get coarser ones.
   if (now.features.gap_floor == 0) now.features.gap_floor = before.features.gap_floor;
-  now.aimed = std::max(before.target, now.features.ratio * now.base);
+  // Coarse fields see features cost more than they do: the body is not to fill what they promised.
+  now.aimed = std::clamp(now.features.ratio * now.base, before.target, before.feature_budget * before.target);
   return now;
 }
 
@@ -276,7 +277,7 @@ std::vector<BoundCost> costs_of_given(FieldFactory& factory, const ChosenSizes& 
 
 SizingOptions choose_sizes(const parallel::Communicator& communicator, const cad::Model& model,
                            double target_tetrahedra) {
-  FieldFactory factory(SampledModel(communicator, model), SizingOptions{}.proximity, Fields::several);
+  FieldFactory factory(SampledModel(communicator, model), gap_demand({}), Fields::several);
   return choose_sizes(factory, target_tetrahedra).options;
 }
 

@@ -145,7 +145,7 @@ private:
 
   void look_at(std::int32_t facet, std::int64_t& nodes) {
     const std::int32_t number = _first_facets[_face] + facet;
-    const auto& [face, corners, parameters, deviation] = _all.items[number];
+    const auto& [face, corners, parameters, deviation, curvature] = _all.items[number];
     const Vec3 normal = _all.normals[number];
     if (!(norm(normal) > 0.5)) return;
     const auto faces_it = [&](std::int32_t other) {

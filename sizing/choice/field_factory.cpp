@@ -23,8 +23,10 @@ std::vector<SizeSource> gap_sources(const Gaps& gaps, const SizingOptions& optio
   const double across_gaps = elements_across_gaps(options);
   for (const Gap& gap : gaps.seen) {
     const double elements = gap.is_meshed ? across_gaps : options.proximity;
-    const double size = std::max(gap.width / elements, options.minimum);
-    if (elements > 0 && size < options.maximum) sources.push_back({gap.point, size});
+    if (elements == 0) continue;
+    const double asked = elements > 0 ? gap.width / elements : size_that_keeps_apart(gap.width, gap.bend);
+    const double size = std::max(asked, options.minimum);
+    if (size < options.maximum) sources.push_back({gap.point, size});
   }
   for (const Gap& gap : gaps.open) {
     if (across_gaps <= 0) break;
@@ -57,10 +59,10 @@ bool are_same_sizes(const SizingOptions& a, const SizingOptions& b) {
 
 }  // namespace
 
-FieldFactory::FieldFactory(SampledModel sampled, double layers, Fields fields, SizeRequests requests)
+FieldFactory::FieldFactory(SampledModel sampled, GapDemand gaps, Fields fields, SizeRequests requests)
     : _sampled(std::move(sampled)),
       _requests(_sampled, std::move(requests)),
-      _gaps(_sampled, layers),
+      _gaps(_sampled, gaps),
       _fields(fields) {}
 
 FieldFactory::FieldFactory(FieldFactory&& before, const cad::Model& joined)
@@ -203,8 +205,8 @@ std::optional<double> FieldFactory::estimate_tetrahedra(const SizingOptions& opt
 SizeField build_size_field(const parallel::Communicator& communicator, const cad::Model& model,
                            const SizingOptions& options) {
   check_options(options);
-  const double layers = std::max(options.proximity, elements_across_gaps(options));
-  return FieldFactory(SampledModel(communicator, model), layers, Fields::one).build_field(options);
+  return FieldFactory(SampledModel(communicator, model), gap_demand(options), Fields::one)
+      .build_field(options);
 }
 
 }  // namespace aeroloom::sizing

@@ -41,10 +41,10 @@ enum class Fields : bool { one, several };
 /// counted tetrahedra are kept for later fields. No result depends on earlier calls.
 class FieldFactory {
 public:
-  /// `layers`: the most elements across a gap that any of the fields asks for. `requests`: what all fields
-  /// ask for besides; the model must have their patches. Collective. Throws parallel::CollectiveError where
-  /// the CAD library fails on a face.
-  FieldFactory(SampledModel sampled, double layers, Fields fields, SizeRequests requests = {});
+  /// `gaps`: the most that any of the fields asks of gaps. `requests`: what all fields ask for besides; the
+  /// model must have their patches. Collective. Throws parallel::CollectiveError where the CAD library fails
+  /// on a face.
+  FieldFactory(SampledModel sampled, GapDemand gaps, Fields fields, SizeRequests requests = {});
 
   /// For the model with some faces joined. Keeps everything of all other faces. Collective.
   FieldFactory(FieldFactory&& before, const cad::Model& joined);

@@ -144,11 +144,16 @@ void look_closer(const SampledModel& sampled, double layers, std::vector<FaceSea
 
 }  // namespace
 
-GapSearch::GapSearch(const SampledModel& sampled, double layers) : _layers(layers) {
+GapDemand gap_demand(const SizingOptions& options) {
+  const double thin = options.proximity >= 0 ? options.proximity : 1;
+  return {std::max(thin, elements_across_gaps(options)), options.proximity > 0};
+}
+
+GapSearch::GapSearch(const SampledModel& sampled, GapDemand demand) : _demand(demand) {
   measure(sampled, Notes::log);
 }
 
-GapSearch::GapSearch(GapSearch&& before, const SampledModel& joined) : _layers(before._layers) {
+GapSearch::GapSearch(GapSearch&& before, const SampledModel& joined) : _demand(before._demand) {
   const cad::Model& model = joined.model();
   const auto is_joined = [&](FaceId other) { return model.sheet_count(other) > 1; };
   for (const SampledFace& face : joined.own_faces()) {
@@ -182,16 +187,16 @@ void GapSearch::measure(const SampledModel& sampled, Notes notes) {
       if (!model.is_far_field(f)) area += sampled.area(f), ++count;
     }
     const double finest = finest_facet(extent, area);
-    if (notes == Notes::log && _layers > 0 && finest > coarser_than_wanted * extent / finest_gap) {
+    if (notes == Notes::log && _demand.layers > 0 && finest > coarser_than_wanted * extent / finest_gap) {
       parallel::log_info(
           fmt::format("sizing: gaps are looked for every {:.3g} of the surface; finer looking would take too "
                       "many rays",
                       finest));
     }
     const ScopedCpu cpu(ScopedCpu::As::task);
-    const GapLimits limits{extent / narrow_gap, finest, _layers};
+    const GapLimits limits{extent / narrow_gap, finest, _demand.layers, _demand.thin_by_width};
     for (const SampledFace& face : sampled.own_faces()) {
-      if (_layers <= 0 || model.is_far_field(face.id)) continue;
+      if (_demand.layers <= 0 || model.is_far_field(face.id)) continue;
       const auto [gaps, is_new] = _gaps.try_emplace(face.id);
       if (!is_new) continue;
       searches.push_back({face.id,
@@ -202,7 +207,7 @@ void GapSearch::measure(const SampledModel& sampled, Notes notes) {
     }
   });
   search_faces(sampled, searches);
-  look_closer(sampled, _layers, searches);
+  look_closer(sampled, _demand.layers, searches);
   gather(sampled);
 }
 
@@ -211,7 +216,7 @@ void GapSearch::gather(const SampledModel& sampled) {
   std::vector<UnseenGaps> mine;
   for (const auto& [face, gaps] : _gaps) {
     for (const Gap& gap : gaps.open) narrowest = std::min(narrowest, gap.width);
-    if (const auto unseen = describe_unseen(face, gaps, _layers)) mine.push_back(*unseen);
+    if (const auto unseen = describe_unseen(face, gaps, _demand.layers)) mine.push_back(*unseen);
   }
   _narrowest_gap = sampled.communicator().minimum(narrowest);
   _unseen_gaps = sampled.communicator().gather_sorted(mine, &UnseenGaps::face);

@@ -9,6 +9,13 @@
 
 namespace aeroloom::sizing {
 
+/// What the fields of a model may ask of gaps.
+struct GapDemand {
+  double layers;               ///< the most elements across a gap; with 0 no gaps are looked for
+  bool thin_by_width = false;  ///< and across thin parts of bodies
+};
+GapDemand gap_demand(const SizingOptions& options);
+
 /// A face on which the search for gaps ended early, to bound its cost.
 struct UnseenGaps {
   cad::FaceId face;
@@ -19,9 +26,8 @@ struct UnseenGaps {
 /// The gaps seen from each face. A face is searched by the rank that samples it.
 class GapSearch {
 public:
-  /// `layers`: the most elements across a gap that fields may ask for. With 0 no gaps are looked for.
   /// Collective.
-  GapSearch(const SampledModel& sampled, double layers);
+  GapSearch(const SampledModel& sampled, GapDemand demand);
 
   /// For the model with some faces joined. Keeps the gaps of all faces without a joined neighbour.
   /// Collective.
@@ -44,7 +50,7 @@ private:
   /// Gathers the findings of all ranks. Collective.
   void gather(const SampledModel& sampled);
 
-  double _layers;
+  GapDemand _demand;
   std::map<cad::FaceId, Gaps> _gaps;
   std::vector<UnseenGaps> _unseen_gaps;
   double _narrowest_gap = std::numeric_limits<double>::infinity();

@@ -44,8 +44,10 @@ SizingOptions at_scale(const SizingOptions& options, double factor) {
   sizes.feature_aspect = std::max(1.0, sizes.feature_aspect * factor);
   sizes.chordal_deviation *= factor * factor;
   sizes.growth = std::pow(sizes.growth, factor);
-  sizes.proximity /= factor;
+  if (sizes.proximity > 0) sizes.proximity /= factor;
   if (sizes.gap_proximity > 0) sizes.gap_proximity /= factor;
+  if (options.proximity < 0 && options.gap_proximity < 0)
+    sizes.gap_proximity = elements_across_gaps(options) / factor;
   return sizes;
 }
 

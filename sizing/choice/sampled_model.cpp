@@ -129,10 +129,15 @@ void SampledModel::gather_triangles() {
       if (_model.face(face.id).back != cad::no_entity && !_far_field.faces[face.id]) continue;
       const auto& points = face.facets.points;
       const std::vector<double> deviations = facet_deviations(_model, face.id, face.facets);
+      const std::vector<double> curvatures = facet_curvatures(_model, face.id, face.facets);
       for (std::size_t i = 0; i < deviations.size(); ++i) {
         const auto& [a, b, c] = face.facets.triangles[i];
         const auto& uv = face.facets.uv;
-        mine.push_back({face.id, {points[a], points[b], points[c]}, {uv[a], uv[b], uv[c]}, deviations[i]});
+        mine.push_back({face.id,
+                        {points[a], points[b], points[c]},
+                        {uv[a], uv[b], uv[c]},
+                        deviations[i],
+                        curvatures[i]});
       }
     }
   });

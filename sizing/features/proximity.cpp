@@ -73,9 +73,11 @@ public:
         _widest(limits.widest),
         _finest(limits.finest),
         _edge_per_gap(edge_per_gap(limits.layers)),
+        _thin_by_width(limits.thin_by_width),
         _accuracy(std::max(model.sewn_gap(), accuracy * limits.widest)),
         _meshed_beyond(model.face(face).back != cad::no_entity),
-        _deviations(facet_deviations(model, face, facets)) {
+        _deviations(facet_deviations(model, face, facets)),
+        _curvatures(facet_curvatures(model, face, facets)) {
     std::map<cad::FaceId, std::vector<SegmentTree::Segment>> shared;
     for (const cad::Facets::BoundaryLine& line : facets.boundary) {
       for (const cad::FaceId user : model.edge(line.use.edge).faces) {
@@ -144,9 +146,9 @@ private:
     double gap = endless, open = endless;
   };
 
-  /// On both sides together; `thin`: of a side that is not meshed.
+  /// On both sides together; `thin`: of a side that is not meshed, whose faces bend so much.
   struct Around {
-    double gap = endless, open = endless, thin = endless;
+    double gap = endless, open = endless, thin = endless, bend = 0;
   };
 
   std::vector<Gaps::Unseen> whole_facets() const {
@@ -171,13 +173,14 @@ private:
       return;
     }
     const std::int64_t before = _nodes;
-    const auto [gap, open, thin] = look_around(center, normal, part.facet);
+    const auto [gap, open, thin, bend] = look_around(center, normal, part.facet);
     if (gap <= _widest) _gaps.seen.push_back({center, gap});
-    if (thin <= _widest) _gaps.seen.push_back({center, thin, false});
+    if (thin <= _widest) _gaps.seen.push_back({center, thin, false, bend});
     if (open <= _widest) _gaps.open.push_back({center, open});
     const auto [from, length] = longest_edge(t);
     // Without a gap in sight the facet is searched as closely as gaps of the widest kind would need.
-    const double fine = std::max(_finest, _edge_per_gap * std::min({gap, thin, _widest}));
+    const double asked = _thin_by_width || thin > _widest ? thin : size_that_keeps_apart(thin, bend);
+    const double fine = std::max(_finest, _edge_per_gap * std::min({gap, asked, _widest}));
     if (length > fine && part.depth < deepest_edge_split) {
       const auto halves = bisect(t, from);
       cover({halves[0], part.facet, part.depth + 1}, (most - (_nodes - before)) / 2);
@@ -216,6 +219,7 @@ private:
     Around around{behind.gap, std::min(ahead.open, behind.open)};
     double& out_of_face = _meshed_beyond ? around.gap : around.thin;
     out_of_face = std::min(out_of_face, ahead.gap);
+    if (around.thin < endless) around.bend = _curvatures[facet] + _all.items[nearest[0].triangle].curvature;
     return around;
   }
 
@@ -280,9 +284,10 @@ private:
   std::map<cad::FaceId, SegmentTree>
       _edges;  // that the face shares with each neighbour; all of them with itself
   double _widest, _finest, _edge_per_gap;
+  bool _thin_by_width;
   double _accuracy;
   bool _meshed_beyond;
-  std::vector<double> _deviations;  // of the facets
+  std::vector<double> _deviations, _curvatures;  // of the facets
   bool _begun = false;
   std::int64_t _nodes = 0, _looks = 0;  // visited so far, and rays
   Gaps _gaps;
@@ -303,6 +308,27 @@ std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, 
     deviations.push_back(deviation);
   }
   return deviations;
+}
+
+std::vector<double> facet_curvatures(const cad::Model& model, cad::FaceId face, const cad::Facets& facets) {
+  std::vector<double> of_points(facets.points.size(), 0);
+  if (!model.is_planar(face)) {
+    for (std::size_t p = 0; p < of_points.size(); ++p) {
+      const cad::PrincipalCurvatures seen = model.face_curvatures(face, facets.uv[p]);
+      if (seen.defined) of_points[p] = std::abs(seen.largest);
+    }
+  }
+  std::vector<double> curvatures;
+  curvatures.reserve(facets.triangles.size());
+  for (const auto& [a, b, c] : facets.triangles)
+    curvatures.push_back(std::max({of_points[a], of_points[b], of_points[c]}));
+  return curvatures;
+}
+
+double size_that_keeps_apart(double width, double bend) {
+  // Both sides leave their surfaces by half the width together: h^2 / 3, the square of the radius around a
+  // triangle, times half the curvature.
+  return bend > 0 ? std::sqrt(3 * width / bend) : endless;
 }
 
 namespace {

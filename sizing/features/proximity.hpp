@@ -22,7 +22,13 @@ struct Gap {
   geometry::Vec3 point;
   double width;
   bool is_meshed = true;  ///< the space between is meshed; if not, it is a thin part of a body
+  double bend = 0;        ///< of a thin part: the largest curvatures of both its sides, added
 };
+
+/// The largest size with which triangles on both sides of a thin part stay half its width away from each
+/// other: those of an edge h leave a surface of curvature k by h^2 k / 6. Infinite where both sides are
+/// planar.
+double size_that_keeps_apart(double width, double bend);
 
 /// Gaps that rays from one face have met.
 struct Gaps {
@@ -53,12 +59,16 @@ struct Gaps {
 /// a quarter of the longest edge.
 std::vector<double> facet_deviations(const cad::Model& model, cad::FaceId face, const cad::Facets& facets);
 
+/// The largest curvature of the face at the corners of each facet; zero on a plane.
+std::vector<double> facet_curvatures(const cad::Model& model, cad::FaceId face, const cad::Facets& facets);
+
 /// A facet of a face.
 struct ModelFacet {
   cad::FaceId face;
   Triangle corners;
   Parameters parameters;  ///< of its corners
   double deviation;       ///< its distance from the surface
+  double curvature;       ///< the largest at its corners
 };
 
 /// The facets of all faces, in trees.
@@ -73,9 +83,10 @@ struct ModelFacets {
 
 /// Limits of a search for gaps.
 struct GapLimits {
-  double widest;  ///< gaps wider than this are left out
-  double finest;  ///< parts of facets with edges up to this length are not bisected
-  double layers;  ///< the most elements wanted across a gap
+  double widest;       ///< gaps wider than this are left out
+  double finest;       ///< parts of facets with edges up to this length are not bisected
+  double layers;       ///< the most elements wanted across a gap
+  bool thin_by_width;  ///< and across thin parts; else sizes there keep triangles of both sides apart
 };
 
 /// The number of rays, and of visited tree nodes.

@@ -21,11 +21,13 @@ struct SizingOptions {
   double curvature_angle = 12;  ///< degrees an element may turn on a curved face or edge
   double growth = 1.3;          ///< ratio of neighbouring element sizes, > 1
   double surface_maximum = 0;   ///< largest size on faces of the body, far field excepted; 0: `maximum`
-  double proximity = 1;         ///< least number of elements across a thin part or a gap; 0: any
-  double gap_proximity = -1;    ///< the same across gaps alone; negative: `proximity`
-  double feature_minimum = 0;   ///< `minimum` of short edges, narrow faces, sharp corners; 0: minimum / 20
-  double narrow_minimum = 0;    ///< `minimum` of narrow faces alone; 0: as feature_minimum
-  double gap_minimum = 0;       ///< `minimum` of gaps between walls that do not meet; 0: minimum
+  /// Least number of elements across a thin part, whose inside is not meshed, or a gap; 0: any. Negative: one
+  /// across gaps; in thin parts sizes only keep triangles of both sides apart.
+  double proximity = -1;
+  double gap_proximity = -1;   ///< the same across gaps alone; negative: `proximity`
+  double feature_minimum = 0;  ///< `minimum` of short edges, narrow faces, sharp corners; 0: minimum / 20
+  double narrow_minimum = 0;   ///< `minimum` of narrow faces alone; 0: as feature_minimum
+  double gap_minimum = 0;      ///< `minimum` of gaps between walls that do not meet; 0: minimum
   /// Length of an element over the width of a narrow face, >= 1; also at short edges and sharp corners. No
   /// element is longer than `minimum` for it.
   double feature_aspect = 1;
@@ -56,7 +58,8 @@ inline double narrow_size(double width, const SizingOptions& options) {
 
 /// The least number of elements across a gap between walls.
 inline double elements_across_gaps(const SizingOptions& options) {
-  return options.gap_proximity >= 0 ? options.gap_proximity : options.proximity;
+  if (options.gap_proximity >= 0) return options.gap_proximity;
+  return options.proximity >= 0 ? options.proximity : 1;
 }
 
 /// The smallest size that gaps may ask for.

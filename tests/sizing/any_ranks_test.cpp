@@ -92,7 +92,7 @@ TEST(OnAnyRanks, FieldsOfThinPartsAndGaps) {
     with_gaps.gap_minimum = 0.01;
     findings << build_size_field(ranks, plate(0.02), with_gaps)
              << build_size_field(ranks, shapes::slotted_block(0.02), with_gaps);
-    const GapSearch gaps(SampledModel(ranks, plate(0.02)), 1);
+    const GapSearch gaps(SampledModel(ranks, plate(0.02)), {1});
     findings << gaps.narrowest_gap();
     for (const UnseenGaps& unseen : gaps.unseen_gaps())
       findings << unseen.face << unseen.place << unseen.size;
@@ -103,7 +103,7 @@ TEST(OnAnyRanks, CountsOfTetrahedra) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     const Model model = make_primitive_domain(cad::PrimitiveKind::box_with_sphere);
     const SizingOptions options{0.02, 0.2, 12, 1.3, 0};
-    FieldFactory factory(SampledModel(ranks, model), 0, Fields::several);
+    FieldFactory factory(SampledModel(ranks, model), {0}, Fields::several);
     findings << predict_counts(factory.sampled(), factory.build_field(options))
              << factory.build_coarse_field(options).counts
              << factory.estimate_tetrahedra(options, 4, 1'000'000'000).value_or(-1)
@@ -119,7 +119,7 @@ TEST(OnAnyRanks, StripsAndNarrowFaces) {
     const std::vector<double> aspects{1, 4, 20};
     for (const Model& model : {cad::shapes::split_cylinder(3, 2), cad::shapes::tapered_wedge(0.01, 0.001),
                                cad::shapes::creased_prism(10)}) {
-      FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
+      FieldFactory factory(SampledModel(ranks, model), {0}, Fields::one);
       for (const NarrowRegion& strip : narrow_regions_below(factory.sampled(), 0.06, 0.05))
         findings << strip.face << strip.width << strip.place;
       for (const double elements : elements_along_narrow_regions(factory.sampled(), aspects, options))
@@ -139,7 +139,7 @@ TEST(OnAnyRanks, FieldsOfAModelWhoseFacesAreJoined) {
     const Model joined = cad::join_faces(model, group_narrow_faces(model, narrow, 1e-3));
     EXPECT_LT(joined.face_count(), model.face_count());
     const SizingOptions options{0.05, 0.5, 15, 1.3, 0, 1};
-    FieldFactory before(SampledModel(ranks, model), 1, Fields::several);
+    FieldFactory before(SampledModel(ranks, model), {1}, Fields::several);
     findings << before.build_field(options);
     FieldFactory after(std::move(before), joined);
     const SizeField field = after.build_field(options);
@@ -162,12 +162,12 @@ TEST(OnAnyRanks, SharesOfFeatures) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     SizingOptions options{0.05, 0.2, 15, 1.3, 0};
     options.feature_minimum = options.minimum;
-    FieldFactory blunt(SampledModel(ranks, cad::shapes::blunt_wedge(0.004)), 0, Fields::several);
+    FieldFactory blunt(SampledModel(ranks, cad::shapes::blunt_wedge(0.004)), {0}, Fields::several);
     for (const double budget : {1.0, 1.5, 1e9})
       findings << choose_feature_resolution(blunt, options, {budget}, 1, 1'000'000'000);
-    FieldFactory thin(SampledModel(ranks, cad::shapes::tapered_wedge(0.01, 0.0005)), 0, Fields::several);
+    FieldFactory thin(SampledModel(ranks, cad::shapes::tapered_wedge(0.01, 0.0005)), {0}, Fields::several);
     findings << choose_feature_resolution(thin, options, {4}, 1, 60'000);
-    FieldFactory slot(SampledModel(ranks, plate(0.02)), 1, Fields::several);
+    FieldFactory slot(SampledModel(ranks, plate(0.02)), {1}, Fields::several);
     findings << choose_feature_resolution(slot, options, {1e9, 1e9}, 1, 1'000'000'000);
   });
 }
@@ -175,7 +175,7 @@ TEST(OnAnyRanks, SharesOfFeatures) {
 TEST(OnAnyRanks, ChosenSizes) {
   expect_same([](const Communicator& ranks, Findings& findings) {
     const auto choose = [&](const Model& model, double layers, double target, double budget) {
-      FieldFactory factory(SampledModel(ranks, model), layers, Fields::several);
+      FieldFactory factory(SampledModel(ranks, model), {layers}, Fields::several);
       const ChosenSizes chosen = choose_sizes(factory, target, budget);
       findings << chosen.options << chosen.counts << chosen.features << chosen.field.leaf_count();
     };
@@ -193,7 +193,7 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
       return cad::prepare_domain(aircraft).model;
     });
     const Vec3 flow{1, 0, 0};
-    FieldFactory factory(SampledModel(ranks, model), 0, Fields::one);
+    FieldFactory factory(SampledModel(ranks, model), {0}, Fields::one);
     for (const TrailingEdge& edge : find_trailing_edges(factory.sampled(), 1))
       findings << edge.strip.face << edge.strip.narrowest << edge.chord << edge.fraction;
     const LiftingBodies bodies = find_lifting_bodies(factory.sampled(), flow);
@@ -221,7 +221,7 @@ TEST(OnAnyRanks, TrailingEdgesAndLevels) {
 TEST(OnAnyRanks, RefusalsAreThoseOfAllRanks) {
   const auto world = Communicator::world();
   const Model model = cad::shapes::split_cylinder(3, 2);
-  FieldFactory factory(SampledModel(world, model), 0, Fields::several);
+  FieldFactory factory(SampledModel(world, model), {0}, Fields::several);
   EXPECT_THROW(factory.build_field({1e-7, 1e-7, 15, 1.3, 0}), std::invalid_argument);
   EXPECT_THROW(choose_sizes(factory, 0), std::invalid_argument);
   EXPECT_THROW(choose_feature_resolution(factory, {0.05, 0.5, 15, 1.3, 0}, {0.5}, 1, 1000),

@@ -21,7 +21,7 @@ public:
   explicit Sampled(const cad::Model& model) : Sampled(model, 0) {}
   /// With gaps looked for.
   Sampled(const cad::Model& model, double layers)
-      : _factory(SampledModel(parallel::Communicator::world(), model), layers, Fields::several) {}
+      : _factory(SampledModel(parallel::Communicator::world(), model), {layers}, Fields::several) {}
 
   FeatureResolution share(FeatureBudget budget, std::int64_t most_leaves = 1'000'000'000) {
     return choose_feature_resolution(_factory, sizes(), budget, 1, most_leaves);

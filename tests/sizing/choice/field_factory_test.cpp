@@ -28,9 +28,10 @@ Model join_narrow(const Model& model, double width) {
 /// Fields and predictions of factories that were made anew and from one for the model before.
 void expect_same(const Model& model, const Model& joined, const SizingOptions& options, Fields fields) {
   const auto world = parallel::Communicator::world();
-  FieldFactory before(SampledModel(world, model), options.proximity, fields);
+  FieldFactory before(SampledModel(world, model), gap_demand(options), fields);
   before.build_field(options);
-  FieldFactory after(std::move(before), joined), anew(SampledModel(world, joined), options.proximity, fields);
+  FieldFactory after(std::move(before), joined),
+      anew(SampledModel(world, joined), gap_demand(options), fields);
   const SizeField field = after.build_field(options), expected = anew.build_field(options);
   ASSERT_EQ(field.leaf_count(), expected.leaf_count());
   for (std::int64_t leaf = 0; leaf < field.leaf_count(); ++leaf)
@@ -66,7 +67,7 @@ TEST(FieldFactory, WidthsOfStripsAreThoseBetweenTheirCurves) {
 TEST(FieldFactory, TellsSizesWithoutFeatures) {
   constexpr double width = 0.002, surface = 0.1;
   const Model model = cad::shapes::blunt_wedge(width);
-  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 0, Fields::one);
+  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), {0}, Fields::one);
   SizingOptions options;
   options.minimum = 0.02, options.maximum = 0.5, options.surface_maximum = surface;
   options.feature_minimum = 0.001;
@@ -94,7 +95,7 @@ TEST(FieldFactory, TellsOnWhichFacesTheMinimumWins) {
   const Model model = cad::shapes::split_cylinder(3, 2);
   SizingOptions options{0.5, 1, 5, 1.3, 0};
   options.proximity = 0;
-  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 0, Fields::several);
+  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), {0}, Fields::several);
   const std::vector<BoundedFace> bounded = factory.faces_bounded_by_minimum(options);
   ASSERT_FALSE(bounded.empty());
   for (const BoundedFace& each : bounded) {
@@ -109,7 +110,7 @@ TEST(FieldFactory, TellsOnWhichFacesTheMinimumWins) {
 TEST(FieldFactory, RefusesSizesThatNoMachineHolds) {
   const Model model = cad::shapes::split_cylinder(3, 2);
   for (const Fields fields : {Fields::one, Fields::several}) {
-    FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 0, fields);
+    FieldFactory factory(SampledModel(parallel::Communicator::world(), model), {0}, fields);
     const auto refusal = [&](const SizingOptions& options) -> std::string {
       try {
         factory.build_field(options);
@@ -138,7 +139,7 @@ TEST(CurvatureLimits, LeaveTheFarFieldItsSizes) {
 TEST(FieldFactory, RemembersEstimatesForSizesThatDifferByRounding) {
   const Model model = cad::shapes::split_cylinder(3, 2);
   const SizingOptions options{0.05, 0.5, 15, 1.3, 0};
-  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), options.proximity,
+  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), gap_demand(options),
                        Fields::several);
   constexpr std::int64_t many = 1'000'000'000;
   const auto exact = factory.try_sizes(options, many);
@@ -158,7 +159,7 @@ TEST(FieldFactory, RemembersEstimatesForSizesThatDifferByRounding) {
 
 TEST(FieldFactory, RoughFieldsTellAboutAsManyAndDoSoForAnySizes) {
   const Model model = cad::shapes::split_cylinder(3, 2);
-  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 1, Fields::several);
+  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), {1}, Fields::several);
   const SizingOptions options{0.02, 0.3, 15, 1.3, 0};
   const PredictedCounts exact = predict_counts(factory.sampled(), factory.build_field(options));
   const CoarseField rough = factory.build_coarse_field(options);

@@ -111,7 +111,7 @@ TEST(ChooseSizes, HitsTheTarget) {
 
 TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
   const Model model = sphere_in_box(20, 0.5);
-  sizing::FieldFactory factory(sizing::SampledModel(parallel::Communicator::world(), model), 1,
+  sizing::FieldFactory factory(sizing::SampledModel(parallel::Communicator::world(), model), {1},
                                sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(factory, 5e4);
   const SizeField field = factory.build_field(chosen.options);
@@ -126,7 +126,7 @@ TEST(ChooseSizes, HandsOverTheFieldAndTheCountsItJudgedBy) {
 
 TEST(ChooseSizes, EndsWhereTheTargetIsOutOfReach) {
   const Model model = sphere_in_box(2, 0.02);
-  sizing::FieldFactory factory(sizing::SampledModel(parallel::Communicator::world(), model), 1,
+  sizing::FieldFactory factory(sizing::SampledModel(parallel::Communicator::world(), model), {1},
                                sizing::Fields::several);
   const sizing::ChosenSizes chosen = sizing::choose_sizes(factory, 100);
   EXPECT_GT(chosen.counts.tetrahedra, 200);

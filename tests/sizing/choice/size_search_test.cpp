@@ -15,7 +15,7 @@ namespace {
 TEST(SizeSearchLocal, TriesTheCoarsestSizeOnce) {
   const parallel::Communicator world = parallel::Communicator::world();
   const cad::Model model = cad::make_primitive_domain(cad::PrimitiveKind::box);
-  FieldFactory factory(SampledModel(world, model), SizingOptions{}.proximity, Fields::several);
+  FieldFactory factory(SampledModel(world, model), gap_demand({}), Fields::several);
   const GivenSizes given;
   SizeSearch search(factory, 10, 1, {}, given);
   parallel::configure_log(world, parallel::LogLevel::verbose);

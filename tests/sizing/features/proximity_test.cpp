@@ -224,12 +224,14 @@ Model cusp() {
 std::vector<sizing::ModelFacet> facets_of(const Model& model, cad::FaceId face, const cad::Facets& facets) {
   std::vector<sizing::ModelFacet> all;
   const std::vector<double> deviations = sizing::facet_deviations(model, face, facets);
+  const std::vector<double> curvatures = sizing::facet_curvatures(model, face, facets);
   for (std::size_t i = 0; i < deviations.size(); ++i) {
     const auto& [a, b, c] = facets.triangles[i];
     all.push_back({face,
                    {facets.points[a], facets.points[b], facets.points[c]},
                    {facets.uv[a], facets.uv[b], facets.uv[c]},
-                   deviations[i]});
+                   deviations[i],
+                   curvatures[i]});
   }
   return all;
 }
@@ -254,7 +256,7 @@ TEST(OpenGaps, AreNotToldFromACuspByFacetsThatReachToIt) {
   for (const auto& [angle, angle_below] : {std::pair(0.45, 0.15), std::pair(0.3, 0.1)}) {
     const cad::Facets facets = model.facets(upper, 1, angle);
     const sizing::ModelFacets walls(facets_of(model, lower, model.facets(lower, 1, angle_below)));
-    sizing::FaceGapSearch search(model, upper, facets, walls, {1, 0.01, 1});
+    sizing::FaceGapSearch search(model, upper, facets, walls, {1, 0.01, 1, true});
     sizing::Gaps gaps;
     search.go_on(10'000'000, gaps);
     EXPECT_GT(gaps.seen.size(), 100);
@@ -296,7 +298,7 @@ struct PlateSearch {
   PlateSearch(Model other, const sizing::GapLimits& what) : model(std::move(other)), limits(what) {}
 
   Model model = plate(0.02);
-  sizing::GapLimits limits{0.1, 0.005, 1};
+  sizing::GapLimits limits{0.1, 0.005, 1, true};
   cad::FaceId face = [&] {
     cad::FaceId largest = cad::no_entity;
     for (cad::FaceId f = 0; f < model.face_count(); ++f) {

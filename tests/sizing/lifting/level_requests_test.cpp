@@ -38,7 +38,7 @@ TEST(LevelDemands, FieldHasTheSpacingAlongEdges) {
   options.default_far_field.unit = cad::ExtentUnit::semispan;
   options.default_far_field.symmetry = cad::Symmetry::y;
   const cad::Model model = cad::prepare_domain(options).model;
-  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), 0, Fields::one);
+  FieldFactory factory(SampledModel(parallel::Communicator::world(), model), {0}, Fields::one);
   const Vec3 flow{1, 0, 0};
   const LiftingBodies bodies = find_lifting_bodies(factory.sampled(), flow);
   EXPECT_NEAR(model.bounds().size().x, 2 * 100 * bodies.semispan, 0.01 * bodies.semispan);
