@@ -6,6 +6,7 @@
 #include "cad/repair/change.hpp"
 #include "cad/repair/volumes.hpp"
 
+#include <optional>
 #include <vector>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
@@ -47,5 +48,10 @@ double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, doub
 /// of the CAD library, and it is listed as a change. Throws CadError that names both bodies and a place.
 std::vector<TopoDS_Solid> unite_with(const std::vector<TopoDS_Solid>& united, const TopoDS_Solid& solid,
                                      Volumes& volumes, FaceLabels& labels, Changes& changes);
+
+/// Unites solids at once, which takes far less time than one after the other. Nothing where the CAD library
+/// fails, or where the volume is not the sum of theirs, as where some overlap; labels stay as they are then.
+std::optional<std::vector<TopoDS_Solid>> unite_at_once(const std::vector<TopoDS_Solid>& solids,
+                                                       Volumes& volumes, FaceLabels& labels);
 
 }  // namespace aeroloom::cad

@@ -166,6 +166,29 @@ double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, doub
   return common.Shape().IsNull() ? 0 : std::abs(volumes.of(common.Shape()));
 }
 
+std::optional<Solids> unite_at_once(const Solids& solids, Volumes& volumes, FaceLabels& labels) {
+  // Of the smallest solid: less than what is lost where one is left out.
+  constexpr double most_lost = 0.1;
+  double sum = 0, smallest = std::numeric_limits<double>::max();
+  for (const TopoDS_Solid& solid : solids) {
+    const double volume = volumes.of(solid);
+    sum += volume;
+    smallest = std::min(smallest, volume);
+  }
+  try {
+    Union all = fuse({solids.front()}, {solids.begin() + 1, solids.end()}, {"as they are"}, labels);
+    const double lost = std::abs(sum - volume_of(all.solids, volumes));
+    if (all.solids.empty() || lost > std::min(tolerances::integrated_volume * sum, most_lost * smallest))
+      return std::nullopt;
+    labels = std::move(all.labels);
+    return std::move(all.solids);
+  } catch (const CadError&) {
+    return std::nullopt;
+  } catch (const Standard_Failure&) {
+    return std::nullopt;
+  }
+}
+
 std::vector<TopoDS_Solid> unite_with(const Solids& united, const TopoDS_Solid& solid, Volumes& volumes,
                                      FaceLabels& labels, Changes& changes) {
   Box box = tight_box(solid);

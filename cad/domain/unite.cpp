@@ -39,9 +39,17 @@ std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_
   return groups;
 }
 
-/// One after the other, so that each union's volume can be checked against its two parts.
+/// From so many bodies on, they are united at once where they only touch: one after the other takes time with
+/// the square of their number.
+constexpr std::size_t many_bodies = 16;
+
+/// One after the other, so that each union's volume can be checked against its two parts; many that do not
+/// overlap at once.
 std::vector<TopoDS_Solid> unite(const std::vector<TopoDS_Solid>& group, Volumes& volumes, FaceLabels& labels,
                                 Changes& changes) {
+  if (group.size() >= many_bodies) {
+    if (auto united = unite_at_once(group, volumes, labels)) return std::move(*united);
+  }
   std::vector<TopoDS_Solid> united{group.front()};
   for (std::size_t i = 1; i < group.size(); ++i)
     united = unite_with(united, group[i], volumes, labels, changes);

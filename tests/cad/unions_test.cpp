@@ -1,4 +1,5 @@
 // Pairs of bodies that coincide in faces, touch, or nearly do: united soundly, or named.
+#include "cad/domain/booleans.hpp"
 #include "tests/cad/cad_shapes.hpp"
 #include "tests/cad/model_checks.hpp"
 
@@ -6,12 +7,15 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Solid.hxx>
 #include <gp_Ax2.hxx>
 #include <gtest/gtest.h>
 
@@ -81,6 +85,43 @@ TEST(Unions, AreSoundOrNameBothBodiesAndAPlace) {
     }
   }
   EXPECT_GE(united, 9);
+}
+
+/// Twenty boxes on a plate.
+std::vector<TopoDS_Solid> boxes_on_a_plate() {
+  std::vector<TopoDS_Solid> solids{BRepPrimAPI_MakeBox({-1, -1, -1}, {21, 2, 0}).Solid()};
+  for (int i = 0; i < 20; ++i)
+    solids.push_back(BRepPrimAPI_MakeBox({1. * i, 0, 0}, {i + 0.5, 1, 0.1 + 0.01 * i}).Solid());
+  return solids;
+}
+
+TEST(Unions, ManyThatTouchAreUnitedAtOnce) {
+  const std::vector<TopoDS_Solid> solids = boxes_on_a_plate();
+  Volumes volumes;
+  FaceLabels labels;
+  for (const TopoDS_Solid& solid : solids)
+    for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next())
+      labels.Bind(faces.Current(), FaceLabel{.solid = &solid == &solids.front() ? "plate" : "chip"});
+  const auto united = unite_at_once(solids, volumes, labels);
+  ASSERT_TRUE(united);
+  ASSERT_EQ(united->size(), 1U);
+  EXPECT_NEAR(volumes.of(united->front()), volume_of(solids, volumes), 1e-9);
+  int plate = 0, chips = 0;
+  for (TopExp_Explorer faces(united->front(), TopAbs_FACE); faces.More(); faces.Next()) {
+    const FaceLabel* label = labels.Seek(faces.Current());
+    ASSERT_NE(label, nullptr);
+    (label->solid == "plate" ? plate : chips) += 1;
+  }
+  EXPECT_EQ(plate, 6);
+  EXPECT_EQ(chips, 20 * 5);
+}
+
+TEST(Unions, ManyOfWhichSomeOverlapAreNotUnitedAtOnce) {
+  std::vector<TopoDS_Solid> solids = boxes_on_a_plate();
+  solids.push_back(BRepPrimAPI_MakeBox({0.2, 0.2, 0}, {0.4, 0.4, 1}).Solid());
+  Volumes volumes;
+  FaceLabels labels;
+  EXPECT_FALSE(unite_at_once(solids, volumes, labels));
 }
 
 }  // namespace
