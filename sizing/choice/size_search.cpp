@@ -126,6 +126,7 @@ void SizeSearch::run(double first_size, double largest_error, int most_rounds, d
   if (coarsest_size > 0) coarsest = std::clamp(std::log(coarsest_size), finest, coarsest);
   double size = std::clamp(std::log(first_size), finest, coarsest), last_size = 0, last_error = 0;
   double slope = first_slope;
+  bool knows_coarsest = false;
   for (int round = 0; round < most_rounds && std::abs(_error) > largest_error; ++round) {
     const double error = judge(std::exp(size));
     if (round > 0 && last_error < far_too_many && error < far_too_many) {
@@ -137,10 +138,15 @@ void SizeSearch::run(double first_size, double largest_error, int most_rounds, d
       if (tells) slope = std::clamp(measured, steepest_slope, flattest_slope);
     }
     (error > 0 ? finest : coarsest) = size;
+    knows_coarsest = knows_coarsest || error <= 0;
     if (!(finest < coarsest)) break;  // the bound was tried: nothing is left
     last_size = size, last_error = error;
     size -= std::clamp(error / slope, -largest_step, largest_step);
-    if (!(size > finest && size < coarsest)) size = 0.5 * (finest + coarsest);
+    // A bound that is too fine still is the answer: halves would come near it with many fields.
+    if (size >= coarsest && !knows_coarsest)
+      size = coarsest;
+    else if (!(size > finest && size < coarsest))
+      size = 0.5 * (finest + coarsest);
   }
   if (_error == far_too_many) {
     _body_size = std::exp(finest);
