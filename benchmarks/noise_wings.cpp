@@ -75,14 +75,6 @@ void add_side(const SpanSection& a, const SpanSection& b, double sign, const Cut
   }
 }
 
-TopoDS_Face cap(const SpanSection& section) {
-  BRepBuilderAPI_MakeWire wire(
-      BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
-      BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge(),
-      BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
-  return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
-}
-
 TopoDS_Face polygon(const std::vector<gp_Pnt>& corners) {
   BRepBuilderAPI_MakePolygon wire;
   for (const gp_Pnt& corner : corners) wire.Add(corner);

@@ -123,14 +123,6 @@ TopoDS_Shape half_pod(double end, double turn = std::numbers::pi) {
       .Shape();
 }
 
-TopoDS_Face cap(const SpanSection& section) {
-  BRepBuilderAPI_MakeWire wire(
-      BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
-      BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge(),
-      BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
-  return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
-}
-
 TopoDS_Face end_of(const SpanSection& root, const SpanSection& tip) {
   const auto line = [](const SpanSection& section) {
     return GeomConvert::CurveToBSplineCurve(

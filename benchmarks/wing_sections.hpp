@@ -6,7 +6,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
 #include <GeomAPI_Interpolate.hxx>
@@ -16,6 +19,8 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
+#include <gp.hxx>
+#include <gp_Pln.hxx>
 #include <gp_Pnt.hxx>
 
 namespace aeroloom::wings {
@@ -53,6 +58,15 @@ inline Handle(Geom_BSplineCurve) side_of(const SpanSection& section, double sign
   GeomAPI_Interpolate interpolate(points, parameters, Standard_False, 1e-9);
   interpolate.Perform();
   return interpolate.Curve();
+}
+
+/// The face that closes the wing at a section whose trailing edge is blunt.
+inline TopoDS_Face cap(const SpanSection& section) {
+  BRepBuilderAPI_MakeWire wire(
+      BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
+      BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge(),
+      BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
+  return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
 }
 
 /// The solid inside of faces whose edges are less than `tolerance` apart.

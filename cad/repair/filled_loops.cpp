@@ -2,6 +2,7 @@
 
 #include "cad/model/step_trace.hpp"
 #include "cad/model/to_vec.hpp"
+#include "cad/repair/loop_face.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
@@ -79,14 +80,6 @@ opencascade::handle<Geom_Surface> bend_surface(const std::vector<TopoDS_Edge>& l
   }
 }
 
-TopoDS_Face face_with(const opencascade::handle<Geom_Surface>& surface, const TopoDS_Wire& wire) {
-  TopoDS_Face face;
-  BRep_Builder builder;
-  builder.MakeFace(face, surface, tolerances::library_length);
-  builder.Add(face, wire);
-  return face;
-}
-
 /// Gives the edges parameter curves. Their largest distances from the surface; empty if one has no such
 /// curve.
 std::vector<double> lay_edges(const std::vector<TopoDS_Edge>& loop, const TopoDS_Face& face) {
@@ -108,22 +101,6 @@ std::vector<double> lay_edges(const std::vector<TopoDS_Edge>& loop, const TopoDS
     distances.push_back(off);
   }
   return distances;
-}
-
-/// Twice the area of the loop in the parameters of the face, with its sign.
-double parameter_area(const std::vector<TopoDS_Edge>& loop, const TopoDS_Face& face) {
-  std::vector<Vec3> points;
-  for (const TopoDS_Edge& edge : loop) {
-    double first, last;
-    const opencascade::handle<Geom2d_Curve> image = BRep_Tool::CurveOnSurface(edge, face, first, last);
-    for (int i = 0; i < edge_samples; ++i) {
-      const double share = static_cast<double>(i) / edge_samples;
-      const gp_Pnt2d at =
-          image->Value(first + (last - first) * (edge.Orientation() == TopAbs_REVERSED ? 1 - share : share));
-      points.push_back({at.X(), at.Y(), 0});
-    }
-  }
-  return area_vector_of(points).z;
 }
 
 /// Whether the face looks to one side of a plane normal to `along` all over.
@@ -179,14 +156,14 @@ std::optional<Cap> fill_loop(const std::vector<TopoDS_Edge>& loop, double tolera
   for (const TopoDS_Edge& edge : loop) builder.Add(wire, edge);
   wire.Closed(true);
   Cap cap;
-  cap.face = face_with(surface, wire);
+  cap.face = face_within(surface, wire);
   const std::vector<double> distances = lay_edges(loop, cap.face);
   if (distances.empty()) return std::nullopt;
   cap.deviation = *std::ranges::max_element(distances);
   if (cap.deviation > tolerance) return std::nullopt;
-  const double turns = parameter_area(loop, cap.face);
+  const double turns = area_in_parameters(loop, cap.face);
   if (turns == 0) return std::nullopt;
-  if (turns < 0) cap.face = face_with(surface, TopoDS::Wire(wire.Reversed()));
+  if (turns < 0) cap.face = face_within(surface, TopoDS::Wire(wire.Reversed()));
   if (!is_graph(cap.face, area_vector_of(trace(loop)))) return std::nullopt;
   for (std::size_t i = 0; i < loop.size(); ++i)
     builder.UpdateEdge(loop[i], distances[i] + BRep_Tool::Tolerance(loop[i]));

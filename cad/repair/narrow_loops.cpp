@@ -1,6 +1,7 @@
 #include "cad/repair/narrow_loops.hpp"
 
 #include "cad/model/to_vec.hpp"
+#include "cad/repair/loop_face.hpp"
 #include "cad/tolerances.hpp"
 
 #include <algorithm>
@@ -47,34 +48,6 @@ opencascade::handle<Geom_BSplineCurve> spline_along(const TopoDS_Edge& edge) {
   return spline;
 }
 
-TopoDS_Face face_of(const opencascade::handle<Geom_Surface>& surface, const TopoDS_Wire& wire) {
-  BRep_Builder builder;
-  TopoDS_Face face;
-  builder.MakeFace(face, surface, tolerances::library_length);
-  builder.Add(face, wire);
-  return face;
-}
-
-/// Area that the loop encloses in the parameters of the face, positive if it runs counter-clockwise.
-double area_in_parameters(const std::vector<TopoDS_Edge>& loop, const TopoDS_Face& face) {
-  constexpr int samples = 16;  // of an edge, only for the sign
-  double twice = 0;
-  for (const TopoDS_Edge& edge : loop) {
-    double first, last;
-    const opencascade::handle<Geom2d_Curve> curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
-    if (curve.IsNull()) return 0;
-    double sum = 0;
-    gp_Pnt2d before = curve->Value(first);
-    for (int i = 1; i <= samples; ++i) {
-      const gp_Pnt2d next = curve->Value(first + (last - first) * i / samples);
-      sum += before.X() * next.Y() - next.X() * before.Y();
-      before = next;
-    }
-    twice += edge.Orientation() == TopAbs_REVERSED ? -sum : sum;
-  }
-  return 0.5 * twice;
-}
-
 /// Ruled between the two opposite edges that are longer together.
 TopoDS_Face rule(const std::vector<TopoDS_Edge>& loop) {
   std::array<double, 4> lengths{};
@@ -91,11 +64,11 @@ TopoDS_Face rule(const std::vector<TopoDS_Edge>& loop) {
   builder.MakeWire(wire);
   for (const TopoDS_Edge& edge : loop) builder.Add(wire, edge);
   wire.Closed(true);
-  const TopoDS_Face face = face_of(surface, wire);
+  const TopoDS_Face face = face_within(surface, wire);
   for (const TopoDS_Edge& edge : loop) ShapeFix_Edge().FixAddPCurve(edge, face, false);
   const double area = area_in_parameters(loop, face);
   if (area == 0) return {};
-  return area > 0 ? face : face_of(surface, TopoDS::Wire(wire.Reversed()));
+  return area > 0 ? face : face_within(surface, TopoDS::Wire(wire.Reversed()));
 }
 
 /// A part of at most four edges, or a planar one.
