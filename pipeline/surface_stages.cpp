@@ -149,6 +149,7 @@ bool SurfaceStages::choose_again(domain::SizedDomain& sized, surface::SurfaceMes
     is_other = true;
   }
   if (count) domain::note_count(sized, _input.sizing, *count);
+  _record.findings.missed_target = sized.findings.missed_target;
   return is_other;
 }
 

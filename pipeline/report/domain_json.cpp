@@ -37,6 +37,7 @@ Json sizing_json(const RunRecord& record) {
           {"trailing_edges", to_json(findings.edges)},
           {"joined_faces", to_json(findings.joined.changes)},
           {"far_field", findings.far_field},
+          {"missed_target", findings.missed_target.empty() ? Json() : Json(findings.missed_target)},
           {"octree_leaves", record.size_field_leaves}};
 }
 
