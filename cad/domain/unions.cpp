@@ -180,7 +180,7 @@ std::optional<Solids> unite_at_once(const Solids& solids, Volumes& volumes, Face
     const double lost = std::abs(sum - volume_of(all.solids, volumes));
     if (all.solids.empty() || lost > std::min(tolerances::integrated_volume * sum, most_lost * smallest))
       return std::nullopt;
-    labels = std::move(all.labels);
+    labels = all.labels;
     return std::move(all.solids);
   } catch (const CadError&) {
     return std::nullopt;
@@ -214,7 +214,7 @@ std::vector<TopoDS_Solid> unite_with(const Solids& united, const TopoDS_Solid& s
                        name_of_body(solid, labels), first_fault, way.name),
            tight_box(solid).center(), way.tolerance});
     }
-    labels = std::move(found->labels);
+    labels = found->labels;
     return std::move(found->solids);
   }
   refuse_union(united, solid, labels, first_fault);
