@@ -41,6 +41,9 @@ constexpr double least_named_cost = 0.2;
 constexpr double most_missed = 1.2;
 /// The same where features that were to make it more are among them.
 constexpr double most_with_features = 1.3;
+/// A surface is always asked what it will hold where the target is at most this: forecasts of few elements
+/// err more, and asking takes no time. Chosen, not measured.
+constexpr double few_elements = 200'000;
 /// Of the target: elements in gaps that are named.
 constexpr double named_gaps = 0.25;
 
@@ -341,7 +344,7 @@ std::optional<SizedDomain> size_again(const SizedDomain& sized, const cases::Siz
   const bool has_lowered =
       !made.places.empty() && sizing::count_everywhere(made.field) - sizing::count_everywhere(sized.field) >
                                   (most_missed - 1) * *target;
-  if (!has_lowered && !sizing::is_steep(sized.sizes)) return std::nullopt;
+  if (!has_lowered && !sizing::is_steep(sized.sizes) && *target > few_elements) return std::nullopt;
   const std::optional<double> count = made.count();
   const double asked = *target + sized.on_top, wanted = std::max(asked, forecast);
   const bool is_known = !sized.findings.missed_target.empty();
@@ -350,11 +353,9 @@ std::optional<SizedDomain> size_again(const SizedDomain& sized, const cases::Siz
   if (!count || !(too_many || *count * most_missed < asked)) return std::nullopt;
   const parallel::Communicator& communicator = sized.field.communicator();
   if (communicator.is_root())
-    parallel::log_info(
-        fmt::format("surface: about {:.2g} tetrahedra are to be made, not {:.2g}: sizes fell at {} places, "
-                    "and are chosen "
-                    "once more",
-                    *count, wanted, made.places.size()));
+    parallel::log_info(fmt::format(
+        "surface: about {:.2g} tetrahedra are to be made, not {:.2g}{}: sizes are chosen again", *count,
+        wanted, made.places.empty() ? "" : fmt::format(" (sizes fell at {} places)", made.places.size())));
   Experience seen = sized.seen;
   seen.places.insert(seen.places.end(), made.places.begin(), made.places.end());
   {

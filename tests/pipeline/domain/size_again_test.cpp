@@ -70,6 +70,16 @@ TEST(SizeAgainLocal, StayWhereNothingIsToBeChosenAgain) {
   EXPECT_FALSE(choose_twice(given, places, 3).second);
 }
 
+// Forecasts of few elements err: those are checked though no size fell.
+TEST(SizeAgainLocal, GetsFinerWhereLessIsMade) {
+  cases::SizingRequest request;
+  request.target_tetrahedra = 20'000;
+  const Rechoice choice = choose_twice(request, {}, 0.7);
+  ASSERT_TRUE(choice.second);
+  EXPECT_NEAR(choice.second->seen.bias, 0.7, 0.05);
+  EXPECT_LT(choice.second->sizes.surface_maximum, 0.95 * choice.first.sizes.surface_maximum);
+}
+
 // What is made over what is predicted counts in the next choice.
 TEST(SizeAgainLocal, LearnFromWhatIsMade) {
   cases::SizingRequest request;
