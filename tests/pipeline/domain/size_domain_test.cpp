@@ -109,7 +109,7 @@ const std::vector<void (*)(cases::SizingRequest&)> keys{
 };
 cases::SizingRequest target_beside(unsigned chosen) {
   cases::SizingRequest request;
-  request.target_tetrahedra = 30'000;
+  request.target_tetrahedra = 12'000;
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (chosen >> k & 1) keys[k](request);
   return request;
@@ -123,7 +123,7 @@ TEST(SizeDomainLocal, MeetsTheTargetWhateverElseIsGiven) {
   for (unsigned chosen = 0; chosen < 1u << keys.size(); chosen += 13) {
     const cases::SizingRequest request = target_beside(chosen);
     const SizedDomain sized = size_domain(world, model, request, {cases::NarrowFaces::join});
-    const double error = std::log(sized.findings.counts.tetrahedra / 30'000);
+    const double error = std::log(sized.findings.counts.tetrahedra / 12'000);
     met += std::abs(error) < std::log(1.25);
     if (std::abs(error) > std::log(1.45)) {
       EXPECT_GT(error, 0) << chosen;
