@@ -61,12 +61,6 @@ private:
 };
 
 /// With a sharp trailing edge.
-TopoDS_Face cap(const SpanSection& section) {
-  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
-                               BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge());
-  return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
-}
-
 TopoDS_Solid wing(const SpanSection& root, const SpanSection& tip) {
   const auto side = [&](double sign) {
     return BRepBuilderAPI_MakeFace(GeomFill::Surface(side_of(root, sign), side_of(tip, sign)), 1e-9).Face();

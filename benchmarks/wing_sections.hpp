@@ -60,12 +60,12 @@ inline Handle(Geom_BSplineCurve) side_of(const SpanSection& section, double sign
   return interpolate.Curve();
 }
 
-/// The face that closes the wing at a section whose trailing edge is blunt.
+/// The face that closes the wing at a section.
 inline TopoDS_Face cap(const SpanSection& section) {
-  BRepBuilderAPI_MakeWire wire(
-      BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
-      BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge(),
-      BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
+  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
+                               BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge());
+  if (section.trailing_edge > 0)
+    wire.Add(BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
   return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
 }
 

@@ -40,15 +40,6 @@ TopoDS_Face between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) 
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), 1e-9).Face();
 }
 
-TopoDS_Face cap(const SpanSection& section) {
-  BRepBuilderAPI_MakeWire wire(BRepBuilderAPI_MakeEdge(side_of(section, 1)).Edge(),
-                               BRepBuilderAPI_MakeEdge(side_of(section, -1)).Edge());
-  if (section.trailing_edge > 0) {
-    wire.Add(BRepBuilderAPI_MakeEdge(point_of(section, 1, 1), point_of(section, 1, -1)).Edge());
-  }
-  return BRepBuilderAPI_MakeFace(gp_Pln(point_of(section, 0, 1), gp::DY()), wire.Wire()).Face();
-}
-
 TopoDS_Face trailing_edge(const SpanSection& root, const SpanSection& tip) {
   BRepBuilderAPI_MakePolygon wire(point_of(root, 1, -1), point_of(root, 1, 1), point_of(tip, 1, 1));
   if (tip.trailing_edge > 0) wire.Add(point_of(tip, 1, -1));
