@@ -36,6 +36,7 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 320'000);
   sizes.feature_minimum = 0.5 * sizes.minimum;  // small for a test: trailing edges stay unresolved
   sizes.narrow_minimum = 0;
+  sizes.proximity = 1;  // thin ends of lifting surfaces keep their area
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;
