@@ -33,10 +33,9 @@ Aircraft mesh_aircraft(const parallel::Communicator& ranks) {
   domain.far_field.emplace();
   domain.far_field->extent = 3;
   const cad::Model model = cad::Model::from_bytes(cad::prepare_domain(domain).model.serialise());
-  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 320'000);
+  sizing::SizingOptions sizes = sizing::choose_sizes(ranks, model, 360'000);
   sizes.feature_minimum = 0.5 * sizes.minimum;  // small for a test: trailing edges stay unresolved
   sizes.narrow_minimum = 0;
-  sizes.proximity = 1;  // thin ends of lifting surfaces keep their area
   const sizing::SizeField field = sizing::build_size_field(ranks, model, sizes);
   surface::SurfaceOptions surface_options;
   surface_options.piece_triangles = 200;
