@@ -167,7 +167,7 @@ double common_volume(const TopoDS_Shape& first, const TopoDS_Shape& second, doub
 }
 
 std::optional<Solids> unite_at_once(const Solids& solids, Volumes& volumes, FaceLabels& labels) {
-  // Of the smallest solid: less than what is lost where one is left out.
+  // Of the smallest solid: less than what is lost where one is left out. Chosen, not measured.
   constexpr double most_lost = 0.1;
   double sum = 0, smallest = std::numeric_limits<double>::max();
   for (const TopoDS_Solid& solid : solids) {

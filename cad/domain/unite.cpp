@@ -40,7 +40,7 @@ std::vector<std::vector<TopoDS_Solid>> touching_groups(const std::vector<TopoDS_
 }
 
 /// From so many bodies on, they are united at once where they only touch: one after the other takes time with
-/// the square of their number.
+/// the square of their number. Chosen, not measured.
 constexpr std::size_t many_bodies = 16;
 
 /// One after the other, so that each union's volume can be checked against its two parts; many that do not

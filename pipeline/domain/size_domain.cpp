@@ -42,7 +42,7 @@ constexpr double most_missed = 1.2;
 /// The same where features that were to make it more are among them.
 constexpr double most_with_features = 1.3;
 /// A surface is always asked what it will hold where the target is at most this: forecasts of few elements
-/// err more, and asking takes no time. Chosen, not measured.
+/// err more. Asking takes what the decomposition does, some 0.4 s of 6 at 500,000. Chosen, not measured.
 constexpr double few_elements = 600'000;
 /// Of the target: elements in gaps that are named.
 constexpr double named_gaps = 0.25;

@@ -14,6 +14,7 @@ struct GapDemand {
   double layers;               ///< the most elements across a gap; with 0 no gaps are looked for
   bool thin_by_width = false;  ///< and across thin parts of bodies
 };
+/// That of fields with these options.
 GapDemand gap_demand(const SizingOptions& options);
 
 /// A face on which the search for gaps ended early, to bound its cost.
