@@ -50,6 +50,8 @@ def forecast(program, case):
     done = subprocess.run([program, "check", case], capture_output=True, text=True, check=False)
     text = done.stdout + done.stderr
     count = re.search(r"a run: about \S+ triangles, ([\d.e+]+) tetrahedra", text)
+    if not count:
+        raise RuntimeError(f"no forecast: {text}")
     least = re.search(r"least target that this case meets is about ([\d.e+]+\d)", text)
     return Forecast(float(count.group(1)), float(least.group(1)) if least else None)
 
