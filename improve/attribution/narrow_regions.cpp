@@ -1,12 +1,14 @@
 #include "improve/attribution/narrow_regions.hpp"
 
 #include "geometry/sort_unique.hpp"
+#include "improve/attribution/curve_edges.hpp"
 #include "mesh/data/cad_dimension.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -25,6 +27,15 @@ constexpr double narrow_fraction = 0.4;
 /// Two curves run along each other where their segments enclose less than 30 degrees, as in
 /// surface/cusps/needles.cpp.
 const double along_cosine = std::cos(30 * std::numbers::pi / 180);
+
+/// The edges of an ascending list that join two vertices, one for each region.
+std::span<const EdgeName> edges_between(const std::vector<EdgeName>& edges, GlobalIndex a, GlobalIndex b) {
+  const EdgeName first{std::min(a, b), std::max(a, b), std::numeric_limits<std::int64_t>::min()};
+  const auto begin = std::lower_bound(edges.begin(), edges.end(), first);
+  auto end = begin;
+  while (end != edges.end() && end->low == first.low && end->high == first.high) ++end;
+  return {begin, end};
+}
 
 /// The name of a curve: its number, or a negative number made from two CAD vertices joined by one segment.
 using CurveName = std::int64_t;
@@ -97,12 +108,21 @@ std::vector<CurveAtVertex> curves_at_vertices(const mesh::NumberedMesh& mesh) {
   return curves;
 }
 
-/// A boundary triangle that fills a narrow region of a CAD face from curve to curve.
+/// A boundary triangle that fills a narrow region of a CAD face from curve to curve, or from one strand of a
+/// curve that turns back to the other.
 struct NarrowTriangle {
-  LocalIndex triangle = 0;            ///< among the boundary triangles of its piece
-  std::array<LocalIndex, 3> corners;  ///< two on one curve of the face, then one on another
-  double width = 0;                   ///< height over the first two
+  LocalIndex triangle = 0;                                  ///< among the boundary triangles of its piece
+  std::array<std::pair<LocalIndex, LocalIndex>, 2> across;  ///< its edges across; may be twice the same
+  double width = 0;                                         ///< its height over the side along the region
 };
+
+/// The height of a triangle of a piece over its side from a to b where that is narrow, else none.
+std::optional<double> narrow_height(const Piece& piece, LocalIndex a, LocalIndex b, LocalIndex c) {
+  const Vec3 side = piece.point(b) - piece.point(a);
+  const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
+  if (area2 > narrow_fraction * dot(side, side)) return std::nullopt;
+  return area2 / norm(side);
+}
 
 class NarrowTriangleTest {
 public:
@@ -157,6 +177,78 @@ private:
   std::vector<CurveName> _at_a, _at_b, _at_c;
 };
 
+/// Boundary triangles of a piece with three corners on one curve, beside edges of the list.
+std::vector<LocalIndex> triangles_of_one_curve(const Piece& piece, const std::vector<GlobalIndex>& names,
+                                               const std::vector<EdgeName>& edges) {
+  std::vector<LocalIndex> found;
+  for (LocalIndex t = 0; t < piece.boundary_count(); ++t) {
+    const LocalIndex* v = piece.boundary_triangle(t);
+    const bool is_of_one = std::all_of(v, v + 3, [&](LocalIndex w) {
+      return piece.vertex_dimension[w] == mesh::CadDimension::edge &&
+             piece.vertex_entity[w] == piece.vertex_entity[v[0]];
+    });
+    if (!is_of_one) continue;
+    for (int k = 0; k < 3; ++k) {
+      if (!edges_between(edges, names[v[k]], names[v[(k + 1) % 3]]).empty()) {
+        found.push_back(t);
+        break;
+      }
+    }
+  }
+  return found;
+}
+
+/// Triangle t, with three corners on one curve, where the curve turns back: one side is on the curve and the
+/// third corner on the other strand, or two sides are and enclose a sharp corner. None for a triangle beside
+/// a curve that merely bends.
+std::optional<NarrowTriangle> between_strands(const Piece& piece, LocalIndex t,
+                                              const std::array<bool, 3>& is_on_curve) {
+  const LocalIndex* v = piece.boundary_triangle(t);
+  const auto count = std::count(is_on_curve.begin(), is_on_curve.end(), true);
+  for (int k = 0; k < 3; ++k) {
+    const LocalIndex a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
+    if (count == 1 && is_on_curve[k]) {
+      const std::optional<double> height = narrow_height(piece, a, b, c);
+      if (height) return NarrowTriangle{t, {{{a, c}, {b, c}}}, *height};
+    }
+    if (count == 2 && !is_on_curve[k]) {
+      const Vec3 to_a = piece.point(a) - piece.point(c), to_b = piece.point(b) - piece.point(c);
+      const double longer = std::max(norm(to_a), norm(to_b));
+      if (dot(to_a, to_b) >= along_cosine * norm(to_a) * norm(to_b))
+        return NarrowTriangle{t, {{{a, b}, {a, b}}}, norm(cross(to_a, to_b)) / longer};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Triangles between strands of one curve, per piece. Collective.
+std::vector<std::vector<NarrowTriangle>> triangles_between_strands(const mesh::NumberedMesh& mesh,
+                                                                   const std::vector<EdgeName>& edges) {
+  std::vector<std::vector<LocalIndex>> candidates;
+  std::vector<EdgeEnds> sides;
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    const std::vector<GlobalIndex>& names = mesh.numbering.vertices[i];
+    candidates.push_back(triangles_of_one_curve(mesh.pieces[i], names, edges));
+    for (const LocalIndex t : candidates.back()) {
+      const LocalIndex* v = mesh.pieces[i].boundary_triangle(t);
+      for (int k = 0; k < 3; ++k) sides.push_back(ends_of(names, v[k], v[(k + 1) % 3]));
+    }
+  }
+  const CurveEdges on_curves(mesh, std::move(sides));
+  std::vector<std::vector<NarrowTriangle>> found(mesh.pieces.size());
+  for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
+    for (const LocalIndex t : candidates[i]) {
+      const LocalIndex* v = mesh.pieces[i].boundary_triangle(t);
+      std::array<bool, 3> is_on_curve{};
+      for (int k = 0; k < 3; ++k)
+        is_on_curve[k] = on_curves.has(ends_of(mesh.numbering.vertices[i], v[k], v[(k + 1) % 3]));
+      const auto narrow = between_strands(mesh.pieces[i], t, is_on_curve);
+      if (narrow) found[i].push_back(*narrow);
+    }
+  }
+  return found;
+}
+
 /// Triangles with two vertices on one curve and the third on another.
 std::vector<NarrowTriangle> narrow_triangles(const Piece& piece, const std::vector<CurveAtVertex>& curves) {
   std::vector<NarrowTriangle> found;
@@ -167,12 +259,9 @@ std::vector<NarrowTriangle> narrow_triangles(const Piece& piece, const std::vect
       continue;
     for (int i = 0; i < 3; ++i) {
       const LocalIndex a = v[i], b = v[(i + 1) % 3], c = v[(i + 2) % 3];
-      const Vec3 side = piece.point(b) - piece.point(a);
-      const double area2 = norm(cross(side, piece.point(c) - piece.point(a)));
-      if (area2 > narrow_fraction * dot(side, side) ||
-          !test.joins_two_curves(a, b, c, piece.triangle_face[t]))
-        continue;
-      found.push_back({t, {a, b, c}, area2 / norm(side)});
+      const std::optional<double> height = narrow_height(piece, a, b, c);
+      if (!height || !test.joins_two_curves(a, b, c, piece.triangle_face[t])) continue;
+      found.push_back({t, {{{a, c}, {b, c}}}, *height});
       break;
     }
   }
@@ -184,22 +273,22 @@ std::vector<NarrowTriangle> narrow_triangles(const Piece& piece, const std::vect
 std::vector<NarrowEdge> find_narrow_edges(const mesh::NumberedMesh& mesh,
                                           const std::vector<EdgeName>& edges) {
   const std::vector<CurveAtVertex> curves = curves_at_vertices(mesh);
+  const std::vector<std::vector<NarrowTriangle>> between = triangles_between_strands(mesh, edges);
   std::vector<NarrowEdge> mine;
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
-    for (const NarrowTriangle& narrow : narrow_triangles(piece, curves)) {
-      const LocalIndex c = narrow.corners[2];
-      for (const LocalIndex a : {narrow.corners[0], narrow.corners[1]}) {
-        const GlobalIndex ga = mesh.numbering.vertices[i][a], gc = mesh.numbering.vertices[i][c];
+    const auto add = [&](const NarrowTriangle& narrow) {
+      for (const auto& [a, b] : narrow.across) {
         // Only one side of a face has triangles in its pieces; edges count for the regions of both sides.
-        const EdgeName first{std::min(ga, gc), std::max(ga, gc), std::numeric_limits<std::int64_t>::min()};
-        for (auto found = std::lower_bound(edges.begin(), edges.end(), first);
-             found != edges.end() && found->low == first.low && found->high == first.high; ++found) {
-          mine.push_back({found - edges.begin(), piece.triangle_face[narrow.triangle], narrow.width,
-                          0.5 * (piece.point(a) + piece.point(c))});
+        for (const EdgeName& edge :
+             edges_between(edges, mesh.numbering.vertices[i][a], mesh.numbering.vertices[i][b])) {
+          mine.push_back({&edge - edges.data(), piece.triangle_face[narrow.triangle], narrow.width,
+                          0.5 * (piece.point(a) + piece.point(b))});
         }
       }
-    }
+    };
+    for (const NarrowTriangle& narrow : narrow_triangles(piece, curves)) add(narrow);
+    for (const NarrowTriangle& narrow : between[i]) add(narrow);
   }
   std::vector<NarrowEdge> narrow = mesh.communicator.all_gather_items<NarrowEdge>(mine);
   const auto same = [](const NarrowEdge& a, const NarrowEdge& b) { return a.edge == b.edge; };

@@ -1,6 +1,5 @@
-#include "improve/attribution/pinned.hpp"
-
 #include "parallel/communication/environment.hpp"
+#include "tests/improve/attribution/strips.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -9,10 +8,6 @@
 
 namespace aeroloom::attribution {
 namespace {
-
-using mesh::CadDimension;
-using mesh::DistributedMesh;
-using mesh::Piece;
 
 /// Tetrahedra around the z axis that together fill a wedge of `angle` degrees between the faces 0 and 1, one
 /// piece for each; the other sides belong to face 2.
@@ -44,39 +39,6 @@ DistributedMesh make_wedge(const parallel::Communicator& communicator, double an
     if (i == tets - 1) add({0, 1, 3}, 1);
     piece.shared_vertices = {0, 1, 2, 3};
     piece.shared_keys = {0, 1, mesh::SharedVertexKey(2 + i), mesh::SharedVertexKey(3 + i)};
-    mesh.pieces.push_back(piece);
-  }
-  return mesh;
-}
-
-void add_triangle(Piece& piece, std::array<int, 3> corners, int face) {
-  piece.boundary.insert(piece.boundary.end(), corners.begin(), corners.end());
-  piece.triangle_face.push_back(face);
-  piece.triangle_patch.push_back(face);
-}
-
-/// A narrow region of face 0 between curves 1 and `upper_curve`, in segments of length 1, one piece each: two
-/// triangles with a tetrahedron on each of them.
-DistributedMesh make_strip(const parallel::Communicator& communicator, double width, int segments,
-                           std::int32_t upper_curve) {
-  DistributedMesh mesh(communicator);
-  mesh.piece_count = segments;
-  mesh.patches = mesh.faces = {"strip"};
-  for (int i = 0; i < segments; ++i) {
-    if (i % communicator.size() != communicator.rank()) continue;
-    Piece piece;
-    piece.id = i;
-    const double x = i;
-    piece.coordinates = {x, 0, 0, x + 1, 0, 0, x, width, 0, x + 1, width, 0, x + 0.5, width / 2, 1};
-    piece.vertex_dimension = {CadDimension::edge, CadDimension::edge, CadDimension::edge, CadDimension::edge,
-                              CadDimension::region};
-    piece.vertex_entity = {1, 1, upper_curve, upper_curve, 0};
-    piece.cells = {0, 1, 2, 4, 1, 3, 2, 4};
-    add_triangle(piece, {0, 2, 1}, 0);
-    add_triangle(piece, {1, 2, 3}, 0);
-    piece.shared_vertices = {0, 1, 2, 3};
-    for (const int vertex_key : {2 * i, 2 * i + 2, 2 * i + 1, 2 * i + 3})
-      piece.shared_keys.push_back(vertex_key);
     mesh.pieces.push_back(piece);
   }
   return mesh;
@@ -167,20 +129,12 @@ DistributedMesh make_flat_on_layers(const parallel::Communicator& communicator, 
   return mesh;
 }
 
-PinnedReport find(const DistributedMesh& mesh, double target, bool surface_may_change = true) {
-  const auto world = parallel::Communicator::world();
-  const mesh::NumberedMesh numbered = mesh::number_mesh(mesh);
-  mesh::CellsOutside suspects{suspect_angles(target), {}};
-  mesh::summarise_quality(numbered, &suspects);
-  return find_pinned(numbered, target, suspects, surface_may_change);
-}
-
-PinnedReport find(double angle, int tets, CadDimension on_axis, double target) {
+PinnedReport find_in_wedge(double angle, int tets, CadDimension on_axis, double target) {
   return find(make_wedge(parallel::Communicator::world(), angle, tets, on_axis), target);
 }
 
 TEST(Pinned, FindsTheFacesThatForceAnAngle) {
-  const PinnedReport report = find(12, 3, CadDimension::edge, 15);
+  const PinnedReport report = find_in_wedge(12, 3, CadDimension::edge, 15);
   ASSERT_EQ(report.entities.size(), 1u);
   const PinningEntity& entity = report.entities[0];
   EXPECT_EQ(entity.kind, PinningEntity::Kind::faces);
@@ -196,12 +150,12 @@ TEST(Pinned, FindsTheFacesThatForceAnAngle) {
 
 TEST(Pinned, DoesNotExcuseWhatTheCadAllows) {
   // Enough room for one tetrahedron, filled with four.
-  const PinnedReport roomy = find(24, 4, CadDimension::edge, 15);
+  const PinnedReport roomy = find_in_wedge(24, 4, CadDimension::edge, 15);
   EXPECT_TRUE(roomy.entities.empty());
   EXPECT_EQ(roomy.others, 4);
   EXPECT_NEAR(roomy.smallest_angle, 6, 1e-6);
   // No curve there.
-  const PinnedReport smooth = find(12, 3, CadDimension::face, 15);
+  const PinnedReport smooth = find_in_wedge(12, 3, CadDimension::face, 15);
   EXPECT_TRUE(smooth.entities.empty());
   EXPECT_EQ(smooth.others, 3);
 }
@@ -352,7 +306,7 @@ TEST(Pinned, DoesNotExcuseFlatTetrahedraThatReachAcrossNothing) {
 }
 
 TEST(Pinned, ListsNothingOfAGoodMesh) {
-  const PinnedReport report = find(60, 1, CadDimension::edge, 15);
+  const PinnedReport report = find_in_wedge(60, 1, CadDimension::edge, 15);
   EXPECT_TRUE(report.entities.empty());
   EXPECT_EQ(report.tetrahedra + report.others, 0);
 }
