@@ -290,7 +290,7 @@ FarFieldFaces find_far_field(const parallel::Communicator& communicator, const c
     made = made || model.is_far_field(f);
     const bool is_typed = has_role(f, FaceRole::far_field);
     typed = typed || (is_typed && !model.is_far_field(f));
-    far.faces[f] = model.is_far_field(f) || (is_typed && model.is_planar(f));
+    far.faces[f] = model.is_far_field(f) || is_typed;
   }
   if (made) {
     far.decision =
@@ -305,11 +305,11 @@ FarFieldFaces find_far_field(const parallel::Communicator& communicator, const c
   const Judgement judgement = judge_boundary(communicator, model, sides);
   const bool is_far = judgement.reached == Judgement::Reached::far_field;
   for (const FaceId f : judgement.faces)
-    if (model.is_planar(f) && !has_role(f, FaceRole::wall)) far.faces[f] = true;
+    if (!has_role(f, FaceRole::wall)) far.faces[f] = true;
   if (is_far && std::count(far.faces.begin(), far.faces.end(), true) == 0)
     far.decision =
-        "none, all faces are sized as walls: the outer boundary is a far field, but its faces are curved or "
-        "of type wall";
+        "none, all faces are sized as walls: the outer boundary is a far field, but its faces are of type "
+        "wall";
   else if (is_far)
     far.decision = fmt::format("{}: {}", count_text(far.faces), judgement.why);
   else if (typed)
