@@ -272,7 +272,9 @@ FileMesh file_mesh_of(mesh::NumberedMesh&& mesh) {
 }
 
 FileMesh repartition(const FileMesh& mesh, std::int32_t parts, mesh::PieceRegions regions) {
-  return file_mesh_of(mesh::repartition(*mesh.pieces, parts, regions));
+  FileMesh cut = file_mesh_of(mesh::repartition(*mesh.pieces, parts, regions));
+  cut.flow = mesh.flow;
+  return cut;
 }
 
 }  // namespace aeroloom::io

@@ -92,6 +92,14 @@ struct ShapeCounts {
 /// Whether faces of all patches count, or only those on the boundary (not interior).
 enum class CountedFaces { all, boundary };
 
+/// The flow that a mesh is for, as settings of solvers beside it need it.
+struct FlowReference {
+  double reynolds = 0;        ///< of the free stream, over the length; 0: unknown
+  double length = 0;          ///< in the unit of the mesh
+  std::string unit = {};      ///< of lengths: "mm", ...; empty: unknown
+  double unit_in_metres = 1;  ///< 1 where it is unknown
+};
+
 /// A mesh as writers see it, and the parts on this rank. Parts are views: no coordinates or cells are copied.
 struct FileMesh {
   const mesh::NumberedMesh* pieces = nullptr;      ///< the viewed mesh; must exist unchanged as long as this
@@ -102,7 +110,8 @@ struct FileMesh {
   mesh::GlobalIndex vertex_count = 0;  ///< of the whole mesh, as all members below
   std::vector<mesh::Patch> patches;    ///< `interior` if and only if between regions
   std::vector<std::string> regions;    ///< at least one
-  bool has_layers = false;             ///< whether any cell belongs to a boundary layer
+  FlowReference flow = {};
+  bool has_layers = false;  ///< whether any cell belongs to a boundary layer
   std::vector<std::array<mesh::GlobalIndex, cell_shape_count>> region_cells;  ///< by region and shape
   std::vector<std::array<mesh::GlobalIndex, face_shape_count>> patch_faces;   ///< by patch and shape
 

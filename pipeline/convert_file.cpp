@@ -25,7 +25,9 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
       throw std::invalid_argument(fmt::format("'{}' cannot be converted onto itself", conversion.from));
   }
   const double begin = parallel::wall_seconds();
-  const io::Assembled file = io::read_mesh({communicator, conversion.from}, 0);
+  io::Assembled file = io::read_mesh({communicator, conversion.from}, 0);
+  file.mesh.flow.reynolds = conversion.reynolds;
+  file.mesh.flow.length = conversion.length;
   const io::FileMesh& mesh = file.mesh;
   if (communicator.is_root()) {
     parallel::log_info(fmt::format(

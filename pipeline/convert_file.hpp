@@ -13,6 +13,7 @@ struct Conversion {
   std::string from, to;
   std::optional<io::FileFormat> format;  ///< of `to`; empty: by its extension
   io::WriteOptions options;
+  double reynolds = 0, length = 0;  ///< of the flow, for settings of solvers; both or none (0)
 };
 
 /// Reads a mesh (io/read_mesh.hpp) and writes it (io/write_mesh.hpp), distributed over all ranks. Formats

@@ -63,9 +63,9 @@ void improve_file(const parallel::Communicator& communicator, const std::string&
   record.patches = patches;
   run_stage(record.clock, "output", report::ExitCode::files, [&] {
     if (!wants_vtk(input.output) && !input.output.pictures)
-      return write_outputs(finished, nullptr, input.output);
+      return write_outputs(finished, nullptr, input.output, {});
     const mesh::NumberedMesh surface = mesh::number_mesh(mesh::boundary_mesh(finished));
-    write_outputs(finished, &surface, input.output);
+    write_outputs(finished, &surface, input.output, {});
     if (!input.output.pictures) return;
     record.pictures = report::pictures_or_warning({surface, finished.patch_types, ""}, &finished);
   });

@@ -28,6 +28,13 @@
 namespace aeroloom::pipeline {
 namespace {
 
+/// The flow that layers are made for, as far as the case says it.
+io::FlowReference flow_of(const cases::LayerRequest& layers, const cad::Model& model) {
+  io::FlowReference flow{.unit = model.unit_name(), .unit_in_metres = model.unit_in_metres()};
+  if (layers.reynolds && layers.length) flow.reynolds = *layers.reynolds, flow.length = *layers.length;
+  return flow;
+}
+
 /// The finished volume.
 struct InspectedVolume : mesh::NumberedMesh {
   report::VolumeFigures figures = {};
@@ -214,7 +221,8 @@ private:
   void write(const InspectedVolume& volume, const FinishedSurface& surface) {
     {
       const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-      write_outputs(volume, surface.bounds_volume ? &surface : nullptr, _input.output);
+      write_outputs(volume, surface.bounds_volume ? &surface : nullptr, _input.output,
+                    flow_of(_input.layers, surface.model));
     }
     if (_input.output.formats.size() == 1 && wants_vtk(_input.output))
       note_files(volume.figures.counts.cells);

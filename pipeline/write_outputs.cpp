@@ -132,9 +132,10 @@ void write_surfaces(const mesh::NumberedMesh* surface, const io::FileMesh& volum
 }  // namespace
 
 void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* surface,
-                   const cases::OutputOptions& output) {
+                   const cases::OutputOptions& output, const io::FlowReference& flow) {
   const parallel::Communicator& communicator = volume.communicator;
-  const io::FileMesh mesh = io::file_mesh_of(volume);
+  io::FileMesh mesh = io::file_mesh_of(volume);
+  mesh.flow = flow;
   io::write_together(communicator, output.directory, "mesh", [&](const std::string& staging) {
     cases::OutputOptions staged = output;
     staged.directory = staging;

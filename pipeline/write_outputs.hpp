@@ -1,6 +1,7 @@
 /// Writes the mesh files of a run.
 #pragma once
 
+#include "io/file_mesh.hpp"
 #include "mesh/data/distributed_mesh.hpp"
 #include "pipeline/case/case.hpp"
 
@@ -15,9 +16,9 @@ namespace aeroloom::pipeline {
 /// Writes `mesh` with its extension in each format of the case, streamed from the pieces. OpenFOAM has a
 /// folder `openfoam`. With VTK files also surface.pvtp (boundary of the domain) and, if regions share faces,
 /// interfaces.pvtp; both from `surface`, or from the volume if that is null. Either all files appear or none.
-/// Collective; throws CollectiveError.
+/// `flow`: for settings of solvers. Collective; throws CollectiveError.
 void write_outputs(const mesh::NumberedMesh& volume, const mesh::NumberedMesh* surface,
-                   const cases::OutputOptions& output);
+                   const cases::OutputOptions& output, const io::FlowReference& flow);
 
 /// Throws std::filesystem::filesystem_error where something is in the way of what a run writes, before hours
 /// of work: a file named as a folder, a folder named as a file. Rank 0 calls it.

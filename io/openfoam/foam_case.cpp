@@ -153,6 +153,22 @@ void write_decomposition(const FoamCase& foam_case) {
   write_once(old, foam_decomposition(foam_case.parts));
 }
 
+/// Replaces one that is as it was written for other parts.
+void write_script(const FoamCase& foam_case) {
+  const FoamSetting script = foam_script(foam_case.parts);
+  const fs::path path = foam_case.folder / script.path;
+  const std::string old = dictionary_text(path), parts_begin = "the mesh has parts (";
+  const std::size_t at = old.find(parts_begin);
+  if (at != std::string::npos) {
+    std::istringstream rest(old.substr(at + parts_begin.size(), 100));
+    std::int64_t parts = 0;
+    if (rest >> parts && old == foam_script(parts).text) fs::remove(path);
+  }
+  const bool is_new = !fs::exists(path);
+  write_once(path, script.text);
+  if (is_new) fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec, fs::perm_options::add);
+}
+
 /// Fields that a solver left in the time folders stay, as they are its user's.
 void warn_of_fields(const FoamCase& foam_case) {
   const auto is_time = [](const fs::directory_entry& entry) {
@@ -214,10 +230,11 @@ void retire_meshes(const FoamCase& foam_case) {
   warn_of_fields(foam_case);
 }
 
-bool write_settings(const FoamCase& foam_case, bool is_external) {
+bool write_settings(const FoamCase& foam_case, const FlowReference& flow, bool is_external) {
   for (const FoamSetting& setting : foam_dictionaries())
     write_once(foam_case.folder / setting.path, setting.text);
   write_decomposition(foam_case);
+  write_script(foam_case);
   // Whoever has fields of an undivided case, divides them himself.
   const fs::path own = foam_case.folder / "0";
   remove_own_fields(own);
@@ -226,7 +243,7 @@ bool write_settings(const FoamCase& foam_case, bool is_external) {
         "'{}' holds fields: they are not given to the parts, decomposePar -fields does that", own.string()));
     return false;
   }
-  const FoamSetting conditions = foam_conditions(is_external);
+  const FoamSetting conditions = foam_conditions(flow, is_external);
   write_once(foam_case.folder / conditions.path, conditions.text);
   for (const FoamField& field : foam_fields(way_up(foam_case)))
     write_once(foam_case.folder / "0.orig" / field.name, field.text);

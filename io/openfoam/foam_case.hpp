@@ -1,6 +1,7 @@
 /// The folders of an OpenFOAM case, and the dictionaries that a solver needs there.
 #pragma once
 
+#include "io/file_mesh.hpp"
 #include "mesh/data/patch.hpp"
 
 #include <cstdint>
@@ -29,10 +30,10 @@ void prepare_case(const FoamCase& foam_case);
 void retire_meshes(const FoamCase& foam_case);
 
 /// Writes the missing settings of foam_settings.hpp: dictionaries in system/ and constant/, fields in
-/// 0.orig/. A decomposeParDict for another number of parts is replaced where it is unchanged; otherwise a
-/// warning follows. Returns false where the case has fields in 0/ that are not decomposed: the parts then get
-/// no fields. One rank calls it.
-bool write_settings(const FoamCase& foam_case, bool is_external);
+/// 0.orig/, and the script run.sh. A decomposeParDict or script for another number of parts is replaced where
+/// it is unchanged; otherwise a warning follows. Returns false where the case has fields in 0/ that are not
+/// decomposed: the parts then get no fields. One rank calls it.
+bool write_settings(const FoamCase& foam_case, const FlowReference& flow, bool is_external);
 /// Makes the missing fields in the time folder 0 of a part, each of which includes the one in 0.orig/.
 void write_fields(const FoamCase& foam_case, std::int32_t part);
 

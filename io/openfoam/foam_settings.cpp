@@ -1,6 +1,7 @@
 #include "io/openfoam/foam_settings.hpp"
 
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -23,36 +24,91 @@ stopAt          endTime;
 endTime         1000;
 deltaT          1;
 writeControl    timeStep;
-writeInterval   50;
+writeInterval   100;
+purgeWrite      2;
 writeFormat     binary;
 writePrecision  12;
 timeFormat      general;
 runTimeModifiable true;
+OptimisationSwitches { fileModificationSkew 0; }    // new schemes are read at once
+
+#include "../0.orig/conditions"
+functions
+{
+    // The first iterations are of first order, those that follow of second.
+    order
+    {
+        type            timeActivatedFileUpdate;
+        libs            ("libutilityFunctionObjects.so");
+        fileToUpdate    "$FOAM_CASE/system/fvSchemes";
+        timeVsFile
+        (
+            (0 "$FOAM_CASE/system/fvSchemes.first")
+            (100 "$FOAM_CASE/system/fvSchemes.second")
+        );
+    }
+    // Of all walls; postProcessing/forces has the table.
+    forces
+    {
+        type            forceCoeffs;
+        libs            ("libforces.so");
+        writeControl    timeStep;
+        writeInterval   1;
+        log             no;
+        patches         (wall);
+        rho             rhoInf;
+        rhoInf          1;
+        magUInf         $speed;
+        lRef            $reference_length;
+        Aref            $reference_area;
+        CofR            $moment_center;
+        dragDir         $drag_direction;
+        liftDir         $lift_direction;
+        pitchAxis       $pitch_axis;
+    }
+    extremes
+    {
+        type            fieldMinMax;
+        libs            ("libfieldFunctionObjects.so");
+        fields          (U p k omega);
+        writeControl    timeStep;
+        writeInterval   10;
+        log             no;
+    }
+    wall_distance
+    {
+        type            yPlus;
+        libs            ("libfieldFunctionObjects.so");
+        writeControl    writeTime;
+        log             no;
+    }
+}
 )foam";
 
+/// `{}`: convection of the velocity.
 constexpr std::string_view schemes =
-    R"foam(// To start with: convection of first order, gradients and corrections
-// limited. Once it converges, div(phi,U) may be
-//     bounded Gauss linearUpwind grad(U);
-ddtSchemes      { default steadyState; }
-gradSchemes     { default cellLimited Gauss linear 1; }
+    R"foam(// system/controlDict copies fvSchemes.first over fvSchemes at the start, and
+// fvSchemes.second after the first iterations: edit those two.
+ddtSchemes      {{ default steadyState; }}
+gradSchemes     {{ default cellLimited Gauss linear 1; }}
 divSchemes
-{
+{{
     default         none;
-    div(phi,U)      bounded Gauss upwind;
+    div(phi,U)      bounded Gauss {};
     div(phi,k)      bounded Gauss upwind;
     div(phi,omega)  bounded Gauss upwind;
     div(phi,epsilon) bounded Gauss upwind;
     div(phi,nuTilda) bounded Gauss upwind;
     div((nuEff*dev2(T(grad(U))))) Gauss linear;
     div(div(phi,U)) Gauss linear;
-}
-laplacianSchemes { default Gauss linear limited 0.5; }
-interpolationSchemes { default linear; }
-snGradSchemes   { default limited 0.5; }
-wallDist        { method meshWave; }
+}}
+laplacianSchemes {{ default Gauss linear limited 0.5; }}
+interpolationSchemes {{ default linear; }}
+snGradSchemes   {{ default limited 0.5; }}
+wallDist        {{ method meshWave; }}
 )foam";
 
+// Why each of these is as it is: docs/formats/openfoam.md.
 constexpr std::string_view solution =
     R"foam(// Residuals are relative to sums over all cells, and those of a far field
 // are huge: what is left of them says little about the body, so pressure is
@@ -77,16 +133,17 @@ solvers
     }
 }
 potentialFlow   { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; pRefCell 0; pRefValue 0; }
-SIMPLE          { nNonOrthogonalCorrectors 1; pRefCell 0; pRefValue 0; }
+SIMPLE          { nNonOrthogonalCorrectors 0; consistent yes; pRefCell 0; pRefValue 0; }
 relaxationFactors
 {
-    fields          { p 0.3; }
-    equations       { U 0.6; "(k|omega|epsilon|nuTilda)" 0.5; }
+    fields          { p 0.9; }
+    equations       { U 0.7; "(k|omega|epsilon|nuTilda)" 0.6; }
 }
 )foam";
 
-constexpr std::string_view transport = R"foam(transportModel  Newtonian;
-nu              1.5e-05;    // m2/s: air
+constexpr std::string_view transport = R"foam(#include "../0.orig/conditions"
+transportModel  Newtonian;
+nu              $viscosity;
 )foam";
 
 constexpr std::string_view turbulence = R"foam(simulationType  RAS;
@@ -98,15 +155,51 @@ RAS
 }
 )foam";
 
-constexpr std::string_view conditions =
-    R"foam(// The numbers of the fields in this folder, which the time folders 0 refer to.
-velocity        (50 0 0);   // of the free stream, m/s
-inflow          -50;        // at inlets along the normal, which points out of what flows
-pressure        0;          // over density, m2/s2
-k               0.00375;    // m2/s2: a turbulence of 0.1 % at 50 m/s
-omega           250;        // 1/s: as much eddy viscosity as viscosity
-nut             1.5e-05;    // eddy viscosity, m2/s: k over omega
-)foam";
+/// Of the free stream. The speed is in metres per second: time has the unit that goes with that.
+constexpr double speed = 50, intensity = 0.001;
+
+/// Kinematic viscosity in metres per second times the unit of length, and why.
+struct Viscosity {
+  double value;
+  std::string why;
+};
+
+Viscosity viscosity_of(const FlowReference& flow) {
+  if (flow.reynolds > 0)
+    return {speed * flow.length / flow.reynolds,
+            fmt::format("a Reynolds number of {:.6g} over a length of {:.6g}", flow.reynolds, flow.length)};
+  constexpr double of_air = 1.5e-5;
+  return {of_air / flow.unit_in_metres, "air: the case has no Reynolds number (layers.reynolds and length)"};
+}
+
+/// The numbers of the fields, which the time folders 0 refer to, and of the forces.
+std::string conditions_of(const FlowReference& flow, bool is_external) {
+  const Viscosity viscosity = viscosity_of(flow);
+  const double k = 1.5 * std::pow(intensity * speed, 2);
+  return fmt::format(
+      "// The numbers of the fields in this folder, which the time folders 0 refer to.\n"
+      "// {}\n"
+      "speed           {};\n"
+      "velocity        ({} 0 0);   // of the free stream, m/s\n"
+      "inflow          -{};        // at inlets along the normal, which points out of what flows\n"
+      "pressure        0;          // over density\n"
+      "viscosity       {:.9g};     // kinematic: {}\n"
+      "k               {:.9g};     // a turbulence of {:.2g} %\n"
+      "omega           {:.9g};     // as much eddy viscosity as viscosity\n"
+      "nut             {:.9g};     // eddy viscosity: k over omega\n"
+      "start           {};  // what the solver starts from\n"
+      "// For coefficients of forces; lift is along z.\n"
+      "reference_length {:.9g};\n"
+      "reference_area  1;\n"
+      "moment_center   (0 0 0);\n"
+      "drag_direction  (1 0 0);\n"
+      "lift_direction  (0 0 1);\n"
+      "pitch_axis      (0 1 0);\n",
+      flow.unit.empty() ? "Lengths are in the unit of the mesh, which is not known: metres are assumed."
+                        : fmt::format("Lengths are in {}; viscosity in m/s times that.", flow.unit),
+      speed, speed, speed, viscosity.value, viscosity.why, k, 100 * intensity, k / viscosity.value,
+      viscosity.value, is_external ? "$velocity" : "(0 0 0)", flow.length > 0 ? flow.length : 1);
+}
 
 /// A field with its conditions at patches of each type; the name of a type is that of a group of patches.
 struct Field {
@@ -143,19 +236,45 @@ std::vector<FoamSetting> foam_dictionaries() {
     all.push_back({std::filesystem::path(folder) / name, with_header("dictionary", folder, name, content)});
   };
   add("system", "controlDict", control);
-  add("system", "fvSchemes", schemes);
+  const std::string first = fmt::format(schemes, "upwind"),
+                    second = fmt::format(schemes, "linearUpwind grad(U)");
+  add("system", "fvSchemes", first);
+  add("system", "fvSchemes.first", first);
+  add("system", "fvSchemes.second", second);
   add("system", "fvSolution", solution);
   add("constant", "transportProperties", transport);
   add("constant", "turbulenceProperties", turbulence);
   return all;
 }
 
-FoamSetting foam_conditions(bool is_external) {
-  const std::string content =
-      fmt::format("{}{}", conditions,
-                  is_external ? "start           $velocity;  // what the solver starts from\n"
-                              : "start           (0 0 0);    // what the solver starts from\n");
-  return {"0.orig/conditions", with_header("dictionary", "0.orig", "conditions", content)};
+FoamSetting foam_conditions(const FlowReference& flow, bool is_external) {
+  return {"0.orig/conditions",
+          with_header("dictionary", "0.orig", "conditions", conditions_of(flow, is_external))};
+}
+
+FoamSetting foam_script(std::int64_t parts) {
+  return {"run.sh",
+          fmt::format(R"sh(#!/bin/sh
+# Checks the mesh, then runs simpleFoam from where it is to endTime of system/controlDict, on as many ranks as
+# the mesh has parts ({0}). Logs: log.checkMesh, log.simpleFoam; forces: postProcessing/forces.
+set -eu
+cd "$(dirname "$0")"
+# Where OpenFOAM's own settings are; other installations set it themselves.
+export WM_PROJECT_DIR="${{WM_PROJECT_DIR:-/usr/share/openfoam}}"
+launch() {{
+  {1}
+}}
+launch checkMesh{2} > log.checkMesh 2>&1 || {{ tail -n 5 log.checkMesh; exit 1; }}
+grep -E "Mesh OK|Failed .* mesh checks" log.checkMesh || true
+status=0
+launch simpleFoam{2} > log.simpleFoam 2>&1 || status=$?
+grep "^Time = " log.simpleFoam | tail -n 1
+forces=$(find postProcessing/forces -name "*.dat" 2> /dev/null | sort | tail -n 1)
+if [ -n "$forces" ]; then grep "^# Time" "$forces"; tail -n 1 "$forces"; fi
+exit "$status"
+)sh",
+                      parts, parts == 1 ? "\"$@\"" : fmt::format("${{MPIRUN:-mpirun}} -n {} \"$@\"", parts),
+                      parts == 1 ? "" : " -parallel")};
 }
 
 std::vector<FoamField> foam_fields(std::string_view up) {

@@ -1,8 +1,11 @@
 /// The dictionaries and fields that a solver needs besides the mesh, with conditions by type of patch.
 ///
-/// With them `potentialFoam` runs, then `simpleFoam` with the k-omega SST model: air at 50 m/s. First-order
-/// convection and limited gradients make the start on tetrahedra robust rather than accurate.
+/// With them `simpleFoam` runs with the k-omega SST model from the uniform free stream: first-order
+/// convection for a hundred iterations, second from then on, by SIMPLEC (Van Doormaal and Raithby, Numerical
+/// Heat Transfer 7, 1984).
 #pragma once
+
+#include "io/file_mesh.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,9 +22,13 @@ struct FoamSetting {
 
 /// All dictionaries but decomposeParDict.
 std::vector<FoamSetting> foam_dictionaries();
-/// The values that the fields use. `is_external`: with a far field, the flow starts with its state; otherwise
-/// at rest.
-FoamSetting foam_conditions(bool is_external);
+/// The values that the fields use. The viscosity follows from the Reynolds number; without one it is that of
+/// air in the unit of the mesh.
+/// `is_external`: with a far field, the flow starts with its state; otherwise at rest.
+FoamSetting foam_conditions(const FlowReference& flow, bool is_external);
+
+/// A script that runs the case.
+FoamSetting foam_script(std::int64_t parts);
 
 struct FoamField {
   std::string name;

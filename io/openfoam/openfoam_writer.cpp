@@ -303,7 +303,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(whole, part, order, foam_case.unfinished(part.id)).write();
       }
-      if (communicator.is_root()) has_fields = write_settings(foam_case, is_external);
+      if (communicator.is_root()) has_fields = write_settings(foam_case, mesh.flow, is_external);
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;

@@ -57,11 +57,25 @@ Command add_convert(CLI::App& program) {
       ->check(CLI::Range(1, 1000000))
       ->type_name("N")
       ->group(option_group::output);
+  CLI::Option* reynolds =
+      app->add_option("--reynolds", conversion->reynolds,
+                      "Reynolds number of the flow, for settings of a solver beside the mesh (openfoam)")
+          ->check(CLI::Range(1.0, 1e12))
+          ->type_name("RE")
+          ->group(option_group::output);
+  CLI::Option* length =
+      app->add_option("--length", conversion->length, "the length of that, in the unit of the mesh")
+          ->check(CLI::PositiveNumber)
+          ->type_name("LENGTH")
+          ->group(option_group::output);
+  reynolds->needs(length);
+  length->needs(reynolds);
   add_memory_option(*app, conversion->memory);
   add_help_footer(*app,
                   {{"aeroloom convert out/mesh.pvtu mesh.cgns", "for a solver (docs/formats.md)"},
                    {"mpirun -n 2 aeroloom convert out/mesh.pvtu mesh.hdf --format vtkhdf", "by two ranks"},
-                   {"aeroloom convert out/mesh.pvtu wing.foam --parts 4", "OpenFOAM, for four processors"}},
+                   {"aeroloom convert out/mesh.pvtu wing.foam --parts 4 --reynolds 1e7 --length 2.5",
+                    "OpenFOAM, for four processors"}},
                   {report::ExitCode::ok, report::ExitCode::usage, report::ExitCode::files,
                    report::ExitCode::resources, report::ExitCode::bug});
   return {app, [conversion](const Invocation& invocation) {

@@ -126,8 +126,8 @@ TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
     const auto files = examples::files_below(folder / "all");
     EXPECT_EQ(files, examples::files_below(folder / "one"));
     // Of each part the mesh and what refers to fields; dictionaries in system/ and constant/; fields with
-    // their numbers.
-    EXPECT_EQ(files.size(), 4U * (11 + 6) + 4 + 2 + 7);
+    // their numbers; a script.
+    EXPECT_EQ(files.size(), 4U * (11 + 6) + 6 + 2 + 7 + 1);
     const std::string boundary = files.at("processor2/constant/polyMesh/boundary");
     for (const char* expected : {"wing___lower_side", "inGroups        1(wall);", "far_field",
                                  "procBoundary2to1", "type            symmetry;"})
@@ -195,6 +195,39 @@ TEST_F(OpenFoam, FieldsStandOnceAndThoseOfUsersStay) {
   EXPECT_EQ(examples::bytes_of(path("case/0/k")), "my turbulence");
   EXPECT_FALSE(fs::exists(path("case/0/U")));
   EXPECT_FALSE(fs::exists(path("case/processor0/0")));
+}
+
+TEST_F(OpenFoam, ViscosityFollowsFromTheReynoldsNumber) {
+  FileMesh mesh = examples::mixed_mesh(world, 4, 2);
+  write_openfoam(mesh, path("air"));
+  const std::string air = examples::bytes_of(path("air/0.orig/conditions"));
+  EXPECT_NE(air.find("viscosity       1.5e-05;"), std::string::npos) << air;
+  EXPECT_NE(air.find("no Reynolds number"), std::string::npos) << air;
+  mesh.flow = {.reynolds = 0, .length = 0, .unit = "mm", .unit_in_metres = 1e-3};
+  write_openfoam(mesh, path("small"));
+  const std::string small = examples::bytes_of(path("small/0.orig/conditions"));
+  for (const char* expected : {"viscosity       0.015;", "Lengths are in mm"})
+    EXPECT_NE(small.find(expected), std::string::npos) << small;
+  mesh.flow = {.reynolds = 2e6, .length = 7};
+  write_openfoam(repartition(mesh, 3), path("case"));
+  const std::string given = examples::bytes_of(path("case/0.orig/conditions"));
+  for (const char* expected : {"viscosity       0.000175;", "Reynolds number of 2e+06 over a length of 7",
+                               "reference_length 7;", "omega           21.4285714;"})
+    EXPECT_NE(given.find(expected), std::string::npos) << given;
+}
+
+TEST_F(OpenFoam, AScriptRunsTheCaseOnItsParts) {
+  for (const int parts : {3, 2, 1}) {
+    write_openfoam(examples::mixed_mesh(world, 4, parts), path("case"));
+    const std::string script = examples::bytes_of(path("case/run.sh"));
+    const std::string launch = parts == 1 ? "simpleFoam >" : "-n " + std::to_string(parts) + " ";
+    EXPECT_NE(script.find(launch), std::string::npos) << script;
+    EXPECT_TRUE((fs::status(path("case/run.sh")).permissions() & fs::perms::owner_exec) != fs::perms::none);
+    world.barrier();
+  }
+  examples::put_bytes(world, path("case/run.sh"), "my script");
+  write_openfoam(examples::mixed_mesh(world, 4, 2), path("case"));
+  EXPECT_EQ(examples::bytes_of(path("case/run.sh")), "my script");
 }
 
 TEST_F(OpenFoam, DecompositionsOfOtherCountsAreOfUsersAlone) {

@@ -1,0 +1,236 @@
+#!/usr/bin/env python3
+"""Runs `simpleFoam` on cases as the program writes them, one after the other, and prints a table in Markdown.
+
+usage: case_runs.py FOLDER [--program AEROLOOM] [--ranks N] [--iterations N] [--only NAME ...] [--page FILE]
+
+Each case is meshed with layers at y+ 1 and at y+ 60, written for OpenFOAM and run by the script beside it, from uniform flow. What is
+there already in FOLDER is not done again, so that a run that was stopped goes on. Nothing of the case is changed but the iterations and,
+where a case has an angle of attack, directions in 0.orig/conditions. A case is good where all iterations are made, residuals of U and p
+fall by a factor of 100, the speed stays below four times that of the free stream, no turbulence is clipped below minus 1 % of its average
+in the last 100, and drag (lift too, where it is larger) of the last two 50s agree within 3 %. Needs OpenFOAM and, for some, gmsh.
+"""
+import argparse
+import collections
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "benchmarks"))
+from printed_table import PrintedTable, add_page_option  # pylint: disable=wrong-import-position
+
+GEOMETRY = ROOT.parent / "shared" / "geometry"
+SPEED, FASTEST, FALL, AGREEMENT, CLIPPED = 50.0, 4.0, 100.0, 0.03, 0.01
+LAST = 50
+SPHERE = "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\n"
+#: A wing of span 4 on y = 0: chord 1 to 0.5, swept by 27 degrees, a blunt edge of 0.5 % of the chord.
+SWEPT = """SetFactory("OpenCASCADE");
+Macro Section
+  first = newp;
+  For i In {0:40}
+    t = Pi*i/40;
+    s = 0.5*(1+Cos(t));
+    h = 0.6*(0.2969*Sqrt(s)+s*(-0.126+s*(-0.3516+s*(0.2843-0.1036*s))))+0.0025*s;
+    Point(first+i) = {x+c*s, y, c*h};
+    If (i < 40)
+      Point(first+80-i) = {x+c*s, y, -c*h};
+    EndIf
+  EndFor
+  line = newl;
+  Spline(line) = {first:first+40};
+  Spline(line+1) = {first+40:first+80};
+  Line(line+2) = {first+80, first};
+  loop = newll;
+  Curve Loop(loop) = {line, line+1, line+2};
+Return
+x = 0; y = 0; c = 1;
+Call Section;
+root = loop;
+x = 2; y = 4; c = 0.5;
+Call Section;
+ThruSections(1) = {root, loop};
+"""
+Case = collections.namedtuple("Case", "name geometry keys length reynolds angle streamlined")
+
+
+def find(name):
+    return next((str(path) for path in sorted(GEOMETRY.rglob(name)) if "reported" not in path.parts), None)
+
+
+def half(extent=15):
+    return {"farfield": {"shape": "hemisphere", "extent": extent, "symmetry": "y"}}
+
+
+def cases():
+    dlr_f6 = {"groups": {"symmetry": {"ids": [123], "type": "symmetry"}, "farfield": {"ids": ["124-128"], "type": "farfield"},
+                         "aircraft": {"faces": "*", "type": "wall"}}}
+    m6 = {"groups": {"symmetry": {"ids": [2], "type": "symmetry"}, "farfield": {"ids": ["0-1"], "type": "farfield"},
+                     "wing": {"faces": "*", "type": "wall"}}}
+    around = {"farfield": {"extent": 15}}
+    return [
+        Case("sphere", SPHERE, around, 2, 1e6, 0, False),
+        Case("capsule", find("pyrefine_cev_capsule.igs"), around, 20, 1e6, 0, False),
+        Case("oneram6", find("su2_oneram6.igs"), m6, 0.64607, 1.17e7, 0, True),
+        Case("oneram6_3", find("su2_oneram6.igs"), m6, 0.64607, 1.17e7, 3, True),
+        Case("dealii_wing", find("dealii_wing.igs"), around, 1, 1e6, 0, True),
+        Case("d150_wing", find("tigl_D150_wing.igs"), around, 4000, 2e7, 0, True),
+        Case("swept_wing", SWEPT, half(), 1, 3e6, 0, True),
+        Case("half_transport", {"builtin": "transport"}, half(), 4, 2e7, 0, True),
+        Case("half_d150", find("tigl_D150_fused_aircraft.brep"), half(), 4, 2e7, 0, True),
+        Case("dlr_f6", find("gmsh_dlr_f6.brep"), dlr_f6, 141.2, 3e6, 0, True),
+        Case("wing_fuselage", find("gmsh_wing_fuselage.step"), around, 1, 3e6, 0, True),
+    ]
+
+
+def geometry_of(case, folder):
+    """The block `geometry`; text is that of a .geo file for gmsh."""
+    if isinstance(case.geometry, dict):
+        return case.geometry
+    if not case.geometry.startswith("SetFactory"):
+        return {"file": case.geometry}
+    path = folder / "shape.brep"
+    (folder / "shape.geo").write_text(case.geometry)
+    subprocess.run(["gmsh", folder / "shape.geo", "-0", "-v", "2", "-o", path, "-format", "brep"], check=True)
+    return {"file": str(path)}
+
+
+def mesh(options, case, y_plus, folder):
+    """Writes the case of the mesher and of the solver; False where that fails."""
+    written = folder / "out" / "openfoam"
+    if (folder / "out" / "report.json").exists() and written.exists():
+        return json.loads((folder / "out" / "report.json").read_text())["exit_code"] == 0
+    folder.mkdir(parents=True, exist_ok=True)
+    layers = {"y_plus": y_plus, "reynolds": case.reynolds, "length": case.length}
+    text = {"geometry": geometry_of(case, folder), **case.keys, "layers": layers,
+            "sizing": {"target_tetrahedra": options.target, "solver": "cell"},
+            "output": {"directory": str(folder / "out"), "formats": ["openfoam"], "parts": options.ranks, "pictures": False}}
+    (folder / "case.yaml").write_text(json.dumps(text))
+    with open(folder / "log.aeroloom", "w", encoding="utf-8") as log:
+        return subprocess.run([options.program, "run", folder / "case.yaml"], stdout=log, stderr=log, check=False).returncode == 0
+
+
+def turn_flow(written, angle):
+    turn = math.radians(angle)
+    along, across = f"{math.cos(turn):.9g} 0 {math.sin(turn):.9g}", f"{-math.sin(turn):.9g} 0 {math.cos(turn):.9g}"
+    conditions = written / "0.orig" / "conditions"
+    text = conditions.read_text()
+    for name, vector in (("velocity", f"{SPEED * math.cos(turn):.9g} 0 {SPEED * math.sin(turn):.9g}"),
+                         ("drag_direction", along), ("lift_direction", across)):
+        text = re.sub(rf"^({name}\s+)\([^)]*\)", rf"\g<1>({vector})", text, flags=re.MULTILINE)
+    conditions.write_text(text)
+
+
+def solve(options, case, written):
+    log = written / "log.simpleFoam"
+    if log.exists() and ("\nEnd\n" in log.read_text() or "sigFpe" in log.read_text()):
+        return
+    control = written / "system" / "controlDict"
+    control.write_text(re.sub(r"^(endTime\s+)\d+;", rf"\g<1>{options.iterations};", control.read_text(), flags=re.MULTILINE))
+    if case.angle:
+        turn_flow(written, case.angle)
+    subprocess.run(["./run.sh"], cwd=written, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+
+
+def read_residuals(steps):
+    """By field, the first initial residual of each step."""
+    found = {}
+    for name in ("Ux", "Uy", "Uz", "p"):
+        found[name] = [float(match.group(1)) for match in
+                       (re.search(rf"Solving for {name}, Initial residual = ([^,]+),", step) for step in steps) if match]
+    return found
+
+
+def fall_of(residuals):
+    """By how much residuals fall from the largest one of the first ten to the last, the least of U and of p."""
+    falls = [max(values[:10]) / max(values[-1], 1e-300) for values in residuals.values() if values]
+    return min(falls, default=0)
+
+
+def fastest(written):
+    """The largest speed at all looks, over that of the free stream."""
+    speeds = []
+    for file in sorted((written / "postProcessing" / "extremes").rglob("fieldMinMax*.dat")):
+        rows = [[word.strip() for word in line.split("\t")] for line in file.read_text().splitlines() if not line.startswith("#")]
+        speeds += [float(row[4]) for row in rows if row[1] == "mag(U)"]
+    return max(speeds, default=math.nan) / SPEED
+
+
+def coefficients(written):
+    """Columns of the table of forces by name."""
+    rows, names = [], []
+    for file in sorted((written / "postProcessing" / "forces").rglob("*.dat")):
+        for line in file.read_text().splitlines():
+            if line.startswith("# Time"):
+                names = line.lstrip("# ").split()
+            elif not line.startswith("#"):
+                rows.append([float(word) for word in line.split()])
+    return {name: [row[i] for row in rows] for i, name in enumerate(names)}
+
+
+def drift(values):
+    """Between the means of the last two 50s, over the last."""
+    if len(values) < 2 * LAST:
+        return math.inf
+    last, before = sum(values[-LAST:]) / LAST, sum(values[-2 * LAST:-LAST]) / LAST
+    return abs(last - before) / max(abs(last), 1e-300)
+
+
+def clipped(steps):
+    """The lowest minimum of a turbulence that was clipped in the last 100 steps, over its average."""
+    text = "".join(steps[-100:])
+    found = re.findall(r"bounding (?:k|omega), min: (\S+) max: \S+ average: (\S+)", text)
+    return min((float(low) / max(abs(float(mean)), 1e-300) for low, mean in found), default=0.0)
+
+
+def judge(options, case, written):
+    log = (written / "log.simpleFoam").read_text() if (written / "log.simpleFoam").exists() else ""
+    steps = log.split("\nTime = ")[1:]
+    forces = coefficients(written)
+    drag, lift = forces.get("Cd", []), forces.get("Cl", [])
+    fall, speed, low = fall_of(read_residuals(steps)), fastest(written), clipped(steps)
+    drifts = [drift(drag)] + ([drift(lift)] if lift and drag and abs(lift[-1]) > abs(drag[-1]) else [])
+    good = len(steps) == options.iterations and fall >= FALL and speed < FASTEST and low > -CLIPPED
+    if case.streamlined:
+        good = good and max(drifts) <= AGREEMENT
+    cells = re.search(r"cells:\s+(\d+)", (written / "log.checkMesh").read_text()) if (written / "log.checkMesh").exists() else None
+    return good, (f"{int(cells.group(1)):,}" if cells else "–", len(steps), f"{fall:.0f}", f"{speed:.2f}",
+                  f"{drag[-1]:.5g}" if drag else "–", f"{lift[-1]:.5g}" if lift else "–", f"{100 * max(drifts):.2g}", f"{100 * low:.2g}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--program", default=ROOT / "build/release/bin/aeroloom")
+    parser.add_argument("--ranks", type=int, default=2)
+    parser.add_argument("--iterations", type=int, default=300)
+    parser.add_argument("--target", type=int, default=100_000, help="tetrahedra, layers not counted")
+    parser.add_argument("--only", nargs="*", help="names of cases")
+    parser.add_argument("--y-plus", nargs="*", type=float, default=[1, 60])
+    add_page_option(parser)
+    options = parser.parse_args()
+    table = PrintedTable("Cases that run", ["case", "y+", "cells", "iterations", "residuals fall by", "fastest, free streams", "drag", "lift",
+                                            "drift of forces, %", "clipped, %", "good"])
+    bad = 0
+    for case in cases():
+        for y_plus in options.y_plus:
+            if options.only and case.name not in options.only or case.geometry is None:
+                continue
+            folder = options.folder.resolve() / f"{case.name}_{y_plus:g}"
+            if not mesh(options, case, y_plus, folder):
+                table.add(case.name, f"{y_plus:g}", "not meshed")
+                bad += 1
+                continue
+            written = folder / "out" / "openfoam"
+            solve(options, case, written)
+            good, cells = judge(options, case, written)
+            bad += not good
+            table.add(case.name, f"{y_plus:g}", *cells, "yes" if good else "no")
+    table.save(options.page)
+    sys.exit(1 if bad else 0)
+
+
+if __name__ == "__main__":
+    main()
