@@ -13,6 +13,7 @@ import argparse
 import collections
 import json
 import math
+import os
 import pathlib
 import re
 import subprocess
@@ -112,6 +113,11 @@ def mesh(options, case, y_plus, folder):
         return subprocess.run([options.program, "run", folder / "case.yaml"], stdout=log, stderr=log, check=False).returncode == 0
 
 
+def environment(written):
+    """What programs of OpenFOAM need, where nothing else has set it."""
+    return os.environ | {"PWD": str(written), "WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam")}
+
+
 def turn_flow(written, angle):
     turn = math.radians(angle)
     along, across = f"{math.cos(turn):.9g} 0 {math.sin(turn):.9g}", f"{-math.sin(turn):.9g} 0 {math.cos(turn):.9g}"
@@ -149,13 +155,13 @@ def fall_of(residuals):
     return min(falls, default=0)
 
 
-def fastest(written):
-    """The largest speed at all looks, over that of the free stream."""
-    speeds = []
+def speeds(written):
+    """The largest speed at each look, over that of the free stream."""
+    found = []
     for file in sorted((written / "postProcessing" / "extremes").rglob("fieldMinMax*.dat")):
         rows = [[word.strip() for word in line.split("\t")] for line in file.read_text().splitlines() if not line.startswith("#")]
-        speeds += [float(row[4]) for row in rows if row[1] == "mag(U)"]
-    return max(speeds, default=math.nan) / SPEED
+        found += [float(row[4]) / SPEED for row in rows if row[1] == "mag(U)"]
+    return found
 
 
 def coefficients(written):
@@ -190,7 +196,7 @@ def judge(options, case, written):
     steps = log.split("\nTime = ")[1:]
     forces = coefficients(written)
     drag, lift = forces.get("Cd", []), forces.get("Cl", [])
-    fall, speed, low = fall_of(read_residuals(steps)), fastest(written), clipped(steps)
+    fall, speed, low = fall_of(read_residuals(steps)), max(speeds(written), default=math.nan), clipped(steps)
     drifts = [drift(drag)] + ([drift(lift)] if lift and drag and abs(lift[-1]) > abs(drag[-1]) else [])
     good = len(steps) == options.iterations and fall >= FALL and speed < FASTEST and low > -CLIPPED
     if case.streamlined:

@@ -53,9 +53,12 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
   keys.integer(
       "constant", request.constant, Range::between(1, most_layers, "layers"),
       {"Number of layers at the wall that are as high as the first.", "that of `sizing.level`, or 2", "2"});
-  keys.number("growth", request.growth, Range::between(least_growth, most_growth),
-              common({"Ratio of the heights of successive layers. It is less where there is little room.",
-                      "that of `sizing.level`, or 1.2", "1.2"}));
+  keys.number(
+      "growth", request.growth, Range::between(least_growth, most_growth),
+      common({"Ratio of the heights of successive layers. It is less where there is little room.",
+              "that of `sizing.level`; with `count` and `total` the one by which they fit; or 1.2", "1.2"}));
+  keys.number("growth_maximum", request.growth_maximum, Range::between(least_growth, most_growth),
+              "Largest growth where it follows from `count` and `total`.");
   keys.integer("count", request.count, Range::between(1, most_layers, "layers"),
                {"Largest number of layers.", "as many as `until` takes", "40"});
   keys.number("total", request.total, Range::above(0, length_unit),

@@ -45,6 +45,13 @@ layers::WallLayers layers_of_patch(const LayerRule& rule, layers::WallLayers wan
   return wanted;
 }
 
+/// With the growth by which `count` layers are `total` high together.
+layers::WallLayers with_growth_of_total(layers::WallLayers wanted, double growth_maximum) {
+  const layers::Heights steepest{wanted.first, growth_maximum, wanted.constant};
+  wanted.growth = layers::compress(steepest, wanted.count, wanted.total).growth;
+  return wanted;
+}
+
 /// The number of layers that take the place of `count` layers which are as many times higher.
 std::int32_t count_at_scale(std::int32_t count, double scale) {
   const double scaled = std::round(count / scale);
@@ -99,8 +106,12 @@ double y_plus_of(double first, double reynolds, double length) {
 
 layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
                                  const LayerRule* rule) {
-  const layers::WallLayers of_walls = layers_of_walls(request, sizing);
-  return at_scale(rule != nullptr ? layers_of_patch(*rule, of_walls) : of_walls, sizing.scale);
+  layers::WallLayers wanted = layers_of_walls(request, sizing);
+  if (rule != nullptr) wanted = layers_of_patch(*rule, wanted);
+  const bool has_growth = request.growth || sizing.level || (rule != nullptr && rule->growth);
+  if (!has_growth && wanted.first > 0 && wanted.count > 0 && wanted.total > 0)
+    wanted = with_growth_of_total(wanted, request.growth_maximum);
+  return at_scale(wanted, sizing.scale);
 }
 
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,

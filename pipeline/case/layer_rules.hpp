@@ -41,6 +41,7 @@ struct LayerRequest {
   std::optional<double> reynolds, length;
   std::optional<std::int64_t> constant;  ///< left out: that of the level, or 2
   std::optional<double> growth;          ///< left out: that of the level, or 1.2
+  double growth_maximum = 1.3;           ///< of the growth that follows from count and total
   std::optional<std::int64_t> count;
   std::optional<double> total;
   LayerEnd until = LayerEnd::isotropic;
@@ -60,7 +61,8 @@ double y_plus_of(double first, double reynolds, double length);
 struct SizingRequest;
 
 /// The layers that the case asks for on a wall, at the scale of the sizes; by `rule` where the patch has one,
-/// else as on all walls.
+/// else as on all walls. Where a count and a total are given and no growth, neither by a level, the growth
+/// follows from them.
 layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
                                  const LayerRule* rule = nullptr);
 

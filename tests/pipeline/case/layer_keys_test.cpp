@@ -105,6 +105,30 @@ TEST_F(LayerKeys, PatchesMustBeWallsOfThisModel) {
   EXPECT_EQ(message("farfield: {count: 0}"), "");
 }
 
+// By which `count` layers are `total` high, if no growth is asked for.
+TEST_F(LayerKeys, GrowthFollowsFromCountAndTotal) {
+  const auto wall = [&](const std::string& asked, const std::string& more = "") {
+    return options_of(with_layers(asked, more)).patches[0];
+  };
+  const auto height = [](const layers::WallLayers& of) {
+    return layers::Heights{of.first, of.growth, of.constant}.total(of.count);
+  };
+  const layers::WallLayers fitted = wall("first: 1e-3, count: 20, total: 0.1");
+  EXPECT_GT(fitted.growth, 1.1);
+  EXPECT_LT(fitted.growth, 1.2);
+  EXPECT_NEAR(height(fitted), 0.1, 1e-9);
+  EXPECT_LE(height(fitted), 0.1) << "none is left out";
+  EXPECT_EQ(wall("first: 1e-3, count: 20, total: 5").growth, 1.3) << "at most";
+  EXPECT_EQ(wall("first: 1e-3, count: 20, total: 5, growth_maximum: 1.25").growth, 1.25);
+  EXPECT_EQ(wall("first: 1e-3, count: 20, total: 0.01").growth, 1);
+  EXPECT_EQ(wall("first: 1e-3, count: 20, total: 0.1, growth: 1.2").growth, 1.2);
+  EXPECT_EQ(wall("first: 1e-3, count: 20").growth, 1.2);
+  EXPECT_EQ(wall("first: 1e-3, count: 20, total: 0.1", "sizing: {level: fine}\n").growth, 1.1);
+  const layers::WallLayers of_patch =
+      options_of(with_layers("first: 1e-3, count: 20, patches: {wing: {total: 0.1}}")).patches[0];
+  EXPECT_NEAR(of_patch.growth, fitted.growth, 1e-12);
+}
+
 // Sums of heights stay about the same, so that a family of meshes resolves the same part of the flow.
 TEST_F(LayerKeys, TakeTheScaleOfTheSizes) {
   const std::string asked =
