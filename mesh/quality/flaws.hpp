@@ -1,4 +1,4 @@
-/// What is wrong with cells, on one scale for all shapes, in boundary layers or not.
+/// What is wrong with cells and faces, on one scale for all shapes, in boundary layers or not.
 #pragma once
 
 #include "mesh/data/piece.hpp"
@@ -13,13 +13,15 @@ namespace aeroloom::mesh {
 /// Stretching along a wall is no flaw of a cell of layers; flat in other directions, twisted, and next to
 /// cells of another size are flaws.
 enum class Flaw : std::uint8_t {
-  small_angle,  ///< smallest dihedral angle of a tetrahedron off layers, degrees
-  bad_shape,    ///< corner_shape() of a cell of layers
-  size_jump,    ///< volume of the largest neighbour over that of the cell
+  small_angle,        ///< smallest dihedral angle of a tetrahedron off layers, degrees
+  bad_shape,          ///< corner_shape() of a cell of layers
+  size_jump,          ///< volume of the largest neighbour over that of the cell
+  non_orthogonality,  ///< of a face between two cells, degrees (mesh/quality/face_measures.hpp)
+  skewness,           ///< of a face
 };
-inline constexpr std::size_t flaw_count = 3;
-inline constexpr std::array<Flaw, flaw_count> all_flaws = {Flaw::small_angle, Flaw::bad_shape,
-                                                           Flaw::size_jump};
+inline constexpr std::size_t flaw_count = 5;
+inline constexpr std::array<Flaw, flaw_count> all_flaws = {
+    Flaw::small_angle, Flaw::bad_shape, Flaw::size_jump, Flaw::non_orthogonality, Flaw::skewness};
 /// As keys of reports have it.
 std::string_view name_of(Flaw flaw);
 
@@ -41,7 +43,7 @@ struct FlawedCell {
   GlobalIndex cell = 0;  ///< number in the whole mesh, as WorstCellOfShape::cell
   CellShape shape = CellShape::tetrahedron;
   Flaw flaw = Flaw::small_angle;
-  geometry::Vec3 center;  ///< mean of the corners
+  geometry::Vec3 center;  ///< mean of the corners; of a flaw of a face, the centre of the face
 };
 /// By severity, then by number.
 bool is_worse(const FlawedCell& a, const FlawedCell& b);

@@ -49,17 +49,24 @@ WorstPlaces PlaceSearch::find(const parallel::Communicator& communicator, bool l
     for (const FlawedCell& tet : _tets_by_shape) keep(lists[static_cast<std::size_t>(Flaw::bad_shape)], tet);
   }
   WorstPlaces places;
-  std::vector<FlawedCell> candidates;
-  for (std::size_t f = 0; f < flaw_count; ++f) {
+  for (const Flaw flaw : {Flaw::small_angle, Flaw::bad_shape, Flaw::size_jump}) {
+    const auto f = static_cast<std::size_t>(flaw);
     places.of[f] = worst_of_ranks(communicator, lists[f]);
-    candidates.insert(candidates.end(), places.of[f].begin(), places.of[f].end());
   }
+  list_worst_of_all(places);
+  return places;
+}
+
+void list_worst_of_all(WorstPlaces& places) {
+  std::vector<FlawedCell> candidates;
+  for (const std::vector<FlawedCell>& of : places.of)
+    candidates.insert(candidates.end(), of.begin(), of.end());
   std::stable_sort(candidates.begin(), candidates.end(), is_worse);
+  places.all.clear();
   std::set<GlobalIndex> seen;
   for (const FlawedCell& each : candidates) {
     if (places.all.size() < kept_places && seen.insert(each.cell).second) places.all.push_back(each);
   }
-  return places;
 }
 
 }  // namespace aeroloom::mesh

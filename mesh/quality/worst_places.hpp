@@ -15,6 +15,9 @@ struct WorstPlaces {
   std::vector<FlawedCell> all;                         ///< each cell once, by its worst flaw
 };
 
+/// Takes `all` anew from `of`.
+void list_worst_of_all(WorstPlaces& places);
+
 /// A cell as the search for flaws sees it.
 struct CellToJudge {
   CellShape shape = CellShape::tetrahedron;
