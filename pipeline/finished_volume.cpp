@@ -33,16 +33,24 @@ std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& vol
   return regions;
 }
 
-/// Measures that compare neighbours and edges. Collective.
-mesh::MixedQuality measure_cells(const mesh::NumberedMesh& volume) {
-  return mesh::measure_quality(volume, mesh::link_faces(volume));
-}
-
 /// Collective.
 bool has_layers(const mesh::DistributedMesh& volume, const mesh::MeshCounts& counts) {
   const bool here = std::any_of(volume.pieces.begin(), volume.pieces.end(),
                                 [](const mesh::Piece& piece) { return !piece.layers.empty(); });
   return volume.communicator.maximum(std::int64_t{here}) > 0 || counts.prisms + counts.pyramids > 0;
+}
+
+/// Measures that compare neighbours and edges, and what solvers make of faces. Collective.
+void measure_cells(const mesh::NumberedMesh& volume, const cases::QualityGate& gate,
+                   report::VolumeFigures& figures) {
+  const bool all_measures = has_layers(volume, figures.counts) || gate.asks_for_cells();
+  if (!all_measures && !gate.asks_for_faces()) return;
+  const mesh::FaceLinks links = mesh::link_faces(volume);
+  figures.solver = mesh::measure_as_solvers(volume, links);
+  log_solver_quality(*figures.solver);
+  if (!all_measures) return;
+  figures.cells = mesh::measure_quality(volume, links);
+  mesh::add_faces(*figures.solver, figures.cells->places);
 }
 
 }  // namespace
@@ -82,7 +90,7 @@ report::VolumeFigures inspect_volume(const improve::ImproveOptions& options, con
   mesh::CellsOutside suspects;
   if (options.enabled) suspects.limits = attribution::suspect_angles(options.target_angle);
   figures.quality = mesh::summarise_quality(volume, &suspects);
-  if (has_layers(volume, figures.counts) || gate.asks_for_cells()) figures.cells = measure_cells(volume);
+  measure_cells(volume, gate, figures);
   if (options.enabled) {
     figures.pinned =
         attribution::find_pinned(volume, options.target_angle, suspects, options.boundary_may_change);
@@ -215,8 +223,7 @@ std::string coarse_region(const cases::QualityGate& gate, const JudgedMesh& mesh
 std::string missed_quality(const cases::Case& input, const JudgedMesh& mesh) {
   const cases::QualityGate& gate = input.gate;
   const report::VolumeFigures& volume = mesh.volume;
-  std::string missed =
-      cases::missed_limits(gate, *volume.quality, volume.pinned, volume.cells ? &*volume.cells : nullptr);
+  std::string missed = cases::missed_limits(gate, *volume.quality, volume.pinned, volume.measured_cells());
   for (const std::string& other :
        {missed_layers(input.layers.gate, mesh), missed_area(gate, mesh), missed_volume(gate, mesh)})
     if (!other.empty()) missed += (missed.empty() ? "" : "\n") + other;

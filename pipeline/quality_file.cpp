@@ -1,10 +1,12 @@
 #include "pipeline/quality_file.hpp"
 
 #include "mesh/quality/mixed_quality.hpp"
+#include "mesh/quality/solver_quality.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "pipeline/info_text.hpp"
 #include "pipeline/report/mixed_quality_json.hpp"
 #include "pipeline/report/mixed_quality_text.hpp"
+#include "pipeline/report/solver_quality_json.hpp"
 #include "pipeline/report/text_file.hpp"
 
 #include <cstdio>
@@ -54,8 +56,22 @@ Json patches_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
   return json;
 }
 
-Json report_json(const std::string& path, const io::Assembled& file, const mesh::MixedQuality& quality,
+struct FileQuality {
+  mesh::MixedQuality cells;
+  mesh::SolverQuality solver;
+};
+
+/// Collective.
+FileQuality measure(const mesh::NumberedMesh& pieces) {
+  const mesh::FaceLinks links = mesh::link_faces(pieces);
+  FileQuality quality{mesh::measure_quality(pieces, links), mesh::measure_as_solvers(pieces, links)};
+  mesh::add_faces(quality.solver, quality.cells.places);
+  return quality;
+}
+
+Json report_json(const std::string& path, const io::Assembled& file, const FileQuality& measured,
                  const io::DoubledNodes& doubled, const std::string& missed) {
+  const mesh::MixedQuality& quality = measured.cells;
   const mesh::LinkDefects& defects = quality.defects;
   return {{"schema_version", quality_schema_version},
           {"file", path},
@@ -74,6 +90,7 @@ Json report_json(const std::string& path, const io::Assembled& file, const mesh:
             {"open_faces", defects.open_faces}}},
           {"doubled_nodes", doubled_nodes_json(doubled)},
           {"quality", report::to_json(quality)},
+          {"solver", report::to_json(measured.solver)},
           {"gate", {{"passed", missed.empty()}, {"missed", missed}}}};
 }
 
@@ -87,9 +104,9 @@ std::string dump(const Json& json) {
 std::string show_quality(const io::Assembled& file, const QualityRequest& request,
                          const cases::QualityGate& gate) {
   const mesh::NumberedMesh& pieces = *file.mesh.pieces;
-  const mesh::MixedQuality quality = mesh::measure_quality(pieces, mesh::link_faces(pieces));
+  const FileQuality quality = measure(pieces);
   const io::DoubledNodes doubled = io::find_doubled_nodes(file.mesh);
-  std::string missed = cases::missed_limits(gate, quality);
+  std::string missed = cases::missed_limits(gate, quality.cells, quality.solver);
   parallel::on_root(pieces.communicator, [&] {
     const std::string json = dump(report_json(request.file, file, quality, doubled, missed));
     if (!request.json_file.empty()) report::write_text(request.json_file, json);
@@ -98,7 +115,7 @@ std::string show_quality(const io::Assembled& file, const QualityRequest& reques
     } else {
       fmt::print("'{}': {}\n{}{}", request.file, io::describe(file),
                  doubled.nodes == 0 ? "" : io::describe(doubled) + "\n",
-                 report::quality_text(file.mesh, quality));
+                 report::quality_text(file.mesh, quality.cells, quality.solver));
     }
     std::fflush(stdout);
   });

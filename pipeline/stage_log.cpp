@@ -7,6 +7,7 @@
 #include "pipeline/case/layer_gate.hpp"
 #include "pipeline/case/option_keys.hpp"
 #include "pipeline/report/places_json.hpp"
+#include "pipeline/report/solver_quality_text.hpp"
 #include "pipeline/shown_changes.hpp"
 
 #include <algorithm>
@@ -230,16 +231,35 @@ void log_improve(const improve::ImproveReport& report) {
                        report.min_angle_before, report.min_angle_after, report.bad_before, report.bad_after));
 }
 
+void log_solver_quality(const mesh::SolverQuality& quality) {
+  for (const std::string& line : report::solver_lines(quality))
+    log_info("quality, as solvers judge: " + line);
+}
+
+namespace {
+
+const char* remedy_of(mesh::Flaw flaw) {
+  switch (flaw) {
+    case mesh::Flaw::small_angle:
+      return "smaller sizes there, or other CAD where its angles force it";
+    case mesh::Flaw::bad_shape:
+      return "fewer or lower layers there (layers.patches), or smaller sizes";
+    case mesh::Flaw::non_orthogonality:
+    case mesh::Flaw::skewness:
+      return "smaller sizes there, or fewer or lower layers beside it (layers.patches)";
+    case mesh::Flaw::size_jump:
+      break;
+  }
+  return "smaller sizes there, or more layers (layers.count, layers.total)";
+}
+
+}  // namespace
+
 void warn_of_flaws(const report::VolumeFigures& figures) {
   for (const mesh::FlawedCell& place : report::worst_flaws(figures)) {
     if (mesh::verdict_of(place.severity) != mesh::Verdict::poor) continue;
-    const char* const remedy = place.flaw == mesh::Flaw::small_angle
-                                   ? "smaller sizes there, or other CAD where its angles force it"
-                               : place.flaw == mesh::Flaw::bad_shape
-                                   ? "fewer or lower layers there (layers.patches), or smaller sizes"
-                                   : "smaller sizes there, or more layers (layers.count, layers.total)";
-    parallel::log_warning(
-        fmt::format("quality: the mesh has {}. Remedy: {}", report::text_of_place(place), remedy));
+    parallel::log_warning(fmt::format("quality: the mesh has {}. Remedy: {}", report::text_of_place(place),
+                                      remedy_of(place.flaw)));
   }
 }
 

@@ -39,6 +39,8 @@ void log_decompose(const volume::DecompositionReport& report);
 void warn_of_count(double expected, double forecast, int resize_rounds);
 void log_volume(const volume::VolumeReport& report);
 void log_improve(const improve::ImproveReport& report);
+/// What cell-centred solvers make of the mesh.
+void log_solver_quality(const mesh::SolverQuality& quality);
 /// Warns of the worst place of each flaw that is poor. One rank calls.
 void warn_of_flaws(const report::VolumeFigures& figures);
 /// Prints nothing where no tetrahedron is below its target.

@@ -4,6 +4,7 @@
 #include "improve/attribution/pinned.hpp"
 #include "mesh/quality/cell_measures.hpp"
 #include "mesh/quality/mixed_quality.hpp"
+#include "mesh/quality/solver_quality.hpp"
 
 #include <algorithm>
 
@@ -14,6 +15,7 @@ namespace aeroloom::cases {
 namespace {
 
 using mesh::Measure;
+using mesh::SolverMeasure;
 
 std::string line(const char* key, double value, double limit, const char* side) {
   return fmt::format("\n  improve.gate.{} is {:.4g}, not {:g} {}", key, value, limit, side);
@@ -38,6 +40,35 @@ std::string missed_ratios(const QualityGate& gate, const mesh::MixedQuality& cel
          missed_limit(cells, Measure::scaled_jacobian, gate.min_scaled_jacobian, "min_scaled_jacobian");
 }
 
+/// A limit on a measure of cell-centred solvers.
+struct SolverLimit {
+  const char* key;
+  SolverMeasure measure;
+  const std::optional<double>& limit;
+};
+std::array<SolverLimit, 4> solver_limits(const QualityGate& gate) {
+  return {{{"largest_non_orthogonality", SolverMeasure::non_orthogonality, gate.largest_non_orthogonality},
+           {"largest_skewness", SolverMeasure::skewness, gate.largest_skewness},
+           {"largest_aspect_ratio", SolverMeasure::aspect_ratio, gate.largest_aspect_ratio},
+           {"min_determinant", SolverMeasure::determinant, gate.min_determinant}}};
+}
+
+std::string missed_by_solvers(const QualityGate& gate, const mesh::SolverQuality& solver) {
+  std::string text;
+  for (const auto& [key, measure, limit] : solver_limits(gate)) {
+    if (!limit || solver.worst_of(measure).empty()) continue;
+    const mesh::SolverPlace& place = solver.worst_of(measure).front();
+    const bool at_most = mesh::larger_is_worse(measure);
+    if (at_most ? place.value <= *limit : place.value >= *limit) continue;
+    const bool of_face = measure == SolverMeasure::non_orthogonality || measure == SolverMeasure::skewness;
+    text +=
+        line(key, place.value, *limit, at_most ? "at most" : "at least") +
+        fmt::format(" ({}cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", of_face ? "a face of " : "",
+                    place.cell, mesh::name_of(place.shape), place.center.x, place.center.y, place.center.z);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate) {
@@ -50,13 +81,14 @@ std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gat
 
 std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
                                          const attribution::PinnedReport& pinned,
-                                         const mesh::MixedQuality* cells) {
+                                         const MeasuredCells& measured) {
   std::vector<GateLimit> limits;
   const auto compare = [&](const char* key, const std::optional<double>& limit, double value,
                            bool at_most = false) {
     if (limit) limits.push_back({fmt::format("improve.gate.{}", key), *limit, value, at_most});
   };
   const auto compare_cells = [&](const char* key, const std::optional<double>& limit, Measure measure) {
+    const mesh::MixedQuality* const cells = measured.cells;
     if (cells == nullptr || cells->worst[static_cast<std::size_t>(measure)].empty()) return;
     compare(key, limit, cells->worst[static_cast<std::size_t>(measure)].front().value,
             mesh::larger_is_worse(measure));
@@ -77,13 +109,18 @@ std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::Qu
   compare_cells("largest_volume_ratio", gate.largest_volume_ratio, Measure::volume_ratio);
   compare_cells("largest_edge_ratio", gate.largest_edge_ratio, Measure::edge_ratio);
   compare_cells("min_scaled_jacobian", gate.min_scaled_jacobian, Measure::scaled_jacobian);
+  for (const auto& [key, measure, limit] : solver_limits(gate)) {
+    if (measured.solver != nullptr && !measured.solver->worst_of(measure).empty())
+      compare(key, limit, measured.solver->worst_of(measure).front().value, mesh::larger_is_worse(measure));
+  }
   return limits;
 }
 
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
-                          const attribution::PinnedReport& pinned, const mesh::MixedQuality* cells) {
-  std::string text = cells != nullptr ? missed_ratios(gate, *cells) : "";
-  for (const GateLimit& limit : compare_with_gate(gate, quality, pinned, nullptr)) {
+                          const attribution::PinnedReport& pinned, const MeasuredCells& measured) {
+  std::string text = measured.cells != nullptr ? missed_ratios(gate, *measured.cells) : "";
+  if (measured.solver != nullptr) text += missed_by_solvers(gate, *measured.solver);
+  for (const GateLimit& limit : compare_with_gate(gate, quality, pinned, {})) {
     if (!limit.met())
       text += fmt::format("\n  {} is {:.4g}, not {:g} {}", limit.key, limit.value, limit.limit,
                           limit.at_most ? "at most" : "at least");
@@ -99,7 +136,8 @@ std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& q
          "\n  remedy: a larger improve.target_angle, smaller sizes there, or lower limits";
 }
 
-std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells) {
+std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells,
+                          const mesh::SolverQuality& solver) {
   std::string text = missed_limit(cells, Measure::smallest_dihedral, gate.smallest_angle, "smallest_angle") +
                      missed_limit(cells, Measure::largest_dihedral, gate.largest_angle, "largest_angle");
   const mesh::MeasureDistribution& angles =
@@ -114,7 +152,7 @@ std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cel
   at_least(gate.percentile_5, angles.percentiles[2], "percentile_5");
   text += missed_limit(cells, Measure::mean_ratio, gate.min_mean_ratio, "min_mean_ratio");
   at_least(gate.mean_mean_ratio, ratios.mean, "mean_mean_ratio");
-  text += missed_ratios(gate, cells);
+  text += missed_ratios(gate, cells) + missed_by_solvers(gate, solver);
   return text.empty() ? text : "the mesh misses what was asked for:" + text;
 }
 

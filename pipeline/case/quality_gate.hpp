@@ -16,7 +16,8 @@ struct PinnedReport;
 
 namespace aeroloom::mesh {
 struct MixedQuality;
-}
+struct SolverQuality;
+}  // namespace aeroloom::mesh
 
 namespace aeroloom::cases {
 
@@ -29,17 +30,34 @@ struct QualityGate {
   std::optional<double> min_mean_ratio, mean_mean_ratio;
   std::optional<double> largest_volume_ratio, largest_edge_ratio,
       min_scaled_jacobian;  ///< mesh/quality/cell_measures.hpp
+  std::optional<double> largest_non_orthogonality, largest_skewness, largest_aspect_ratio,
+      min_determinant;  ///< mesh/quality/face_measures.hpp
 
   /// Relative deviation of the wall area from that of the CAD faces. Only a run has both.
   double area_deviation = 0.1;
 
   /// Whether mesh::measure_quality() is needed.
   bool asks_for_cells() const { return largest_volume_ratio || largest_edge_ratio || min_scaled_jacobian; }
+  /// Whether mesh::measure_as_solvers() is needed.
+  bool asks_for_faces() const {
+    return largest_non_orthogonality || largest_skewness || largest_aspect_ratio || min_determinant;
+  }
 };
 /// The keys of `improve.gate`.
-inline constexpr std::array<std::string_view, 10> gate_keys = {
-    "smallest_angle", "largest_angle",   "percentile_01",        "percentile_1",       "percentile_5",
-    "min_mean_ratio", "mean_mean_ratio", "largest_volume_ratio", "largest_edge_ratio", "min_scaled_jacobian"};
+inline constexpr std::array<std::string_view, 14> gate_keys = {"smallest_angle",
+                                                               "largest_angle",
+                                                               "percentile_01",
+                                                               "percentile_1",
+                                                               "percentile_5",
+                                                               "min_mean_ratio",
+                                                               "mean_mean_ratio",
+                                                               "largest_volume_ratio",
+                                                               "largest_edge_ratio",
+                                                               "min_scaled_jacobian",
+                                                               "largest_non_orthogonality",
+                                                               "largest_skewness",
+                                                               "largest_aspect_ratio",
+                                                               "min_determinant"};
 
 /// The percentile limits, as further targets of improvement.
 std::vector<improve::PercentileTarget> percentile_targets(const QualityGate& gate);
@@ -52,18 +70,25 @@ struct GateLimit {
   bool met() const { return at_most ? value <= limit : value >= limit; }
 };
 
-/// All limits that are set, in the order of their keys. `cells` may be null unless the gate needs it.
+/// What is measured of all shapes. Members may be null unless the gate needs them.
+struct MeasuredCells {
+  const mesh::MixedQuality* cells = nullptr;
+  const mesh::SolverQuality* solver = nullptr;
+};
+
+/// All limits that are set, in the order of their keys.
 std::vector<GateLimit> compare_with_gate(const QualityGate& gate, const mesh::QualitySummary& quality,
                                          const attribution::PinnedReport& pinned,
-                                         const mesh::MixedQuality* cells);
+                                         const MeasuredCells& measured);
 
 /// A message about missed limits, with values and the place of the worst tetrahedron. Empty if none is
-/// missed. `cells` may be null unless the gate needs it.
+/// missed.
 std::string missed_limits(const QualityGate& gate, const mesh::QualitySummary& quality,
-                          const attribution::PinnedReport& pinned, const mesh::MixedQuality* cells);
+                          const attribution::PinnedReport& pinned, const MeasuredCells& measured);
 
 /// The same for a mesh from a file, one line for each limit. Angles are those of all cells; percentiles and
 /// mean ratios are those of tetrahedra.
-std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells);
+std::string missed_limits(const QualityGate& gate, const mesh::MixedQuality& cells,
+                          const mesh::SolverQuality& solver);
 
 }  // namespace aeroloom::cases

@@ -36,6 +36,20 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
   keys.number(
       "min_scaled_jacobian", gate.min_scaled_jacobian, Range::between(-1, 1),
       {"Least scaled Jacobian of pyramids and prisms; it holds for meshes that have them.", "none", "0.1"});
+  keys.number(
+      "largest_non_orthogonality", gate.largest_non_orthogonality, Range::between(0, 180, "degrees"),
+      {"Largest angle between the normal of a face and the line of the centres of its cells, as "
+       "OpenFOAM's `checkMesh` measures it ([definitions](quality.md#as-cell-centred-solvers-judge)).",
+       "none", "70"});
+  keys.number("largest_skewness", gate.largest_skewness, Range::between(0, mesh::largest_ratio),
+              {"Largest skewness of a face, as `checkMesh` measures it.", "none", "4"});
+  keys.number("largest_aspect_ratio", gate.largest_aspect_ratio, Range::between(1, mesh::largest_ratio),
+              {"Largest aspect ratio of a cell, as `checkMesh` measures it. Layers have hundreds and more.",
+               "none", "1000"});
+  keys.number("min_determinant", gate.min_determinant, Range::between(0, 1),
+              {"Least determinant of a cell, as `checkMesh` measures it. A cell with fewer than three inner "
+               "faces has 0.",
+               "none", "0.001"});
   keys.number("area_deviation", gate.area_deviation, Range::between(0, 1),
               "Largest relative error of the area of all walls, and of the volume of a region without far "
               "field, against the CAD. More means that elements are too large for the body, or that the unit "

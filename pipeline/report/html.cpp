@@ -102,7 +102,7 @@ std::string report_html(const std::string& json, const std::vector<Picture>& pic
   using namespace html;
   const Json report = Json::parse(json);
   const std::string body = failure_section(report) + verdict_section(report) + pictures_section(pictures) +
-                           histograms_section(report) + places_section(report) +
+                           histograms_section(report) + solver_section(report) + places_section(report) +
                            patches_section(report, pictures) + warnings_section(report) +
                            geometry_section(report) + stages_section(report) + origin_section(report);
   return fmt::format(

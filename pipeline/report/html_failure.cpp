@@ -92,6 +92,7 @@ std::string tiles_of_flaws(const Json& report) {
     const std::string value = quantity(find(flaw, "/value"));
     if (kind == "shape") all += tile("worst shape in layers", value);
     if (kind == "size_jump") all += tile("largest neighbour over a cell", value);
+    if (kind == "non_orthogonality") all += tile("largest non-orthogonality", degrees(find(flaw, "/value")));
   }
   return all;
 }

@@ -55,8 +55,8 @@ std::string judgement_of_shape(const Json& report) {
       badge(kind, kind), ratio(mean), ratio(least), worst);
 }
 
-/// What was looked for in cells of layers and beside them.
-std::string judgement_of_layers(const Json& report) {
+/// What was looked for in cells of layers, in neighbours and in faces.
+std::string judgement_of_flaws(const Json& report) {
   std::string items;
   for (const Json& flaw : find(report, "/quality/flaws")) {
     const std::string kind = text(find(flaw, "/flaw")), verdict = escaped(text(find(flaw, "/verdict")));
@@ -69,6 +69,12 @@ std::string judgement_of_layers(const Json& report) {
     if (kind == "size_jump")
       items += fmt::format("<li>{} Neighbours of a cell are up to {} times as large ({}).</li>\n",
                            badge(verdict, verdict), quantity(find(flaw, "/value")), at);
+    if (kind == "non_orthogonality")
+      items += fmt::format("<li>{} Faces between cells: non-orthogonality {} at most ({}).</li>\n",
+                           badge(verdict, verdict), degrees(find(flaw, "/value")), at);
+    if (kind == "skewness")
+      items += fmt::format("<li>{} Faces: skewness {} at most ({}).</li>\n", badge(verdict, verdict),
+                           quantity(find(flaw, "/value")), at);
   }
   return items;
 }
@@ -215,7 +221,7 @@ std::string verdict_section(const Json& report) {
       "<ul class=\"verdict\">\n" +
           gate_sentence(gate,
                         number(find(report, "/exit_code")) == static_cast<int>(ExitCode::quality_gate)) +
-          valid + judgement_of(report) + judgement_of_shape(report) + judgement_of_layers(report) +
+          valid + judgement_of(report) + judgement_of_shape(report) + judgement_of_flaws(report) +
           below_target(report) + "</ul>\n" + gate_table(gate) +
           paragraph(
               find(report, "/layers").is_null()

@@ -4,6 +4,7 @@
 #include "pipeline/report/mixed_quality_json.hpp"
 #include "pipeline/report/parts_json.hpp"
 #include "pipeline/report/places_json.hpp"
+#include "pipeline/report/solver_quality_json.hpp"
 
 #include <cstdint>
 #include <set>
@@ -51,9 +52,8 @@ Json distribution_json(const mesh::Distribution& d) {
 
 Json gate_json(const cases::Case& input, const RunRecord& record) {
   Json limits = Json::array();
-  const mesh::MixedQuality* cells = record.cells ? &*record.cells : nullptr;
   std::vector<cases::GateLimit> rows =
-      cases::compare_with_gate(input.gate, *record.quality, record.pinned, cells);
+      cases::compare_with_gate(input.gate, *record.quality, record.pinned, record.measured_cells());
   if (record.layers) {
     const auto more =
         cases::compare_with_gate(input.layers.gate, record.layers->asked, record.layers->report);
@@ -89,6 +89,7 @@ Json quality_json(const cases::Case& input, const RunRecord& record) {
   }
   json["flaws"] = to_json(worst_flaws(record));
   json["places"] = to_json(worst_places(record));
+  if (record.solver) json["solver"] = to_json(*record.solver);
   if (!record.cells) return json;
   json["cells"] = to_json(*record.cells);
   json["cells"].erase("places");

@@ -2,6 +2,7 @@
 
 #include "geometry/place_text.hpp"
 #include "pipeline/report/places_json.hpp"
+#include "pipeline/report/solver_quality_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,10 +126,11 @@ std::string defects_text(const mesh::LinkDefects& defects) {
 
 }  // namespace
 
-std::string quality_text(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
+std::string quality_text(const io::FileMesh& mesh, const mesh::MixedQuality& quality,
+                         const mesh::SolverQuality& solver) {
   std::string text = fmt::format("{} points, {} cells, volume {:.9g}; defects: {}\n", mesh.vertex_count,
                                  mesh.cell_count(), quality.volume, defects_text(quality.defects));
-  text += tables_of_names(mesh, quality);
+  text += solver_text(solver) + tables_of_names(mesh, quality);
   for (const CellShape shape : mesh::cell_shapes) {
     if (mesh.cell_count(shape) > 0) text += table_of_shape(shape, quality);
   }
@@ -138,7 +140,7 @@ std::string quality_text(const io::FileMesh& mesh, const mesh::MixedQuality& qua
       if (of.cells > 0) text += histogram_text(shape, measure, of);
     }
   }
-  return text + worst_text(quality);
+  return text + worst_text(quality) + worst_text(solver);
 }
 
 }  // namespace aeroloom::report

@@ -7,25 +7,31 @@
 
 namespace aeroloom::report {
 
-std::vector<mesh::FlawedCell> worst_places(const VolumeFigures& figures) {
-  if (figures.cells) return figures.cells->places.all;
-  std::vector<mesh::FlawedCell> places;
-  if (!figures.quality) return places;
-  for (const mesh::WorstCell& cell : figures.quality->worst) {
-    places.push_back({cell.value, severity_of(mesh::Flaw::small_angle, cell.value), cell.cell,
+namespace {
+
+mesh::WorstPlaces places_of(const VolumeFigures& figures) {
+  if (figures.cells) return figures.cells->places;
+  mesh::WorstPlaces places;
+  std::vector<mesh::FlawedCell>& angles = places.of[static_cast<std::size_t>(mesh::Flaw::small_angle)];
+  for (std::size_t i = 0; figures.quality && i < figures.quality->worst.size(); ++i) {
+    const mesh::WorstCell& cell = figures.quality->worst[i];
+    angles.push_back({cell.value, severity_of(mesh::Flaw::small_angle, cell.value), cell.cell,
                       mesh::CellShape::tetrahedron, mesh::Flaw::small_angle, cell.center});
   }
+  if (figures.solver) mesh::add_faces(*figures.solver, places);
+  mesh::list_worst_of_all(places);
   return places;
+}
+
+}  // namespace
+
+std::vector<mesh::FlawedCell> worst_places(const VolumeFigures& figures) {
+  return places_of(figures).all;
 }
 
 std::vector<mesh::FlawedCell> worst_flaws(const VolumeFigures& figures) {
   std::vector<mesh::FlawedCell> worst;
-  if (!figures.cells) {
-    const std::vector<mesh::FlawedCell> places = worst_places(figures);
-    if (!places.empty()) worst.push_back(places.front());
-    return worst;
-  }
-  for (const std::vector<mesh::FlawedCell>& of : figures.cells->places.of)
+  for (const std::vector<mesh::FlawedCell>& of : places_of(figures).of)
     if (!of.empty()) worst.push_back(of.front());
   return worst;
 }
@@ -36,6 +42,10 @@ std::string text_of_flaw(const mesh::FlawedCell& place) {
       return fmt::format("an angle of {:.3g} degrees", place.value);
     case mesh::Flaw::bad_shape:
       return fmt::format("a shape of {:.2g}", place.value);
+    case mesh::Flaw::non_orthogonality:
+      return fmt::format("a face with a non-orthogonality of {:.3g} degrees", place.value);
+    case mesh::Flaw::skewness:
+      return fmt::format("a face with a skewness of {:.3g}", place.value);
     case mesh::Flaw::size_jump:
       break;
   }

@@ -9,7 +9,9 @@
 #include "mesh/checks/validity.hpp"
 #include "mesh/quality/mixed_quality.hpp"
 #include "mesh/quality/quality.hpp"
+#include "mesh/quality/solver_quality.hpp"
 #include "parallel/observation/timers.hpp"
+#include "pipeline/case/quality_gate.hpp"
 #include "pipeline/domain/sizing_findings.hpp"
 #include "pipeline/report/picture.hpp"
 #include "sizing/field/size_field.hpp"
@@ -70,9 +72,14 @@ struct VolumeFigures {
   double mesh_volume = 0;
   std::string hash;
   std::optional<mesh::QualitySummary> quality;
-  std::optional<mesh::MixedQuality> cells;  ///< if the mesh has layers, or the gate limits their measures
+  std::optional<mesh::MixedQuality> cells;    ///< if the mesh has layers, or the gate limits their measures
+  std::optional<mesh::SolverQuality> solver;  ///< as `cells`, and if the gate limits its measures
   attribution::PinnedReport pinned;
   std::vector<RegionRow> regions_filled;
+
+  cases::MeasuredCells measured_cells() const {
+    return {cells ? &*cells : nullptr, solver ? &*solver : nullptr};
+  }
 };
 
 /// The facts of a run, from which its report is written. The driver copies the results of each stage into the

@@ -52,7 +52,8 @@ def check_files(run, bare):
     page = (run.output / "report.html").read_text()
     assert "off the boundary layers" in page and "without boundary layers" not in page
     quality = run.report["quality"]
-    assert [flaw["flaw"] for flaw in quality["flaws"]] == ["smallest_angle", "shape", "size_jump"], quality["flaws"]
+    assert [flaw["flaw"] for flaw in quality["flaws"]] == \
+        ["smallest_angle", "shape", "size_jump", "non_orthogonality", "skewness"], quality["flaws"]
     assert len(quality["places"]) == 10 and "Cells of layers: shape" in page and "The worst places, of all cells" in page
     assert numpy.count_nonzero(layer) == row["prisms"] + row["pyramids"] + row["tetrahedra"]
     assert layer.max() == row["layers_max"] > 5 and layer.min() == 0
