@@ -19,7 +19,7 @@ Json class_json(const mesh::FacesOfClass& of) {
           {"volume_ratio_above_30", of.severe_volume_ratios}};
 }
 
-Json worst_json(const std::vector<mesh::SolverPlace>& worst) {
+Json solver_places_json(const std::vector<mesh::SolverPlace>& worst) {
   Json json = Json::array();
   for (const mesh::SolverPlace& place : worst) {
     json.push_back({{"value", place.value},
@@ -50,7 +50,7 @@ Json to_json(const mesh::SolverQuality& quality) {
   for (const mesh::FaceClass face_class : mesh::all_face_classes)
     json["faces"][std::string(name_of(face_class))] = class_json(quality.faces_of(face_class));
   for (const mesh::SolverMeasure measure : mesh::all_solver_measures)
-    json["worst"][std::string(name_of(measure))] = worst_json(quality.worst_of(measure));
+    json["worst"][std::string(name_of(measure))] = solver_places_json(quality.worst_of(measure));
   return json;
 }
 

@@ -105,9 +105,13 @@ def main():
     # The gate: the mesh is written, the exit code says that it is not what was asked for.
     code, text, report = improve(program, imported, raw.folder / "gate", 2,
                                  ("improve.gate.min_mean_ratio=0.99", "improve.gate.largest_angle=179",
-                                  "improve.gate.largest_volume_ratio=1.5", "improve.gate.min_scaled_jacobian=1"))
+                                  "improve.gate.largest_volume_ratio=1.5", "improve.gate.min_scaled_jacobian=1",
+                                  "improve.gate.largest_non_orthogonality=1", "improve.gate.largest_skewness=1e3"))
     assert code == 6 and "min_mean_ratio" in text and "largest_angle" not in text, text
     assert "largest_volume_ratio" in text and "min_scaled_jacobian" not in text, text
+    assert "largest_non_orthogonality is" in text and "a face of cell" in text and "largest_skewness" not in text, text
+    solver = report["quality"]["solver"]
+    assert solver["faces"]["off_layers"]["faces"] == solver["inner_faces"] > 0 == solver["faces"]["at_front"]["faces"], solver
     cells = report["quality"]["cells"]["tetrahedra"]
     assert cells["volume_ratio"]["maximum"] > 1.5 and cells["mean_ratio"]["cells"] == report["mesh"]["tetrahedra"]
     assert abs(cells["mean_ratio"]["mean"] - report["quality"]["mean_mean_ratio"]) < 1e-12

@@ -55,6 +55,12 @@ def check_files(run, bare):
     assert [flaw["flaw"] for flaw in quality["flaws"]] == \
         ["smallest_angle", "shape", "size_jump", "non_orthogonality", "skewness"], quality["flaws"]
     assert len(quality["places"]) == 10 and "Cells of layers: shape" in page and "The worst places, of all cells" in page
+    assert "As cell-centred solvers judge" in page and "within layers" in page
+    faces, solver = quality["solver"]["faces"], quality["solver"]
+    assert all(faces[name]["faces"] > 0 for name in ("within_layers", "at_front", "off_layers")), faces
+    assert sum(of["faces"] for of in faces.values()) == solver["inner_faces"], solver
+    assert solver["boundary_faces"] == mesh["boundary_triangles"] + mesh["boundary_quadrilaterals"], (solver, mesh)
+    assert run.text.count("quality, as solvers judge: ") == 2, run.text
     assert numpy.count_nonzero(layer) == row["prisms"] + row["pyramids"] + row["tetrahedra"]
     assert layer.max() == row["layers_max"] > 5 and layer.min() == 0
     surfaces = [read(vtk.vtkXMLPPolyDataReader(), r.output / "surface.pvtp") for r in (run, Run(*bare))]

@@ -123,7 +123,7 @@ TEST_F(QualityCommand, JsonHasTheNumbersWhateverTheRanks) {
 TEST_F(QualityCommand, TextHasThemForPeopleAndTheFileForPrograms) {
   expect(0, "quality stack.mesh --output new/quality.json",
          {"the wall", "scaled Jacobian of prisms", "#####", "defects: none", "worst places, of all cells",
-          "worst cells", "3 cells turned"});
+          "worst cells", "3 cells turned", "as cell-centred solvers judge", "skewness of faces"});
   const Json report = read_json("new/quality.json");
   expect_counts(report);
   expect_qualities(report["quality"]);
@@ -142,6 +142,10 @@ std::vector<Limit> limits() {
     all.push_back({key, "0", "1"});
   for (const char* key : {"largest_volume_ratio", "largest_edge_ratio"}) all.push_back({key, "1e3", "1"});
   all.push_back({"largest_angle", "180", "1"});
+  all.push_back({"largest_non_orthogonality", "180", "0"});
+  all.push_back({"largest_skewness", "1e3", "0"});
+  all.push_back({"largest_aspect_ratio", "1e6", "1"});
+  all.push_back({"min_determinant", "0", "1"});
   return all;
 }
 
