@@ -121,6 +121,32 @@ TEST_F(StageLog, WarnsOfPoorCells) {
   EXPECT_FALSE(has(jump.warnings, "degrees")) << jump.warnings;
 }
 
+TEST_F(StageLog, SaysWhatSolversMakeOfTheMesh) {
+  report::VolumeFigures figures;
+  mesh::SolverQuality& solver = figures.solver.emplace();
+  solver.cells = 20;
+  solver.inner_faces = 31;
+  solver.largest_non_orthogonality = 86.04;
+  solver.average_non_orthogonality = 12.5;
+  solver.non_orthogonal_faces = 2;
+  solver.largest_skewness = 3.5;
+  const Said said = said_by([&] { log_solver_quality(solver); });
+  EXPECT_TRUE(
+      has(said.facts, "non-orthogonality 86.04 degrees at most, 12.5 on average, 2 of 31 faces above 70"))
+      << said.facts;
+  EXPECT_TRUE(has(said.facts, "skewness 3.5 at most, 0 faces above 4")) << said.facts;
+  EXPECT_TRUE(has(said.facts, "0 of 20 cells above 1000")) << said.facts;
+  solver.worst[static_cast<std::size_t>(mesh::SolverMeasure::non_orthogonality)] = {
+      {86.04, 9, mesh::CellShape::tetrahedron, {1, 2, 3}}};
+  solver.worst[static_cast<std::size_t>(mesh::SolverMeasure::skewness)] = {
+      {3.5, 9, mesh::CellShape::tetrahedron, {1, 2, 3}}};
+  const Said face = said_by([&] { warn_of_flaws(figures); });
+  EXPECT_TRUE(has(face.warnings,
+                  "a face with a non-orthogonality of 86 degrees (cell 9 of the tetrahedra, at (1, 2, 3))"))
+      << face.warnings;
+  EXPECT_FALSE(has(face.warnings, "skewness")) << face.warnings;
+}
+
 TEST_F(StageLog, TellsNeedlesThatTheCadForcesFromThoseOfTheMesh) {
   surface::SurfaceReport report;
   const std::vector<report::FaceRow> faces{{.name = "wing"}, {.name = "body"}};
