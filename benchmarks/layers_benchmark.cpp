@@ -58,7 +58,7 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
   for (const layers::PatchLayers& patch : report.patches) {
     sum.area += patch.area, sum.full_area += patch.full_area, sum.partial_area += patch.partial_area;
     sum.empty_area += patch.empty_area, sum.compressed_area += patch.compressed_area;
-    sum.layers_area += patch.layers_area, sum.isotropic_area += patch.isotropic_area;
+    sum.sums.layers += patch.sums.layers, sum.isotropic_area += patch.isotropic_area;
     for (std::size_t i = 0; i < layers::layer_limit_count; ++i) sum.limited_area[i] += patch.limited_area[i];
     sum.triangles += patch.triangles, sum.prisms += patch.prisms;
     sum.pyramids += patch.pyramids, sum.tetrahedra += patch.tetrahedra;
@@ -115,7 +115,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
       static_cast<long long>(sum.pyramids), static_cast<long long>(sum.tetrahedra), cpu_used,
       stage.cpu_seconds_max, stage.wall_seconds, cells / cpu_used, percent(sum.full_area),
       percent(sum.isotropic_area), percent(sum.partial_area), percent(sum.empty_area),
-      percent(sum.compressed_area), sum.layers_area / sum.area, static_cast<long long>(sum.most_layers),
+      percent(sum.compressed_area), sum.sums.layers / sum.area, static_cast<long long>(sum.most_layers),
       layers.report.validity_rounds, layers.report.crossing_rounds,
       static_cast<long long>(layers.report.crossings), static_cast<long long>(layers.report.zeroed_by_force),
       hash.c_str());

@@ -6,11 +6,10 @@
 namespace aeroloom::layers {
 
 std::int32_t wanted_count(const WallLayers& wanted, double mean_edge) {
-  constexpr double isotropic = 0.7;  // height over mean edge of a prism about as good as a tetrahedron
   std::int32_t count = most_layers;
   if (wanted.count > 0) count = std::min(count, wanted.count);
   if (wanted.growth > 1) {
-    const double steps = std::log(isotropic * mean_edge / wanted.first) / std::log(wanted.growth);
+    const double steps = std::log(isotropic_height * mean_edge / wanted.first) / std::log(wanted.growth);
     const double layers = steps < 0 ? 1 : wanted.constant + std::min<double>(std::round(steps), most_layers);
     count = std::min(count, static_cast<std::int32_t>(layers));
   }

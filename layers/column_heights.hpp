@@ -38,6 +38,9 @@ struct Heights {
 /// The largest number of layers in a column.
 inline constexpr std::int32_t most_layers = 1000;
 
+/// Height over the mean edge of a prism that is about as good as a tetrahedron.
+inline constexpr double isotropic_height = 0.7;
+
 /// The number of layers of a column, at least 1, so that the last layer is about 0.7 of the mean edge length
 /// at the vertex. Count and total height in `wanted` are upper bounds.
 std::int32_t wanted_count(const WallLayers& wanted, double mean_edge);

@@ -90,7 +90,11 @@ struct PatchLayers {
   double low_first_area = 0;  ///< with a first layer, along the wall's normal, below `low` of the requested
   /// Area that is not full, or is compressed, by the limit that acted last (a LayerLimit).
   std::array<double, layer_limit_count> limited_area{};
-  double layers_area = 0;  ///< sum of areas times layers; over `area`: mean number of layers
+  /// Of areas times: number of layers, their height together, length of edges at the column, last layer over
+  /// that. Over `area` they are means.
+  struct Sums {
+    double layers = 0, heights = 0, edges = 0, last = 0;
+  } sums;
   std::int64_t triangles = 0, prisms = 0, pyramids = 0,
                tetrahedra = 0;  ///< wall triangles; cells
   std::int64_t most_layers = 0;

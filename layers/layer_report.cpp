@@ -23,7 +23,10 @@ void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLa
   if (full && limits.last_height(v) >= isotropic_enough * limits.mean_edge(v)) patch.isotropic_area += area;
   if (compressed) patch.compressed_area += area;
   if (!full || compressed) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
-  patch.layers_area += area * count;
+  patch.sums.layers += area * count;
+  patch.sums.heights += area * limits.total(v);
+  patch.sums.edges += area * limits.mean_edge(v);
+  if (limits.mean_edge(v) > 0) patch.sums.last += area * limits.last_height(v) / limits.mean_edge(v);
   patch.most_layers = std::max<std::int64_t>(patch.most_layers, count);
 }
 
@@ -59,13 +62,15 @@ void add_triangle(const LocalWall& wall, const Directions& directions, const Col
 void add_row(const PatchLayers& row, PatchLayers& sum) {
   for (double PatchLayers::*member :
        {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
-        &PatchLayers::isotropic_area, &PatchLayers::compressed_area, &PatchLayers::low_first_area,
-        &PatchLayers::layers_area})
+        &PatchLayers::isotropic_area, &PatchLayers::compressed_area, &PatchLayers::low_first_area})
     sum.*member += row.*member;
   for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
   for (std::int64_t PatchLayers::*member :
        {&PatchLayers::triangles, &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra})
     sum.*member += row.*member;
+  using Sums = PatchLayers::Sums;
+  for (double Sums::*member : {&Sums::layers, &Sums::heights, &Sums::edges, &Sums::last})
+    sum.sums.*member += row.sums.*member;
   sum.most_layers = std::max(sum.most_layers, row.most_layers);
 }
 

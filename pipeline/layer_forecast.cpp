@@ -115,6 +115,7 @@ private:
     sum.least_total = is_first ? total : std::min(sum.least_total, total);
     sum.most_total = std::max(sum.most_total, total);
     sum.area += area;
+    sum.edges_area += area * size;
     const double gap = gap_before(facet, middle, layers::ample_gap(total, size));
     layers::Heights made = heights;
     std::int32_t count = wanted;
@@ -181,6 +182,8 @@ std::string describe_patch(const LayerForecast& forecast, const PatchLayerForeca
       from_to(patch.least_count, patch.most_count), patch.asked.first,
       y_plus ? fmt::format(" (y+ {:.3g} at its node, {:.3g} at its centre)", *y_plus, 0.5 * *y_plus) : "",
       patch.asked.growth, from_to(patch.least_total, patch.most_total));
+  const std::string early = cases::early_end(patch.asked, patch.edges_area / patch.area);
+  if (!early.empty()) text += fmt::format("       {}\n", early);
   const double narrow = patch.compressed_area + patch.lacking_area;
   if (narrow > 0)
     text += fmt::format(
@@ -240,6 +243,9 @@ std::string describe(const LayerForecast& forecast) {
   if (forecast.patches.size() > shown)
     text += fmt::format("layers on {} more patches, see check.json: forecast.layers\n",
                         forecast.patches.size() - shown);
+  if (forecast.reynolds && forecast.length)
+    text += fmt::format("layers: the boundary layer of a flat plate is {:.3g} thick\n",
+                        cases::boundary_layer_thickness(*forecast.reynolds, *forecast.length));
   return text + fmt::format(
                     "layers add: about {:.3g} cells, {:.0f} s on one core, {:.2g} GiB; the tetrahedra "
                     "below are those off them\n",

@@ -100,8 +100,13 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);
   report::LayerRecord record{options, std::move(made.report)};
-  log_layers(record.report);
-  if (surface.communicator.is_root()) warn_of_missing_layers(record, surface.patches);
+  if (input.layers.reynolds && input.layers.length)
+    record.boundary_layer = cases::boundary_layer_thickness(*input.layers.reynolds, *input.layers.length);
+  log_layers(record);
+  if (surface.communicator.is_root()) {
+    warn_of_missing_layers(record, surface.patches);
+    warn_of_low_layers(record, surface.patches);
+  }
   const std::vector<sizing::SizeSource> sizes = sizes_of_cap(surface, made.columns, surface.field);
   sizing::SizeField field = surface.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)

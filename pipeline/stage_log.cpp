@@ -179,11 +179,11 @@ void log_surface_again(const std::string& reason) {
                        cases::with_keys(reason)));
 }
 
-void log_layers(const layers::LayerReport& report) {
+void log_layers(const report::LayerRecord& record) {
   layers::PatchLayers all;
-  for (const layers::PatchLayers& patch : report.patches) {
+  for (const layers::PatchLayers& patch : record.report.patches) {
     all.area += patch.area, all.full_area += patch.full_area, all.empty_area += patch.empty_area;
-    all.low_first_area += patch.low_first_area;
+    all.low_first_area += patch.low_first_area, all.sums.heights += patch.sums.heights;
     all.prisms += patch.prisms, all.pyramids += patch.pyramids, all.tetrahedra += patch.tetrahedra;
   }
   const double area = std::max(all.area, std::numeric_limits<double>::min());
@@ -192,11 +192,46 @@ void log_layers(const layers::LayerReport& report) {
       "{:.1f} % none; on {:.1f} % the first is lower than {:g} of what is asked for",
       all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area,
       100 * all.low_first_area / area, layers::PatchLayers::low));
+  const std::string plate =
+      record.boundary_layer
+          ? fmt::format("; the boundary layer of a flat plate is {:.3g}", *record.boundary_layer)
+          : "";
+  log_info(fmt::format("layers: together {:.3g} high on average{}", all.sums.heights / area, plate));
 }
 
 void warn_of_missing_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches) {
   const std::string text = cases::missing_layers(layers.asked, layers.report, patches);
   if (!text.empty()) parallel::log_warning("layers: " + text);
+}
+
+namespace {
+
+/// That the layers of a patch are lower than the boundary layer; else empty.
+std::string below_boundary_layer(const std::optional<double>& thickness, const layers::PatchLayers& made) {
+  constexpr double wanted = 1.2;
+  const double height = made.sums.heights / made.area;
+  if (!thickness || height >= wanted * *thickness) return {};
+  return fmt::format("layers are {:.3g} high on average, where a boundary layer on a flat plate is {:.3g}",
+                     height, *thickness);
+}
+
+}  // namespace
+
+void warn_of_low_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches) {
+  for (std::size_t p = 0; p < layers.report.patches.size(); ++p) {
+    const layers::PatchLayers& made = layers.report.patches[p];
+    if (made.area <= 0) continue;
+    const std::string early = cases::early_end(layers.asked.patches.at(p), made.sums.edges / made.area);
+    if (!early.empty())
+      parallel::log_warning(
+          fmt::format("layers: on '{}' {}. Remedy: a larger layers.count or layers.total, or neither",
+                      patches.at(p), early));
+    const std::string low = below_boundary_layer(layers.boundary_layer, made);
+    if (!low.empty())
+      parallel::log_warning(fmt::format(
+          "layers: on '{}' {}. Remedy: more layers (layers.count, layers.total), or larger sizes on the wall",
+          patches.at(p), low));
+  }
 }
 
 void log_decompose(const volume::DecompositionReport& report) {

@@ -31,9 +31,12 @@ void warn_of_lost_area(const std::vector<report::PatchRow>& patches);
 void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces);
 /// Joined faces could not be meshed: the surface is meshed again without joining.
 void log_surface_again(const std::string& reason);
-void log_layers(const layers::LayerReport& report);
+void log_layers(const report::LayerRecord& layers);
 /// Warns of walls that ask for layers and have none. `patches`: names by patch. One rank calls.
 void warn_of_missing_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches);
+/// Warns of walls whose layers, by their count or total, end much lower than sizes there, or lower than the
+/// boundary layer. One rank calls.
+void warn_of_low_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches);
 void log_decompose(const volume::DecompositionReport& report);
 /// Warns where many more tetrahedra are expected than were forecast. `resize_rounds`: of the surface.
 void warn_of_count(double expected, double forecast, int resize_rounds);

@@ -100,6 +100,11 @@ double first_height(double y_plus, double reynolds, double length, sizing::Solve
   return points == sizing::SolverPoints::cell ? 2 * height : height;
 }
 
+double boundary_layer_thickness(double reynolds, double length) {
+  constexpr double of_flat_plate = 0.37;
+  return of_flat_plate * length / std::pow(reynolds, 0.2);
+}
+
 double y_plus_of(double first, double reynolds, double length) {
   return first / first_height(1, reynolds, length, sizing::SolverPoints::vertex);
 }
@@ -112,6 +117,21 @@ layers::WallLayers wanted_layers(const LayerRequest& request, const SizingReques
   if (!has_growth && wanted.first > 0 && wanted.count > 0 && wanted.total > 0)
     wanted = with_growth_of_total(wanted, request.growth_maximum);
   return at_scale(wanted, sizing.scale);
+}
+
+std::string early_end(const layers::WallLayers& asked, double edge) {
+  constexpr double enough = 0.5;
+  if (asked.count == 0 && asked.total <= 0) return {};
+  const layers::Heights heights{asked.first, asked.growth, asked.constant};
+  const std::int32_t count = layers::wanted_count(asked, edge);
+  const double share = heights.last(count) / (layers::isotropic_height * edge);
+  if (share >= enough) return {};
+  layers::WallLayers free = asked;
+  free.count = 0, free.total = 0;
+  const std::string needed =
+      asked.growth > 1 ? fmt::format("; {} are needed", layers::wanted_count(free, edge)) : "";
+  return fmt::format("{} layers end at {:.3g}, where the last is {:.2g} % of what meets the sizes above{}",
+                     count, heights.total(count), 100 * share, needed);
 }
 
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,

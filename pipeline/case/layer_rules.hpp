@@ -55,6 +55,10 @@ struct LayerRequest {
 /// cell-centred solvers y+ is that of the cell's centre: the height is doubled.
 double first_height(double y_plus, double reynolds, double length, sizing::SolverPoints points);
 
+/// Of a turbulent boundary layer on a flat plate at the length L: 0.37 L / Re^(1/5) (Schlichting and Gersten,
+/// Boundary-Layer Theory, section 2.3).
+double boundary_layer_thickness(double reynolds, double length);
+
 /// The inverse: y+ of a first height, for a vertex-centred solver.
 double y_plus_of(double first, double reynolds, double length);
 
@@ -65,6 +69,10 @@ struct SizingRequest;
 /// follows from them.
 layers::WallLayers wanted_layers(const LayerRequest& request, const SizingRequest& sizing,
                                  const LayerRule* rule = nullptr);
+
+/// Where the count or total of layers ends them before the last is half as high as meets sizes over edges of
+/// this length: "30 layers end at 0.011, ...; 47 are needed". Else empty.
+std::string early_end(const layers::WallLayers& asked, double edge);
 
 /// The layers of each patch. Throws std::invalid_argument, with the place in the case, for a rule whose patch
 /// does not exist (with the nearest name) or is no wall.

@@ -57,6 +57,8 @@ struct RegionRow {
 struct LayerRecord {
   layers::LayerOptions asked;
   layers::LayerReport report;
+  /// Thickness of a flat plate's boundary layer at the case's Reynolds number, if it has one.
+  std::optional<double> boundary_layer = {};
 };
 
 /// The results of checking a finished surface mesh.

@@ -183,5 +183,26 @@ TEST_F(StageLog, SaysNothingOfPinnedElementsWhereThereAreNone) {
   EXPECT_TRUE(has(said.facts, "5 (from 3 degrees) are pinned by 0 sharp places")) << said.facts;
 }
 
+TEST_F(StageLog, WarnsOfLayersBelowTheBoundaryLayer) {
+  report::LayerRecord record;
+  record.asked.patches = {{.first = 1e-3, .growth = 1.2, .constant = 1, .count = 10, .total = 0}, {}};
+  record.report.patches.resize(2);
+  layers::PatchLayers& made = record.report.patches[0];
+  made.area = 2, made.sums.heights = 2 * 0.026, made.sums.edges = 2;
+  record.boundary_layer = 0.02;
+  const Said high = said_by([&] { warn_of_low_layers(record, {"wing", "far"}); });
+  EXPECT_TRUE(has(high.warnings, "layers: on 'wing' 10 layers end at 0.026")) << high.warnings;
+  EXPECT_FALSE(has(high.warnings, "boundary layer")) << high.warnings;
+  record.asked.patches[0].count = 0;
+  record.boundary_layer = 0.025;
+  const Said low = said_by([&] { warn_of_low_layers(record, {"wing", "far"}); });
+  EXPECT_TRUE(has(low.warnings, "layers: on 'wing' layers are 0.026 high on average, where a boundary layer"))
+      << low.warnings;
+  EXPECT_FALSE(has(low.warnings, "layers end")) << low.warnings;
+  const Said facts = said_by([&] { log_layers(record); });
+  EXPECT_TRUE(has(facts.facts, "together 0.026 high on average; the boundary layer of a flat plate is 0.025"))
+      << facts.facts;
+}
+
 }  // namespace
 }  // namespace aeroloom::pipeline

@@ -129,6 +129,21 @@ TEST_F(LayerKeys, GrowthFollowsFromCountAndTotal) {
   EXPECT_NEAR(of_patch.growth, fitted.growth, 1e-12);
 }
 
+TEST(EarlyEnd, IsToldWithTheNumberThatIsNeeded) {
+  layers::WallLayers asked{.first = 1e-3, .growth = 1.2, .constant = 1, .count = 0, .total = 0};
+  EXPECT_EQ(early_end(asked, 1), "") << "nothing ends them";
+  const std::int32_t needed = layers::wanted_count(asked, 1);
+  asked.count = needed;
+  EXPECT_EQ(early_end(asked, 1), "");
+  asked.count = 10;
+  const std::string text = early_end(asked, 1);
+  EXPECT_NE(text.find("10 layers end at 0.026, where the last is 0.74 %"), std::string::npos) << text;
+  EXPECT_NE(text.find("; " + std::to_string(needed) + " are needed"), std::string::npos) << text;
+  EXPECT_EQ(early_end(asked, 0.004), "") << "small edges";
+  asked.count = 0, asked.total = 0.026;
+  EXPECT_NE(early_end(asked, 1).find(" are needed"), std::string::npos);
+}
+
 // Sums of heights stay about the same, so that a family of meshes resolves the same part of the flow.
 TEST_F(LayerKeys, TakeTheScaleOfTheSizes) {
   const std::string asked =
