@@ -23,8 +23,8 @@ struct FoamSetting {
 /// All dictionaries but decomposeParDict.
 std::vector<FoamSetting> foam_dictionaries();
 /// The values that the fields use. The viscosity follows from the Reynolds number; without one it is that of
-/// air in the unit of the mesh.
-/// `is_external`: with a far field, the flow starts with its state; otherwise at rest.
+/// air in the unit of the mesh. `is_external`: with a far field, the flow starts with its state; otherwise at
+/// rest.
 FoamSetting foam_conditions(const FlowReference& flow, bool is_external);
 
 /// A script that runs the case.

@@ -34,14 +34,6 @@ struct MeasureDistribution {
   MeasureHistogram histogram;
 };
 
-struct WorstCellOfShape {
-  double value = 0;
-  /// Number in the whole mesh: by piece, in a piece tetrahedra, then pyramids, then prisms.
-  GlobalIndex cell = 0;
-  CellShape shape = CellShape::tetrahedron;
-  geometry::Vec3 center;  ///< mean of the corners
-};
-
 struct MixedQuality {
   std::array<std::array<MeasureDistribution, measure_count>, cell_shape_count> of;  ///< by shape and Measure
   /// The ten worst of all shapes by Measure, worst first, ties by number.

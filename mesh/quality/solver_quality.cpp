@@ -25,7 +25,7 @@ bool larger_is_kept(std::size_t measure) {
   return all_solver_measures[measure] != SolverMeasure::non_orthogonality &&
          larger_is_worse(all_solver_measures[measure]);
 }
-bool is_worse_place(std::size_t measure, const SolverPlace& a, const SolverPlace& b) {
+bool is_worse_place(std::size_t measure, const WorstCellOfShape& a, const WorstCellOfShape& b) {
   const double sign = larger_is_kept(measure) ? -1 : 1;
   return std::make_tuple(sign * a.value, a.cell) < std::make_tuple(sign * b.value, b.cell);
 }
@@ -159,7 +159,7 @@ public:
   }
 
   const std::vector<PieceRow>& rows() const { return _rows; }
-  const std::vector<SolverPlace>& worst(std::size_t measure) const { return _worst[measure]; }
+  const std::vector<WorstCellOfShape>& worst(std::size_t measure) const { return _worst[measure]; }
 
 private:
   using Word = std::vector<Told<CellFacts>>::const_iterator;
@@ -177,7 +177,7 @@ private:
     }
     const double aspect = aspect_ratio(faces, geometry.volume), determinant = inner.determinant();
     _rows[p].add_cell(aspect, determinant);
-    SolverPlace place{aspect, _mesh.numbering.first_cell[p] + c, cell.shape(), geometry.center};
+    WorstCellOfShape place{aspect, _mesh.numbering.first_cell[p] + c, cell.shape(), geometry.center};
     keep(SolverMeasure::aspect_ratio, place);
     place.value = determinant;
     keep(SolverMeasure::determinant, place);
@@ -189,7 +189,7 @@ private:
     const CellNeighbour* neighbours = _links.pieces[p].neighbours.data() + first_side(piece, c);
     const CellAtHand cell(piece, c);
     const CellFacts own = facts_of(p, c);
-    const SolverPlace here{0, _mesh.numbering.first_cell[p] + c, cell.shape(), {}};
+    const WorstCellOfShape here{0, _mesh.numbering.first_cell[p] + c, cell.shape(), {}};
     WorstFaces worst(here);
     std::array<Vec3, 4> storage;
     for (std::size_t side = 0; side < cell.face_count(); ++side) {
@@ -223,20 +223,20 @@ private:
   /// The worst face of one cell by measure.
   class WorstFaces {
   public:
-    explicit WorstFaces(const SolverPlace& cell) { _of.fill(cell); }
+    explicit WorstFaces(const WorstCellOfShape& cell) { _of.fill(cell); }
     void meet(SolverMeasure measure, double value, Vec3 center) {
       const auto m = static_cast<std::size_t>(measure);
-      SolverPlace& worst = _of[m];
+      WorstCellOfShape& worst = _of[m];
       if (_has[m] && (larger_is_kept(m) ? value <= worst.value : value >= worst.value)) return;
       _has[m] = true;
       worst.value = value;
       worst.center = center;
     }
     bool has(SolverMeasure measure) const { return _has[static_cast<std::size_t>(measure)]; }
-    const SolverPlace& of(SolverMeasure measure) const { return _of[static_cast<std::size_t>(measure)]; }
+    const WorstCellOfShape& of(SolverMeasure measure) const { return _of[static_cast<std::size_t>(measure)]; }
 
   private:
-    std::array<SolverPlace, solver_measure_count> _of;
+    std::array<WorstCellOfShape, solver_measure_count> _of;
     std::array<bool, solver_measure_count> _has{};
   };
 
@@ -255,14 +255,15 @@ private:
     return {_cells[p][static_cast<std::size_t>(c)], in_layers ? 1 : 0};
   }
 
-  void keep(SolverMeasure measure, const SolverPlace& candidate) {
+  void keep(SolverMeasure measure, const WorstCellOfShape& candidate) {
     const auto m = static_cast<std::size_t>(measure);
-    std::vector<SolverPlace>& kept = _worst[m];
+    std::vector<WorstCellOfShape>& kept = _worst[m];
     if (kept.size() == kept_per_solver_measure && !is_worse_place(m, candidate, kept.back())) return;
-    kept.insert(
-        std::upper_bound(kept.begin(), kept.end(), candidate,
-                         [m](const SolverPlace& a, const SolverPlace& b) { return is_worse_place(m, a, b); }),
-        candidate);
+    kept.insert(std::upper_bound(kept.begin(), kept.end(), candidate,
+                                 [m](const WorstCellOfShape& a, const WorstCellOfShape& b) {
+                                   return is_worse_place(m, a, b);
+                                 }),
+                candidate);
     if (kept.size() > kept_per_solver_measure) kept.pop_back();
   }
 
@@ -271,18 +272,19 @@ private:
   bool _layers_known;
   std::vector<std::vector<CellGeometry>> _cells;  // by piece
   std::vector<PieceRow> _rows;
-  std::array<std::vector<SolverPlace>, solver_measure_count> _worst;
+  std::array<std::vector<WorstCellOfShape>, solver_measure_count> _worst;
 };
 
 /// Of all ranks. Collective.
-std::vector<SolverPlace> worst_places(const parallel::Communicator& communicator, std::size_t measure,
-                                      const std::vector<SolverPlace>& mine) {
-  auto all = communicator.all_gather_items(std::span<const SolverPlace>(mine));
-  std::sort(all.begin(), all.end(),
-            [measure](const SolverPlace& a, const SolverPlace& b) { return is_worse_place(measure, a, b); });
+std::vector<WorstCellOfShape> worst_places(const parallel::Communicator& communicator, std::size_t measure,
+                                           const std::vector<WorstCellOfShape>& mine) {
+  auto all = communicator.all_gather_items(std::span<const WorstCellOfShape>(mine));
+  std::sort(all.begin(), all.end(), [measure](const WorstCellOfShape& a, const WorstCellOfShape& b) {
+    return is_worse_place(measure, a, b);
+  });
   if (all.size() > kept_per_solver_measure) all.resize(kept_per_solver_measure);
   if (all_solver_measures[measure] == SolverMeasure::non_orthogonality) {
-    for (SolverPlace& place : all) place.value = degrees_of_cosine(place.value);
+    for (WorstCellOfShape& place : all) place.value = degrees_of_cosine(place.value);
   }
   return all;
 }
@@ -364,7 +366,7 @@ void add_faces(const SolverQuality& quality, WorstPlaces& places) {
                                       std::pair(SolverMeasure::skewness, Flaw::skewness)}) {
     std::vector<FlawedCell>& of = places.of[static_cast<std::size_t>(flaw)];
     of.clear();
-    for (const SolverPlace& place : quality.worst_of(measure)) {
+    for (const WorstCellOfShape& place : quality.worst_of(measure)) {
       of.push_back(
           {place.value, severity_of(flaw, place.value), place.cell, place.shape, flaw, place.center});
     }

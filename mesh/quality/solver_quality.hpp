@@ -56,14 +56,6 @@ struct FacesOfClass {
   GlobalIndex high_volume_ratios = 0, severe_volume_ratios = 0;  ///< those above the bounds with these names
 };
 
-struct SolverPlace {
-  double value = 0;
-  /// Number in the whole mesh, as WorstCellOfShape::cell; of both cells at a face that of the lower number.
-  GlobalIndex cell = 0;
-  CellShape shape = CellShape::tetrahedron;
-  geometry::Vec3 center;  ///< of the face, or of the cell
-};
-
 /// Zero where there are no such faces or cells.
 struct SolverQuality {
   GlobalIndex cells = 0, inner_faces = 0, boundary_faces = 0;
@@ -76,11 +68,12 @@ struct SolverQuality {
   double smallest_determinant = 0, mean_determinant = 0;
   GlobalIndex underdetermined_cells = 0;                    ///< below severe_determinant
   double smallest_volume_ratio = 0, mean_volume_ratio = 0;  ///< smaller over larger
-  /// The ten worst by SolverMeasure, worst first, ties by number; of each cell its worst face.
-  std::array<std::vector<SolverPlace>, solver_measure_count> worst;
+  /// The ten worst by SolverMeasure, worst first, ties by number; of each cell its worst face. The number is
+  /// the lower one of both cells at a face, the centre that of the face or of the cell.
+  std::array<std::vector<WorstCellOfShape>, solver_measure_count> worst;
   std::array<FacesOfClass, face_class_count> of_class;
 
-  const std::vector<SolverPlace>& worst_of(SolverMeasure measure) const {
+  const std::vector<WorstCellOfShape>& worst_of(SolverMeasure measure) const {
     return worst[static_cast<std::size_t>(measure)];
   }
   const FacesOfClass& faces_of(FaceClass face_class) const {

@@ -9,6 +9,15 @@
 
 namespace aeroloom::mesh {
 
+/// One of the worst cells by a measure.
+struct WorstCellOfShape {
+  double value = 0;
+  /// Number in the whole mesh: by piece, in a piece tetrahedra, then pyramids, then prisms.
+  GlobalIndex cell = 0;
+  CellShape shape = CellShape::tetrahedron;
+  geometry::Vec3 center;  ///< mean of the corners
+};
+
 /// The worst cells by flaw and of all, worst first, ties by number.
 struct WorstPlaces {
   std::array<std::vector<FlawedCell>, flaw_count> of;  ///< by Flaw

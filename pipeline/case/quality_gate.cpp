@@ -21,17 +21,20 @@ std::string line(const char* key, double value, double limit, const char* side) 
   return fmt::format("\n  improve.gate.{} is {:.4g}, not {:g} {}", key, value, limit, side);
 }
 
-/// The worst cell by a measure against its limit.
+/// The worst cell against the limit of its measure; `what` of it has the value.
+std::string missed_by(const mesh::WorstCellOfShape& worst, double limit, bool at_most, const char* key,
+                      const char* what) {
+  if (at_most ? worst.value <= limit : worst.value >= limit) return {};
+  return line(key, worst.value, limit, at_most ? "at most" : "at least") +
+         fmt::format(" ({}cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", what, worst.cell,
+                     mesh::name_of(worst.shape), worst.center.x, worst.center.y, worst.center.z);
+}
+
 std::string missed_limit(const mesh::MixedQuality& cells, Measure measure, const std::optional<double>& limit,
                          const char* key) {
   const auto& worst = cells.worst[static_cast<std::size_t>(measure)];
   if (!limit || worst.empty()) return {};
-  const mesh::WorstCellOfShape& cell = worst.front();
-  const bool at_most = mesh::larger_is_worse(measure);
-  if (at_most ? cell.value <= *limit : cell.value >= *limit) return {};
-  return line(key, cell.value, *limit, at_most ? "at most" : "at least") +
-         fmt::format(" (cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", cell.cell, mesh::name_of(cell.shape),
-                     cell.center.x, cell.center.y, cell.center.z);
+  return missed_by(worst.front(), *limit, mesh::larger_is_worse(measure), key, "");
 }
 
 std::string missed_ratios(const QualityGate& gate, const mesh::MixedQuality& cells) {
@@ -57,14 +60,9 @@ std::string missed_by_solvers(const QualityGate& gate, const mesh::SolverQuality
   std::string text;
   for (const auto& [key, measure, limit] : solver_limits(gate)) {
     if (!limit || solver.worst_of(measure).empty()) continue;
-    const mesh::SolverPlace& place = solver.worst_of(measure).front();
-    const bool at_most = mesh::larger_is_worse(measure);
-    if (at_most ? place.value <= *limit : place.value >= *limit) continue;
     const bool of_face = measure == SolverMeasure::non_orthogonality || measure == SolverMeasure::skewness;
-    text +=
-        line(key, place.value, *limit, at_most ? "at most" : "at least") +
-        fmt::format(" ({}cell {} of the {}, at {:.6g}, {:.6g}, {:.6g})", of_face ? "a face of " : "",
-                    place.cell, mesh::name_of(place.shape), place.center.x, place.center.y, place.center.z);
+    text += missed_by(solver.worst_of(measure).front(), *limit, mesh::larger_is_worse(measure), key,
+                      of_face ? "a face of " : "");
   }
   return text;
 }

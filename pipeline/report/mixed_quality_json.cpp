@@ -1,6 +1,5 @@
 #include "pipeline/report/mixed_quality_json.hpp"
 
-#include "pipeline/report/change_json.hpp"
 #include "pipeline/report/places_json.hpp"
 
 #include <string>
@@ -23,17 +22,6 @@ Json measure_json(const mesh::MeasureDistribution& of) {
   return json;
 }
 
-Json worst_json(const std::vector<mesh::WorstCellOfShape>& worst) {
-  Json json = Json::array();
-  for (const mesh::WorstCellOfShape& cell : worst) {
-    json.push_back({{"value", cell.value},
-                    {"shape", mesh::name_of(cell.shape)},
-                    {"cell", cell.cell},
-                    {"center", to_json(cell.center)}});
-  }
-  return json;
-}
-
 }  // namespace
 
 Json to_json(const mesh::MixedQuality& quality) {
@@ -47,7 +35,7 @@ Json to_json(const mesh::MixedQuality& quality) {
   }
   for (const mesh::Measure measure : mesh::all_measures) {
     const auto& worst = quality.worst[static_cast<std::size_t>(measure)];
-    if (!worst.empty()) json["worst"][std::string(name_of(measure))] = worst_json(worst);
+    if (!worst.empty()) json["worst"][std::string(name_of(measure))] = to_json(worst);
   }
   json["places"] = to_json(quality.places.all);
   return json;

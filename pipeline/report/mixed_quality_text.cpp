@@ -1,6 +1,5 @@
 #include "pipeline/report/mixed_quality_text.hpp"
 
-#include "geometry/place_text.hpp"
 #include "pipeline/report/places_json.hpp"
 #include "pipeline/report/solver_quality_text.hpp"
 
@@ -104,10 +103,7 @@ std::string worst_text(const mesh::MixedQuality& quality) {
     const auto& worst = quality.worst[static_cast<std::size_t>(measure)];
     if (worst.empty()) continue;
     text += fmt::format("{}\n", title_of(measure));
-    for (const mesh::WorstCellOfShape& cell : worst) {
-      text += fmt::format("{:>14.6g}  {:<10} {:>13} at {}\n", cell.value, mesh::name_of(cell.shape),
-                          cell.cell, geometry::place_text(cell.center));
-    }
+    text += list_of_worst(worst);
   }
   return text;
 }

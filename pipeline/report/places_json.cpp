@@ -70,4 +70,24 @@ nlohmann::ordered_json to_json(const std::vector<mesh::FlawedCell>& places) {
   return json;
 }
 
+nlohmann::ordered_json to_json(const std::vector<mesh::WorstCellOfShape>& worst) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const mesh::WorstCellOfShape& cell : worst) {
+    json.push_back({{"value", cell.value},
+                    {"shape", mesh::name_of(cell.shape)},
+                    {"cell", cell.cell},
+                    {"center", to_json(cell.center)}});
+  }
+  return json;
+}
+
+std::string list_of_worst(const std::vector<mesh::WorstCellOfShape>& worst) {
+  std::string text;
+  for (const mesh::WorstCellOfShape& cell : worst) {
+    text += fmt::format("{:>14.6g}  {:<10} {:>13} at {}\n", cell.value, mesh::name_of(cell.shape), cell.cell,
+                        geometry::place_text(cell.center));
+  }
+  return text;
+}
+
 }  // namespace aeroloom::report

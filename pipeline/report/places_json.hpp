@@ -24,5 +24,8 @@ std::string text_of_place(const mesh::FlawedCell& place);
 std::string text_of_flaw(const mesh::FlawedCell& place);
 
 nlohmann::ordered_json to_json(const std::vector<mesh::FlawedCell>& places);
+nlohmann::ordered_json to_json(const std::vector<mesh::WorstCellOfShape>& worst);
+/// A line for each.
+std::string list_of_worst(const std::vector<mesh::WorstCellOfShape>& worst);
 
 }  // namespace aeroloom::report

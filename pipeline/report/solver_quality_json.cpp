@@ -1,6 +1,6 @@
 #include "pipeline/report/solver_quality_json.hpp"
 
-#include "pipeline/report/change_json.hpp"
+#include "pipeline/report/places_json.hpp"
 
 #include <string>
 
@@ -17,17 +17,6 @@ Json class_json(const mesh::FacesOfClass& of) {
           {"largest_volume_ratio", of.largest_volume_ratio},
           {"volume_ratio_above_10", of.high_volume_ratios},
           {"volume_ratio_above_30", of.severe_volume_ratios}};
-}
-
-Json solver_places_json(const std::vector<mesh::SolverPlace>& worst) {
-  Json json = Json::array();
-  for (const mesh::SolverPlace& place : worst) {
-    json.push_back({{"value", place.value},
-                    {"shape", mesh::name_of(place.shape)},
-                    {"cell", place.cell},
-                    {"center", to_json(place.center)}});
-  }
-  return json;
 }
 
 }  // namespace
@@ -50,7 +39,7 @@ Json to_json(const mesh::SolverQuality& quality) {
   for (const mesh::FaceClass face_class : mesh::all_face_classes)
     json["faces"][std::string(name_of(face_class))] = class_json(quality.faces_of(face_class));
   for (const mesh::SolverMeasure measure : mesh::all_solver_measures)
-    json["worst"][std::string(name_of(measure))] = solver_places_json(quality.worst_of(measure));
+    json["worst"][std::string(name_of(measure))] = to_json(quality.worst_of(measure));
   return json;
 }
 

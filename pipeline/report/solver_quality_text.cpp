@@ -1,6 +1,6 @@
 #include "pipeline/report/solver_quality_text.hpp"
 
-#include "geometry/place_text.hpp"
+#include "pipeline/report/places_json.hpp"
 
 #include <array>
 #include <string_view>
@@ -49,13 +49,10 @@ std::string solver_text(const mesh::SolverQuality& quality) {
 std::string worst_text(const mesh::SolverQuality& quality) {
   std::string text = "\nworst as cell-centred solvers judge, with the middles of faces or cells\n";
   for (const mesh::SolverMeasure measure : mesh::all_solver_measures) {
-    const std::vector<mesh::SolverPlace>& worst = quality.worst_of(measure);
+    const std::vector<mesh::WorstCellOfShape>& worst = quality.worst_of(measure);
     if (worst.empty()) continue;
     text += fmt::format("{}\n", measure_titles[static_cast<std::size_t>(measure)]);
-    for (const mesh::SolverPlace& place : worst) {
-      text += fmt::format("{:>14.6g}  {:<10} {:>13} at {}\n", place.value, mesh::name_of(place.shape),
-                          place.cell, geometry::place_text(place.center));
-    }
+    text += list_of_worst(worst);
   }
   return text;
 }

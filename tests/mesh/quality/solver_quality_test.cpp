@@ -57,12 +57,12 @@ DistributedMesh column(const std::vector<Level>& levels, const std::vector<int>&
   return hand_made(Communicator::world(), points, cells, layers);
 }
 
-const SolverPlace& worst(const SolverQuality& quality, SolverMeasure measure) {
-  static const SolverPlace none{-1, -1, tet, {}};
+const WorstCellOfShape& worst(const SolverQuality& quality, SolverMeasure measure) {
+  static const WorstCellOfShape none{-1, -1, tet, {}};
   return quality.worst_of(measure).empty() ? none : quality.worst_of(measure).front();
 }
 
-void expect_at(const SolverPlace& place, GlobalIndex cell, CellShape shape, Vec3 center) {
+void expect_at(const WorstCellOfShape& place, GlobalIndex cell, CellShape shape, Vec3 center) {
   EXPECT_EQ(place.cell, cell);
   EXPECT_EQ(place.shape, shape);
   EXPECT_NEAR(distance(place.center, center), 0, 1e-12);
@@ -254,11 +254,12 @@ TEST(SolverQuality, CountsEachFaceOnce) {
   EXPECT_EQ(of_classes, quality.inner_faces);
   EXPECT_GT(quality.faces_of(FaceClass::at_front).faces, 0);
   for (const SolverMeasure measure : all_solver_measures) {
-    const std::vector<SolverPlace>& list = quality.worst_of(measure);
+    const std::vector<WorstCellOfShape>& list = quality.worst_of(measure);
     ASSERT_EQ(list.size(), 10u) << name_of(measure);
-    EXPECT_TRUE(std::is_sorted(list.begin(), list.end(), [&](const SolverPlace& a, const SolverPlace& b) {
-      return larger_is_worse(measure) ? a.value > b.value : a.value < b.value;
-    }));
+    EXPECT_TRUE(
+        std::is_sorted(list.begin(), list.end(), [&](const WorstCellOfShape& a, const WorstCellOfShape& b) {
+          return larger_is_worse(measure) ? a.value > b.value : a.value < b.value;
+        }));
   }
   EXPECT_EQ(worst(quality, SolverMeasure::skewness).value, quality.largest_skewness);
   EXPECT_EQ(worst(quality, SolverMeasure::non_orthogonality).value, quality.largest_non_orthogonality);
@@ -278,7 +279,7 @@ void expect_same(const SolverQuality& a, const SolverQuality& b) {
     EXPECT_EQ(a.of_class[c].largest_volume_ratio, b.of_class[c].largest_volume_ratio);
   }
   for (const SolverMeasure measure : all_solver_measures) {
-    const std::vector<SolverPlace>&x = a.worst_of(measure), &y = b.worst_of(measure);
+    const std::vector<WorstCellOfShape>&x = a.worst_of(measure), &y = b.worst_of(measure);
     ASSERT_EQ(x.size(), y.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
       EXPECT_EQ(x[i].value, y[i].value);
