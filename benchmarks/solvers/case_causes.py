@@ -7,7 +7,6 @@ Cases are those of case_runs.py, meshed with layers at y+ 1. A run that exceeds 
 there already in FOLDER is not done again. Needs OpenFOAM and, for some, gmsh.
 """
 import argparse
-import math
 import pathlib
 import re
 import shutil
@@ -101,7 +100,9 @@ def judge(folder):
     lived = next((i for i, speed in enumerate(speeds) if not speed < DEAD), len(speeds))
     drag = case_runs.coefficients(folder).get("Cd", [])[:lived]
     continuity = re.findall(r"sum local = ([^,]+),", "".join(steps[:lived]))
-    return (lived, f"{max(speeds[:lived], default=math.nan):.3g}", f"{case_runs.fall_of(case_runs.read_residuals(steps[:lived])):.0f}",
+    if lived == 0:
+        return 0, "–", "–", "–", "–"
+    return (lived, f"{max(speeds[:lived]):.3g}", f"{case_runs.fall_of(case_runs.read_residuals(steps[:lived])):.0f}",
             f"{float(continuity[-1]):.1g}" if continuity else "–", f"{drag[-1]:.4g}" if drag else "–")
 
 

@@ -205,7 +205,10 @@ def judge(options, case, written):
     if case.streamlined:
         good = good and max(drifts) <= AGREEMENT
     cells = re.search(r"cells:\s+(\d+)", (written / "log.checkMesh").read_text()) if (written / "log.checkMesh").exists() else None
-    return good, (f"{int(cells.group(1)):,}" if cells else "–", len(steps), f"{fall:.0f}", f"{speed:.2f}",
+    cell_count = f"{int(cells.group(1)):,}" if cells else "–"
+    if len(steps) < options.iterations:  # what a dying run says is nothing
+        return False, (cell_count, f"dies, {len(steps)}", *["–"] * 6)
+    return good, (cell_count, len(steps), f"{fall:.0f}", f"{speed:.2f}",
                   f"{drag[-1]:.5g}" if drag else "–", f"{lift[-1]:.5g}" if lift else "–", f"{100 * max(drifts):.2g}", f"{100 * low:.2g}")
 
 
