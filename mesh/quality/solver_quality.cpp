@@ -104,8 +104,8 @@ public:
   /// Fills `corners`; valid until that is filled again.
   std::span<const Vec3> corners_at(std::size_t side, std::array<Vec3, 4>& corners) const {
     std::size_t count = 0;
-    for (const int k : faces_of(_place.shape)[side]) {
-      if (k >= 0) corners[count++] = _points[static_cast<std::size_t>(k)];
+    for (const std::int8_t k : faces_of(_place.shape)[side]) {
+      if (k >= 0) corners[count++] = _points[static_cast<std::uint8_t>(k)];
     }
     return {corners.data(), count};
   }
