@@ -22,6 +22,7 @@ from printed_table import PrintedTable, add_page_option
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 MOST_LAYERS, ISOTROPIC = 1000, 0.7
+SMOOTH = 0.5 * ISOTROPIC  # the least at which the step to tetrahedra is smooth
 CORNERS = {vtk.VTK_TETRA: 4, vtk.VTK_PYRAMID: 5, vtk.VTK_WEDGE: 6}
 
 
@@ -112,7 +113,7 @@ class Columns:
 
     def __init__(self, mesh, above, bases, constant):
         self.count, self.first_node = numpy.zeros(len(mesh.points), int), numpy.full(len(mesh.points), -1)
-        self.growth = numpy.full(len(mesh.points), numpy.nan)
+        self.growth, self.last_height = numpy.full((2, len(mesh.points)), numpy.nan)
         self.first_node[bases] = above[bases]
         constant_height, last_height = numpy.full((2, len(bases)), numpy.nan)
         live, here = numpy.arange(len(bases)), bases
@@ -127,6 +128,7 @@ class Columns:
             self.count[bases[live]] += 1
             here = nexts
         steps = self.count[bases] - constant
+        self.last_height[bases] = last_height
         grows = steps > 0
         self.growth[bases[grows]] = (last_height[grows] / constant_height[grows]) ** (1 / steps[grows])
 
@@ -183,8 +185,8 @@ def measure(folder):
         triangles, areas = layered[mine], area[mine]
         counts, whole = columns.count[triangles], areas.sum()
         part = lambda chosen: (areas[:, None] * chosen).sum() / 3 / whole
-        full = counts >= wanted[triangles]
         some = counts > 0
+        full = (counts >= wanted[triangles]) | some & (columns.last_height[triangles] >= SMOOTH * edge[triangles])
         rise = numpy.abs(((mesh.points[columns.first_node[triangles]] - mesh.points[triangles]) * normal[mine][:, None, :]).sum(axis=2))
         growth = columns.growth[numpy.unique(triangles)]
         growth = growth[numpy.isfinite(growth)]

@@ -57,7 +57,7 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
   layers::PatchLayers sum;
   for (const layers::PatchLayers& patch : report.patches) {
     sum.area += patch.area, sum.full_area += patch.full_area, sum.partial_area += patch.partial_area;
-    sum.empty_area += patch.empty_area, sum.compressed_area += patch.compressed_area;
+    sum.empty_area += patch.empty_area;
     sum.sums.layers += patch.sums.layers, sum.isotropic_area += patch.isotropic_area;
     for (std::size_t i = 0; i < layers::layer_limit_count; ++i) sum.limited_area[i] += patch.limited_area[i];
     sum.triangles += patch.triangles, sum.prisms += patch.prisms;
@@ -108,17 +108,16 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   std::printf(
       "RESULT ranks=%d triangles=%lld prisms=%lld pyramids=%lld tetrahedra=%lld cpu=%.3f cpu_max=%.3f "
       "wall=%.3f "
-      "cells_per_cpu_second=%.0f full=%.2f isotropic=%.2f partial=%.2f empty=%.2f squeezed=%.2f "
+      "cells_per_cpu_second=%.0f full=%.2f isotropic=%.2f partial=%.2f empty=%.2f "
       "layers_mean=%.1f "
       "layers_max=%lld validity_rounds=%d crossing_rounds=%d crossings=%lld zeroed=%lld hash=%s\n",
       communicator.size(), static_cast<long long>(sum.triangles), static_cast<long long>(sum.prisms),
       static_cast<long long>(sum.pyramids), static_cast<long long>(sum.tetrahedra), cpu_used,
       stage.cpu_seconds_max, stage.wall_seconds, cells / cpu_used, percent(sum.full_area),
       percent(sum.isotropic_area), percent(sum.partial_area), percent(sum.empty_area),
-      percent(sum.compressed_area), sum.sums.layers / sum.area, static_cast<long long>(sum.most_layers),
-      layers.report.validity_rounds, layers.report.crossing_rounds,
-      static_cast<long long>(layers.report.crossings), static_cast<long long>(layers.report.zeroed_by_force),
-      hash.c_str());
+      sum.sums.layers / sum.area, static_cast<long long>(sum.most_layers), layers.report.validity_rounds,
+      layers.report.crossing_rounds, static_cast<long long>(layers.report.crossings),
+      static_cast<long long>(layers.report.zeroed_by_force), hash.c_str());
   std::printf("       limited, %% of the area:");
   for (const layers::LayerLimit limit : layers::all_layer_limits)
     std::printf(" %s=%.2f", std::string(layers::name_of(limit)).c_str(),
@@ -127,10 +126,10 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   for (std::size_t p = 0; p < layers.report.patches.size(); ++p) {
     const layers::PatchLayers& patch = layers.report.patches[p];
     if (patch.area == 0) continue;
-    std::printf("       %s: triangles=%lld area=%.4g full=%.2f isotropic=%.2f empty=%.2f squeezed=%.2f\n",
+    std::printf("       %s: triangles=%lld area=%.4g full=%.2f isotropic=%.2f empty=%.2f\n",
                 wall.patches[p].c_str(), static_cast<long long>(patch.triangles), patch.area,
                 100 * patch.full_area / patch.area, 100 * patch.isotropic_area / patch.area,
-                100 * patch.empty_area / patch.area, 100 * patch.compressed_area / patch.area);
+                100 * patch.empty_area / patch.area);
   }
 }
 

@@ -36,7 +36,7 @@ void limit_by_gaps(const LocalWall& wall, const Directions& directions, ColumnLi
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
     if (limits.count(v) == 0 || gaps[v] >= ample_gap_of(limits, v)) continue;
-    totals[v] = room_in_gap(gaps[v], limits.mean_edge(v), limits.count(v) * limits.heights(v).first);
+    totals[v] = room_in_gap(gaps[v], limits.mean_edge(v), directions.visibility[v]);
   }
   limits.limit_totals(std::move(totals), LayerLimit::gap);
 }

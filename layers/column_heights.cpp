@@ -14,40 +14,37 @@ std::int32_t wanted_count(const WallLayers& wanted, double mean_edge) {
     count = std::min(count, static_cast<std::int32_t>(layers));
   }
   if (wanted.total > 0) {
-    std::int32_t fitting = 0;
-    const Heights heights{wanted.first, wanted.growth, wanted.constant};
-    heights.for_each_node(count, [&](std::int32_t k, double height) {
-      if (height <= wanted.total) fitting = k;
-    });
-    count = fitting;
+    count = layers_below({wanted.first, wanted.growth, wanted.constant}, count, wanted.total);
   }
   return std::max(count, 1);
 }
 
-Compressed compress(const Heights& heights, std::int32_t count, double limit) {
-  if (heights.total(count) <= limit) return {heights.growth, count};
-  Heights slower = heights;
-  slower.growth = 1;
-  if (slower.total(count) > limit) {
-    std::int32_t fitting = 0;
-    slower.for_each_node(count, [&](std::int32_t k, double height) {
-      if (height <= limit) fitting = k;
-    });
-    return {1, fitting};
-  }
+std::int32_t layers_below(const Heights& heights, std::int32_t count, double limit) {
+  std::int32_t fitting = 0;
+  heights.for_each_node(count, [&](std::int32_t k, double height) {
+    if (height <= limit) fitting = k;
+  });
+  return fitting;
+}
+
+double growth_of_total(const Heights& steepest, std::int32_t count, double total) {
+  if (steepest.total(count) <= total) return steepest.growth;
   constexpr int halvings = 40;
-  double low = 1, high = heights.growth;
+  Heights slower = steepest;
+  double low = 1, high = steepest.growth;
   for (int i = 0; i < halvings; ++i) {
     slower.growth = 0.5 * (low + high);
-    (slower.total(count) <= limit ? low : high) = slower.growth;
+    (slower.total(count) <= total ? low : high) = slower.growth;
   }
-  return {low, count};
+  return low;
 }
 
 namespace {
 
 /// Leaves room for the layers on the opposite wall.
 constexpr double most_of_gap = 0.4;
+/// Where a gap is about as narrow as an edge. Less would leave thin layers below large tetrahedra.
+constexpr double least_of_gap = 0.25;
 
 }  // namespace
 
@@ -55,9 +52,9 @@ double ample_gap(double total, double mean_edge) {
   return std::max(total / most_of_gap, 2 * total + mean_edge);
 }
 
-double room_in_gap(double gap, double mean_edge, double all_first) {
-  const double most = most_of_gap * gap, beside_edge = 0.5 * (gap - mean_edge);
-  return std::max(std::min(most, beside_edge), std::min(all_first, most));
+double room_in_gap(double gap, double mean_edge, double visibility) {
+  const double least = std::min(most_of_gap, least_of_gap / visibility);
+  return std::clamp(0.5 * (gap - mean_edge), least * gap, most_of_gap * gap);
 }
 
 }  // namespace aeroloom::layers

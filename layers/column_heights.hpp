@@ -41,23 +41,26 @@ inline constexpr std::int32_t most_layers = 1000;
 /// Height over the mean edge of a prism that is about as good as a tetrahedron.
 inline constexpr double isotropic_height = 0.7;
 
+/// Least height of a last layer, over the mean edge, at which the step to the tetrahedra is still smooth:
+/// half of what is aimed at.
+inline constexpr double smooth_end = 0.5 * isotropic_height;
+
 /// The number of layers of a column, at least 1, so that the last layer is about 0.7 of the mean edge length
 /// at the vertex. Count and total height in `wanted` are upper bounds.
 std::int32_t wanted_count(const WallLayers& wanted, double mean_edge);
 
-/// A column that was fitted below a total height.
-struct Compressed {
-  double growth = 1;
-  std::int32_t count = 0;
-};
-/// Fits `count` layers below the total height `limit`: lowers the growth down to 1, then drops layers.
-Compressed compress(const Heights& heights, std::int32_t count, double limit);
+/// The largest number of layers, at most `count`, that are together no higher than `limit`.
+std::int32_t layers_below(const Heights& heights, std::int32_t count, double limit);
+
+/// The growth, from 1 to that of `steepest`, by which `count` layers are as high as `total` together.
+double growth_of_total(const Heights& steepest, std::int32_t count, double total);
 
 /// The smallest gap that does not limit layers of this total height. `mean_edge`: mean edge length at the
 /// vertex.
 double ample_gap(double total, double mean_edge);
-/// The total height allowed in a gap between two walls: at most 0.4 gap, and at most (gap - mean_edge) / 2,
-/// which leaves room for a tetrahedron. Layers that total `all_first` at first height may fill 0.4 gap.
-double room_in_gap(double gap, double mean_edge, double all_first);
+/// The total height allowed in a gap between two walls: (gap - mean_edge) / 2, which leaves room for a
+/// tetrahedron, but at least 0.25 gap along the walls' normals and at most 0.4 gap. `visibility`: cosine
+/// between the column and the normals.
+double room_in_gap(double gap, double mean_edge, double visibility);
 
 }  // namespace aeroloom::layers

@@ -27,7 +27,7 @@ constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
                            const Directions& directions)
-    : _wall(wall), _stairs(options.stairs) {
+    : _wall(wall) {
   const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
   const std::size_t n = all_wanted.size();
   _first.assign(n, 0), _growth.assign(n, 1), _mean_edges.assign(n, 0), _slopes.assign(n, 1),
@@ -44,7 +44,7 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
     _wanted_counts[v] = layers::wanted_count(wanted, _mean_edges[v]);
     if (stars.kinds[v] != StarKind::plain || directions.visibility[v] == 0) {
       _causes[v] = stars.kinds[v] == StarKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
-      _lower_counts.push_back(v), _lower_totals.push_back(v);
+      _lowered.push_back(v);
       continue;
     }
     _first[v] = asked.first * std::min(most_lengthening, 1 / directions.slants[v]);
@@ -53,10 +53,9 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
     _slopes[v] = slope_of(asked.growth);
     _counts[v] = _wanted_counts[v];
     _limits[v] = this->total(v);
-    _lower_counts.push_back(v), _lower_totals.push_back(v);
+    _lowered.push_back(v);
     note_change(v, LayerLimit::none);
   }
-  _wanted_growth = _growth;
 }
 
 void ColumnLimits::note_change(std::int32_t v, LayerLimit cause) {
@@ -73,15 +72,15 @@ std::vector<std::int32_t> ColumnLimits::take_changed() {
 void ColumnLimits::cut_count(std::int32_t v, std::int32_t count, LayerLimit cause) {
   _counts[v] = count;
   _limits[v] = std::min(_limits[v], total(v));
-  _lower_counts.push_back(v), _lower_totals.push_back(v);
+  _lowered.push_back(v);
   note_change(v, cause);
 }
 
 void ColumnLimits::fit(std::int32_t v, LayerLimit cause) {
-  const Compressed fitting = compress(heights(v), _counts[v], _limits[v]);
-  if (fitting.growth < _growth[v]) note_change(v, cause);
-  _growth[v] = fitting.growth;
-  if (fitting.count < _counts[v]) cut_count(v, fitting.count, cause);
+  const std::int32_t count = layers_below(heights(v), _counts[v], _limits[v]);
+  if (count == _counts[v]) return;
+  _counts[v] = count;
+  note_change(v, cause);
 }
 
 void ColumnLimits::limit_totals(std::vector<double> limits, LayerLimit cause) {
@@ -89,7 +88,7 @@ void ColumnLimits::limit_totals(std::vector<double> limits, LayerLimit cause) {
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
     if (!(limits[v] < _limits[v])) continue;
     _limits[v] = limits[v];
-    _lower_totals.push_back(v);
+    _lowered.push_back(v);
     fit(v, cause);
   }
 }
@@ -101,12 +100,12 @@ void ColumnLimits::limit_counts(std::vector<std::int32_t> counts, LayerLimit cau
   }
 }
 
-template <class T, class Follow>
-void ColumnLimits::propagate(std::vector<T>& values, std::vector<std::int32_t> from,
+template <class Follow>
+void ColumnLimits::propagate(std::vector<double>& values, std::vector<std::int32_t> from,
                              const Follow& follow) const {
   std::vector<std::uint8_t> waits(values.size(), 0);
   std::vector<std::int32_t> next;
-  const auto lower = [&](std::int32_t v, T value) {
+  const auto lower = [&](std::int32_t v, double value) {
     if (!(value < values[v])) return;
     values[v] = value;
     if (waits[v] == 0) next.push_back(v);
@@ -121,7 +120,7 @@ void ColumnLimits::propagate(std::vector<T>& values, std::vector<std::int32_t> f
       from.swap(next);
       next.clear();
     }
-    std::vector<T> combined = values;
+    std::vector<double> combined = values;
     _wall.combine(combined, smaller);
     for (const std::int32_t v : _wall.vertex_of_copy) lower(v, combined[v]);
     from.swap(next);
@@ -130,19 +129,9 @@ void ColumnLimits::propagate(std::vector<T>& values, std::vector<std::int32_t> f
   }
 }
 
-void ColumnLimits::converge_counts() {
-  std::vector<std::int32_t> counts = _counts;
-  propagate(counts, std::exchange(_lower_counts, {}),
-            [&](std::int32_t, std::int32_t, std::int32_t count) { return count + _stairs; });
-  for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
-    if (counts[v] != _counts[v]) cut_count(v, counts[v], LayerLimit::stairs);
-  }
-  _lower_counts.clear();  // at a fixed point
-}
-
-void ColumnLimits::converge_totals() {
+void ColumnLimits::converge() {
   std::vector<double> limits = _limits;
-  propagate(limits, std::exchange(_lower_totals, {}), [&](std::int32_t v, std::int32_t u, double limit) {
+  propagate(limits, std::exchange(_lowered, {}), [&](std::int32_t v, std::int32_t u, double limit) {
     return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
   });
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
@@ -150,14 +139,6 @@ void ColumnLimits::converge_totals() {
     _limits[v] = limits[v];
     fit(v, LayerLimit::slope);
   }
-}
-
-void ColumnLimits::converge() {
-  do {
-    converge_counts();
-    converge_totals();
-  } while (_wall.mesh.communicator.sum(
-               static_cast<std::int64_t>(_lower_counts.size() + _lower_totals.size())) > 0);
 }
 
 }  // namespace aeroloom::layers

@@ -11,8 +11,8 @@
 
 namespace aeroloom::layers {
 
-/// The columns on the vertices of a wall. All pieces with a vertex have equal values for it. Counts, growth
-/// and limits only fall, and node heights fall with them.
+/// The columns on the vertices of a wall. All pieces with a vertex have equal values for it. Layers keep
+/// their heights; counts and limits only fall, so columns lose their last layers.
 class ColumnLimits {
 public:
   /// Starts with the columns that the patches ask for. Keeps a reference to the wall. Collective.
@@ -24,17 +24,15 @@ public:
   std::int32_t wanted_count(std::int32_t v) const { return _wanted_counts[v]; }
   double total(std::int32_t v) const { return heights(v).total(_counts[v]); }
   double last_height(std::int32_t v) const { return heights(v).last(_counts[v]); }
-  bool is_compressed(std::int32_t v) const { return _growth[v] < _wanted_growth[v]; }
   LayerLimit cause(std::int32_t v) const { return _causes[v]; }
   double mean_edge(std::int32_t v) const { return _mean_edges[v]; }
 
   /// Limits the total height of each column. Values above the present limit have no effect. Pieces may pass
   /// different values for one vertex; the smallest counts. Collective.
   void limit_totals(std::vector<double> limits, LayerLimit cause);
-  /// Limits the number of layers of each column in the same way. The growth stays. Collective.
+  /// Limits the number of layers of each column in the same way. Collective.
   void limit_counts(std::vector<std::int32_t> counts, LayerLimit cause);
-  /// Lowers neighbours until counts along an edge differ by `stairs` at most, and totals by the allowed
-  /// slope. Collective.
+  /// Lowers neighbours until totals along an edge differ by the allowed slope at most. Collective.
   void converge();
 
   /// The vertices whose columns changed since the last call; equal in all pieces.
@@ -42,26 +40,23 @@ public:
 
 private:
   void note_change(std::int32_t v, LayerLimit cause);
-  /// Fits growth and count of a column below its limit.
+  /// Fits the count of a column below its limit.
   void fit(std::int32_t v, LayerLimit cause);
   void cut_count(std::int32_t v, std::int32_t count, LayerLimit cause);
   /// Lowers `values`, one per vertex, to their greatest fixed point. `follow(v, u, value of v)` is the
   /// largest value allowed at the neighbour u of v. `from` lists the vertices whose values have fallen.
   /// Collective.
-  template <class T, class Follow>
-  void propagate(std::vector<T>& values, std::vector<std::int32_t> from, const Follow& follow) const;
-  void converge_counts();
-  void converge_totals();
+  template <class Follow>
+  void propagate(std::vector<double>& values, std::vector<std::int32_t> from, const Follow& follow) const;
 
   const LocalWall& _wall;
-  std::int32_t _stairs;
-  std::vector<double> _first, _growth, _wanted_growth, _mean_edges, _slopes;
+  std::vector<double> _first, _growth, _mean_edges, _slopes;
   std::vector<double> _limits;  ///< of total heights; neighbours use these
   std::vector<std::int32_t> _constant, _counts, _wanted_counts;
   std::vector<LayerLimit> _causes;
   std::vector<std::uint8_t> _changed;
-  std::vector<std::int32_t> _changed_vertices;             ///< since the last take_changed()
-  std::vector<std::int32_t> _lower_counts, _lower_totals;  ///< since the last converge()
+  std::vector<std::int32_t> _changed_vertices;  ///< since the last take_changed()
+  std::vector<std::int32_t> _lowered;           ///< since the last converge()
 };
 
 }  // namespace aeroloom::layers

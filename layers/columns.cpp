@@ -15,7 +15,7 @@ geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, mesh::
 
 std::string_view name_of(LayerLimit limit) {
   static constexpr std::array<std::string_view, layer_limit_count> names = {
-      "none", "no_direction", "ending", "gap", "validity", "slope", "stairs", "crossing"};
+      "none", "no_direction", "ending", "gap", "validity", "slope", "crossing"};
   return names[static_cast<std::size_t>(limit)];
 }
 

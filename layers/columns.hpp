@@ -33,7 +33,6 @@ enum class LayerElements : std::uint8_t { prisms, tets };
 
 struct LayerOptions {
   std::vector<WallLayers> patches;  ///< by patch index of the mesh; missing ones have no layers
-  std::int32_t stairs = 3;          ///< largest difference of counts along an edge, at least 1
   /// Whether layers may end on planes of symmetry, slip, inlet and outlet. Columns at their rims then lie in
   /// the plane, and the plane is meshed again. Otherwise counts fall to zero before such a plane.
   bool ends_on_planes = false;
@@ -67,33 +66,33 @@ enum class LayerLimit : std::int32_t {
   gap,           ///< another part of the boundary is too near
   validity,      ///< cells or cap triangles would be bad
   slope,         ///< the total height differs too much from a neighbour's
-  stairs,        ///< the count differs too much from a neighbour's
   crossing       ///< the cap would intersect itself or the boundary
 };
-inline constexpr std::size_t layer_limit_count = 8;
+inline constexpr std::size_t layer_limit_count = 7;
 inline constexpr std::array<LayerLimit, layer_limit_count> all_layer_limits = {
-    LayerLimit::none,     LayerLimit::no_direction, LayerLimit::ending, LayerLimit::gap,
-    LayerLimit::validity, LayerLimit::slope,        LayerLimit::stairs, LayerLimit::crossing};
+    LayerLimit::none,     LayerLimit::no_direction, LayerLimit::ending,  LayerLimit::gap,
+    LayerLimit::validity, LayerLimit::slope,        LayerLimit::crossing};
 /// The name used in reports.
 std::string_view name_of(LayerLimit limit);
 
 /// Statistics of the layers on a patch. Each vertex counts a third of the triangles around it. Areas are in
 /// squared length units of the mesh.
 struct PatchLayers {
-  double area = 0;             ///< of triangles with requested layers
-  double full_area = 0;        ///< with all requested layers
-  double partial_area = 0;     ///< with fewer layers
-  double empty_area = 0;       ///< without layers
-  double isotropic_area = 0;   ///< full, and the last layer is at least 0.35 of the mean edge high
-  double compressed_area = 0;  ///< with a growth below the requested one
+  double area = 0;  ///< of triangles with requested layers
+  /// With all requested layers, or with fewer of which the last is at least 0.35 of the mean edge high: the
+  /// step to the tetrahedra is as smooth.
+  double full_area = 0;
+  double partial_area = 0;    ///< with fewer layers
+  double empty_area = 0;      ///< without layers
+  double isotropic_area = 0;  ///< the last layer is at least 0.35 of the mean edge high
   static constexpr double low = 0.8;
   double low_first_area = 0;  ///< with a first layer, along the wall's normal, below `low` of the requested
-  /// Area that is not full, or is compressed, by the limit that acted last (a LayerLimit).
+  /// Area that is not full, by the limit that acted last (a LayerLimit).
   std::array<double, layer_limit_count> limited_area{};
-  /// Of areas times: number of layers, their height together, length of edges at the column, last layer over
-  /// that. Over `area` they are means.
+  /// Of areas times: number of layers, number wanted, their height together, length of edges at the column,
+  /// last layer over that. Over `area` they are means.
   struct Sums {
-    double layers = 0, heights = 0, edges = 0, last = 0;
+    double layers = 0, wanted = 0, heights = 0, edges = 0, last = 0;
   } sums;
   std::int64_t triangles = 0, prisms = 0, pyramids = 0,
                tetrahedra = 0;  ///< wall triangles; cells

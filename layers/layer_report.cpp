@@ -13,17 +13,16 @@ struct PieceRow {
   mesh::PieceId piece = 0;
 };
 
-constexpr double isotropic_enough = 0.35;  // of the mean edge: half of what is aimed at
-
 /// A third of a triangle's area, under one of its columns.
 void add_column(const ColumnLimits& limits, std::int32_t v, double area, PatchLayers& patch) {
   const std::int32_t count = limits.count(v);
-  const bool full = count >= limits.wanted_count(v), compressed = count > 0 && limits.is_compressed(v);
+  const bool smooth = count > 0 && limits.last_height(v) >= smooth_end * limits.mean_edge(v);
+  const bool full = count >= limits.wanted_count(v) || smooth;
   (full ? patch.full_area : count > 0 ? patch.partial_area : patch.empty_area) += area;
-  if (full && limits.last_height(v) >= isotropic_enough * limits.mean_edge(v)) patch.isotropic_area += area;
-  if (compressed) patch.compressed_area += area;
-  if (!full || compressed) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
+  if (smooth) patch.isotropic_area += area;
+  if (!full) patch.limited_area[static_cast<std::size_t>(limits.cause(v))] += area;
   patch.sums.layers += area * count;
+  patch.sums.wanted += area * limits.wanted_count(v);
   patch.sums.heights += area * limits.total(v);
   patch.sums.edges += area * limits.mean_edge(v);
   if (limits.mean_edge(v) > 0) patch.sums.last += area * limits.last_height(v) / limits.mean_edge(v);
@@ -62,14 +61,14 @@ void add_triangle(const LocalWall& wall, const Directions& directions, const Col
 void add_row(const PatchLayers& row, PatchLayers& sum) {
   for (double PatchLayers::*member :
        {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
-        &PatchLayers::isotropic_area, &PatchLayers::compressed_area, &PatchLayers::low_first_area})
+        &PatchLayers::isotropic_area, &PatchLayers::low_first_area})
     sum.*member += row.*member;
   for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
   for (std::int64_t PatchLayers::*member :
        {&PatchLayers::triangles, &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra})
     sum.*member += row.*member;
   using Sums = PatchLayers::Sums;
-  for (double Sums::*member : {&Sums::layers, &Sums::heights, &Sums::edges, &Sums::last})
+  for (double Sums::*member : {&Sums::layers, &Sums::wanted, &Sums::heights, &Sums::edges, &Sums::last})
     sum.sums.*member += row.sums.*member;
   sum.most_layers = std::max(sum.most_layers, row.most_layers);
 }

@@ -18,7 +18,6 @@ void require_fitting(const mesh::DistributedMesh& mesh, const LayerOptions& opti
   };
   if (mesh.kind != mesh::CellKind::triangle)
     throw CollectiveError(FailureKind::bug, "layers: the mesh is no surface");
-  require(options.stairs >= 1, "layer counts along an edge have to be allowed to differ by 1");
   require(options.patches.size() <= mesh.patches.size(), "more patches than the mesh has");
   for (std::size_t p = 0; p < options.patches.size(); ++p) {
     const WallLayers& wanted = options.patches[p];

@@ -117,18 +117,16 @@ private:
     sum.area += area;
     sum.edges_area += area * size;
     const double gap = gap_before(facet, middle, layers::ample_gap(total, size));
-    layers::Heights made = heights;
     std::int32_t count = wanted;
     if (gap < layers::ample_gap(total, size)) {
-      const double room = layers::room_in_gap(gap, size, wanted * heights.first);
-      const layers::Compressed fitted = layers::compress(heights, wanted, room);
-      count = fitted.count, made.growth = fitted.growth;
-      if (room < total) (count < wanted ? sum.lacking_area : sum.compressed_area) += area;
-      if (room < total && gap < sum.narrowest_gap) sum.narrowest_gap = gap, sum.narrowest_at = middle;
+      const double room = layers::room_in_gap(gap, size, 1);
+      count = layers::layers_below(heights, wanted, room);
+      if (count < wanted) sum.lacking_area += area;
+      if (count < wanted && gap < sum.narrowest_gap) sum.narrowest_gap = gap, sum.narrowest_at = middle;
     }
     const int of_prism = _elements == layers::LayerElements::tets ? 3 : 1;
     sum.cells += triangles_per_area * area / (size * size) * count * of_prism;
-    sum.replaced += area * tetrahedra_on(middle, -facet.outward, made.total(count));
+    sum.replaced += area * tetrahedra_on(middle, -facet.outward, heights.total(count));
   }
 
   /// Tetrahedra that sizes ask for between a point and this height above it, per area.
@@ -184,13 +182,11 @@ std::string describe_patch(const LayerForecast& forecast, const PatchLayerForeca
       patch.asked.growth, from_to(patch.least_total, patch.most_total));
   const std::string early = cases::early_end(patch.asked, patch.edges_area / patch.area);
   if (!early.empty()) text += fmt::format("       {}\n", early);
-  const double narrow = patch.compressed_area + patch.lacking_area;
-  if (narrow > 0)
+  if (patch.lacking_area > 0)
     text += fmt::format(
-        "       no room for that on {:.3g} % of its area, where gaps are down to {:.3g} (near {}): heights "
-        "grow slower, and on {:.3g} % layers are left out\n",
-        100 * narrow / patch.area, patch.narrowest_gap, geometry::place_text(patch.narrowest_at),
-        100 * patch.lacking_area / patch.area);
+        "       no room for that on {:.3g} % of its area, where gaps are down to {:.3g} (near {}): the last "
+        "layers are left out there\n",
+        100 * patch.lacking_area / patch.area, patch.narrowest_gap, geometry::place_text(patch.narrowest_at));
   return text;
 }
 
@@ -258,7 +254,7 @@ nlohmann::ordered_json to_json(const LayerForecast& forecast) {
   json["patches"] = Json::array();
   for (const PatchLayerForecast& patch : forecast.patches) {
     const std::optional<double> y_plus = y_plus_at_node(forecast, patch.asked.first);
-    const bool narrow = patch.compressed_area + patch.lacking_area > 0;
+    const bool narrow = patch.lacking_area > 0;
     json["patches"].push_back({{"name", patch.name},
                                {"first", patch.asked.first},
                                {"y_plus_node", y_plus ? Json(*y_plus) : Json()},
@@ -270,7 +266,6 @@ nlohmann::ordered_json to_json(const LayerForecast& forecast) {
                                {"total_min", patch.least_total},
                                {"total_max", patch.most_total},
                                {"cells", patch.cells},
-                               {"squeezed", patch.compressed_area / patch.area},
                                {"lacking", patch.lacking_area / patch.area},
                                {"narrowest_gap", narrow ? Json(patch.narrowest_gap) : Json()},
                                {"narrowest_at", narrow ? report::to_json(patch.narrowest_at) : Json()}});

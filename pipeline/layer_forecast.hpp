@@ -25,9 +25,8 @@ struct PatchLayerForecast {
   double cells = 0;
   double replaced = 0;  ///< tetrahedra that sizes would make where the layers are
   double area = 0;
-  double compressed_area = 0;  ///< gaps are narrower than the total height: growth is reduced
-  double edges_area = 0;       ///< sum of areas times sizes
-  double lacking_area = 0;     ///< gaps do not hold the wanted number of layers, even at the first height
+  double edges_area = 0;    ///< sum of areas times sizes
+  double lacking_area = 0;  ///< gaps do not hold the wanted number of layers
   double narrowest_gap = std::numeric_limits<double>::infinity();  ///< of the areas above
   geometry::Vec3 narrowest_at = {};                                ///< point on the wall
 };

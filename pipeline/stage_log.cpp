@@ -184,6 +184,7 @@ void log_layers(const report::LayerRecord& record) {
   for (const layers::PatchLayers& patch : record.report.patches) {
     all.area += patch.area, all.full_area += patch.full_area, all.empty_area += patch.empty_area;
     all.low_first_area += patch.low_first_area, all.sums.heights += patch.sums.heights;
+    all.sums.layers += patch.sums.layers, all.sums.wanted += patch.sums.wanted;
     all.prisms += patch.prisms, all.pyramids += patch.pyramids, all.tetrahedra += patch.tetrahedra;
   }
   const double area = std::max(all.area, std::numeric_limits<double>::min());
@@ -196,7 +197,8 @@ void log_layers(const report::LayerRecord& record) {
       record.boundary_layer
           ? fmt::format("; the boundary layer of a flat plate is {:.3g}", *record.boundary_layer)
           : "";
-  log_info(fmt::format("layers: together {:.3g} high on average{}", all.sums.heights / area, plate));
+  log_info(fmt::format("layers: on average {:.1f} of {:.1f}, together {:.3g} high{}", all.sums.layers / area,
+                       all.sums.wanted / area, all.sums.heights / area, plate));
 }
 
 void warn_of_missing_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches) {

@@ -25,8 +25,6 @@ const char* words_for(layers::LayerLimit limit) {
       return "cells that would be bad";
     case LayerLimit::slope:
       return "neighbours of another height";
-    case LayerLimit::stairs:
-      return "neighbours with fewer layers";
     case LayerLimit::crossing:
       return "layers that would meet others";
     case LayerLimit::none:

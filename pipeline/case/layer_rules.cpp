@@ -48,7 +48,7 @@ layers::WallLayers layers_of_patch(const LayerRule& rule, layers::WallLayers wan
 /// With the growth by which `count` layers are `total` high together.
 layers::WallLayers with_growth_of_total(layers::WallLayers wanted, double growth_maximum) {
   const layers::Heights steepest{wanted.first, growth_maximum, wanted.constant};
-  wanted.growth = layers::compress(steepest, wanted.count, wanted.total).growth;
+  wanted.growth = layers::growth_of_total(steepest, wanted.count, wanted.total);
   return wanted;
 }
 

@@ -45,20 +45,31 @@ TEST(ColumnHeightsLocal, EndAtACountOrATotal) {
   EXPECT_EQ(wanted_count(wanted, 1), 12) << "without growth the count alone ends them";
 }
 
-TEST(ColumnHeightsLocal, CompressionKeepsTheCountThenDropsLayers) {
-  const Heights heights{1, 1.5, 2};
-  const double total = heights.total(10);
-  const Compressed free = compress(heights, 10, total);
-  EXPECT_EQ(free.count, 10);
-  EXPECT_EQ(free.growth, 1.5);
-  const Compressed tight = compress(heights, 10, 20);
-  EXPECT_EQ(tight.count, 10);
-  EXPECT_LE((Heights{1, tight.growth, 2}.total(10)), 20);
-  EXPECT_NEAR((Heights{1, tight.growth, 2}.total(10)), 20, 1e-6);
-  const Compressed few = compress(heights, 10, 6.5);
-  EXPECT_EQ(few.count, 6);
-  EXPECT_EQ(few.growth, 1);
-  EXPECT_EQ(compress(heights, 10, 0.5).count, 0);
+TEST(ColumnHeightsLocal, LoseTheirLastLayersAboveALimit) {
+  const Heights heights{0.5, 2, 3};  // ends at 0.5, 1, 1.5, 2.5, 4.5
+  EXPECT_EQ(layers_below(heights, 5, 10), 5);
+  EXPECT_EQ(layers_below(heights, 5, 4.5), 5) << "the limit itself is allowed";
+  EXPECT_EQ(layers_below(heights, 5, 4.4), 4);
+  EXPECT_EQ(layers_below(heights, 2, 4.4), 2);
+  EXPECT_EQ(layers_below(heights, 5, 0.4), 0);
+}
+
+TEST(ColumnHeightsLocal, GrowAsATotalAsks) {
+  const Heights steepest{1, 1.5, 2};
+  EXPECT_EQ(growth_of_total(steepest, 10, steepest.total(10)), 1.5);
+  EXPECT_EQ(growth_of_total(steepest, 10, 1e9), 1.5) << "at most";
+  const double growth = growth_of_total(steepest, 10, 20);
+  EXPECT_NEAR((Heights{1, growth, 2}.total(10)), 20, 1e-6);
+  EXPECT_EQ(growth_of_total(steepest, 10, 5), 1) << "no total of ten layers is as low";
+}
+
+TEST(ColumnHeightsLocal, HaveRoomInAGap) {
+  EXPECT_DOUBLE_EQ(room_in_gap(10, 1, 1), 4) << "no more than 0.4 of the gap";
+  EXPECT_DOUBLE_EQ(room_in_gap(2, 1, 1), 0.5) << "a tetrahedron fits between";
+  EXPECT_DOUBLE_EQ(room_in_gap(1, 1, 1), 0.25) << "thin layers below large tetrahedra are worse";
+  EXPECT_DOUBLE_EQ(room_in_gap(0.1, 1, 1), 0.025);
+  EXPECT_DOUBLE_EQ(room_in_gap(1, 1, 0.8), 0.25 / 0.8) << "a column in a corner leans to both walls";
+  EXPECT_DOUBLE_EQ(room_in_gap(1, 1, 0.1), 0.4);
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ TEST(EndPlanes, AreNotInTheWayOfColumnsBesideThem) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
       const Vec3 at = mesh.pieces[p].point(v);
       if (at.z != 0 || at.x > 0.25 || at.y > 0.25) continue;
-      EXPECT_GT(layers.columns.pieces[p].growth[v], 1.19) << "hardly compressed";
+      EXPECT_GT(layers.columns.pieces[p].counts[v], 15) << "hardly lower";
       ++beside;
     }
   }
@@ -201,7 +201,6 @@ TEST(EndPlanes, EmptyColumnsAtLastWhereTheyBearNoTrace) {
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
   const PlaneRemesher refuse = refuse_moves(mesh, [](Vec3 from, Vec3 to) { return !(to == from); });
   LayerOptions options = layers_on_floor();
-  options.stairs = 100;
   options.patches[0].growth = 1.01;
   const Layers layers = build(mesh, options, refuse);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {

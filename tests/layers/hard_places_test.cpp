@@ -139,7 +139,7 @@ void expect_layers_on_wing(const Section& section, double empty, double full) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = around_a_body(section).distribute(world, 6);
   LayerOptions options = options_for({1e-3, 0, 1e-3, 1e-3});
-  for (WallLayers& wall : options.patches) wall.count = 10;  // fewer than stairs leave at the root
+  for (WallLayers& wall : options.patches) wall.count = 10;
   const Layers layers = build(mesh, options);
   expect_valid(mesh, layers);
   const PatchLayers &wing = layers.report.patches[body_face], &fuselage = layers.report.patches[floor_face];

@@ -200,7 +200,7 @@ TEST_F(StageLog, WarnsOfLayersBelowTheBoundaryLayer) {
       << low.warnings;
   EXPECT_FALSE(has(low.warnings, "layers end")) << low.warnings;
   const Said facts = said_by([&] { log_layers(record); });
-  EXPECT_TRUE(has(facts.facts, "together 0.026 high on average; the boundary layer of a flat plate is 0.025"))
+  EXPECT_TRUE(has(facts.facts, "together 0.026 high; the boundary layer of a flat plate is 0.025"))
       << facts.facts;
 }
 

@@ -22,7 +22,7 @@ protected:
     layers::PatchLayers &wing = report.patches[0], &nacelle = report.patches[2];
     wing.area = 10, wing.full_area = 9, wing.partial_area = 1;
     nacelle.area = 4, nacelle.full_area = 2, nacelle.empty_area = 2;
-    limit(wing, LayerLimit::stairs) = 1;
+    limit(wing, LayerLimit::slope) = 1;
     limit(nacelle, LayerLimit::gap) = 1.5, limit(nacelle, LayerLimit::validity) = 0.5;
     report.patches[1].area = 1000;  // not asked for
   }
