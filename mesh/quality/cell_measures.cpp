@@ -59,31 +59,47 @@ double determinant(Vec3 a, Vec3 b, Vec3 c) {
   return dot(cross(a, b), c);
 }
 
-/// The angle around the edge `along` from `from` to `to`, degrees, 0 to 360.
-double angle_around(Vec3 along, Vec3 from, Vec3 to) {
-  const double angle = geometry::degrees_per_radian * std::atan2(determinant(along, from, to) * norm(along),
-                                                                 dot(cross(along, from), cross(along, to)));
-  return angle < 0 ? angle + 360 : angle;
-}
+/// The smallest and largest of some angles around edges, degrees, 0 to 360. Takes the inverse tangent of
+/// those alone that may be one of them.
+class AngleRange {
+public:
+  /// Around the edge `along` from `from` to `to`.
+  void add(Vec3 along, Vec3 from, Vec3 to) {
+    const double y = determinant(along, from, to) * norm(along),
+                 x = dot(cross(along, from), cross(along, to));
+    const double turn = x / (std::abs(x) + std::abs(y)), ascending = y < 0 ? 3 + turn : 1 - turn;
+    const bool may_be_least = !(ascending > _least + rounding), may_be_most = !(ascending < _most - rounding);
+    if (!may_be_least && !may_be_most) return;
+    _least = std::min(_least, ascending), _most = std::max(_most, ascending);
+    double angle = geometry::degrees_per_radian * std::atan2(y, x);
+    if (angle < 0) angle += 360;
+    _smallest = std::min(_smallest, angle), _largest = std::max(_largest, angle);
+  }
+  double smallest() const { return _smallest; }
+  double largest() const { return _largest; }
+
+private:
+  static constexpr double rounding = 1e-12;
+  double _least = 4, _most = 0;  // of what ascends with the angle, 0 to 4
+  double _smallest = 360, _largest = 0;
+};
 
 /// Angles and Jacobians of pyramids and prisms. The edges from a pyramid's apex lie between triangles, whose
 /// angle is the same at the other end.
 void measure_corners(CellShape shape, const Vec3* p, CellValues& values) {
   const std::span<const Corner> corners = corners_with_three_edges(shape);
-  double smallest = 360, largest = 0, jacobian = std::numeric_limits<double>::infinity();
+  AngleRange angles;
+  double jacobian = std::numeric_limits<double>::infinity();
   for (const Corner& corner : corners) {
     std::array<Vec3, 3> edge;
     for (std::size_t k = 0; k < 3; ++k) edge[k] = p[corner.next[k]] - p[corner.at];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double angle = angle_around(edge[k], edge[(k + 1) % 3], edge[(k + 2) % 3]);
-      smallest = std::min(smallest, angle), largest = std::max(largest, angle);
-    }
+    for (std::size_t k = 0; k < 3; ++k) angles.add(edge[k], edge[(k + 1) % 3], edge[(k + 2) % 3]);
     const double lengths = norm(edge[0]) * norm(edge[1]) * norm(edge[2]);
     jacobian = std::min(jacobian, lengths > 0 ? determinant(edge[0], edge[1], edge[2]) / lengths : 0);
   }
   const double of_equal_edges = shape == CellShape::prism ? std::numbers::sqrt3 / 2 : 1 / std::numbers::sqrt2;
-  values[static_cast<std::size_t>(Measure::smallest_dihedral)] = smallest;
-  values[static_cast<std::size_t>(Measure::largest_dihedral)] = largest;
+  values[static_cast<std::size_t>(Measure::smallest_dihedral)] = angles.smallest();
+  values[static_cast<std::size_t>(Measure::largest_dihedral)] = angles.largest();
   values[static_cast<std::size_t>(Measure::scaled_jacobian)] = std::min(1.0, jacobian / of_equal_edges);
 }
 

@@ -2,11 +2,9 @@
 
 #include "mesh/exchange/delivery.hpp"
 #include "mesh/quality/face_measures.hpp"
+#include "mesh/quality/solver_sums.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -18,73 +16,57 @@ namespace {
 using geometry::Vec3;
 
 constexpr std::size_t kept_per_solver_measure = 10;
-constexpr double none_yet = std::numeric_limits<double>::infinity();
 
 /// While places are collected, the value of non-orthogonality is the cosine, of which the smaller is worse.
-bool larger_is_kept(std::size_t measure) {
-  return all_solver_measures[measure] != SolverMeasure::non_orthogonality &&
-         larger_is_worse(all_solver_measures[measure]);
+constexpr bool larger_is_kept(SolverMeasure measure) {
+  return measure != SolverMeasure::non_orthogonality && larger_is_worse(measure);
 }
-bool is_worse_place(std::size_t measure, const WorstCellOfShape& a, const WorstCellOfShape& b) {
+bool is_worse_place(SolverMeasure measure, const WorstCellOfShape& a, const WorstCellOfShape& b) {
   const double sign = larger_is_kept(measure) ? -1 : 1;
   return std::make_tuple(sign * a.value, a.cell) < std::make_tuple(sign * b.value, b.cell);
 }
 
-/// The inner faces of one class in one piece.
-struct ClassRow {
-  GlobalIndex faces = 0, non_orthogonal = 0, high_ratios = 0, severe_ratios = 0;
-  double cosines = 0, least_cosine = none_yet;
-  double fractions = 0, least_fraction = none_yet;
+/// The worst places by one measure that are known, worst first, each cell once.
+template <SolverMeasure measure>
+class WorstOf {
+public:
+  WorstOf() { _places.reserve(kept_per_solver_measure + 1); }
 
-  void add(double cosine, double fraction) {
-    static const double severe_cosine = std::cos(severe_non_orthogonality * std::numbers::pi / 180);
-    ++faces;
-    cosines += cosine;
-    fractions += fraction;
-    least_cosine = std::min(least_cosine, cosine);
-    least_fraction = std::min(least_fraction, fraction);
-    if (cosine < severe_cosine) ++non_orthogonal;
-    if (high_volume_ratio * fraction < 1) ++high_ratios;
-    if (severe_volume_ratio * fraction < 1) ++severe_ratios;
+  bool is_full() const { return _places.size() == kept_per_solver_measure; }
+  /// What is better is not kept.
+  bool may_keep(double value) const {
+    return !is_full() || (larger_is_kept(measure) ? value >= last() : value <= last());
   }
-  void add(const ClassRow& other) {
-    faces += other.faces, non_orthogonal += other.non_orthogonal;
-    high_ratios += other.high_ratios, severe_ratios += other.severe_ratios;
-    cosines += other.cosines, fractions += other.fractions;
-    least_cosine = std::min(least_cosine, other.least_cosine);
-    least_fraction = std::min(least_fraction, other.least_fraction);
+  /// Of a full list, the value of the last.
+  double last() const { return _places.back().value; }
+
+  void keep(const WorstCellOfShape& candidate) {
+    if (is_full() && !worse(candidate, _places.back())) return;
+    const auto same = std::find_if(_places.begin(), _places.end(), [&](const WorstCellOfShape& place) {
+      return place.cell == candidate.cell;
+    });
+    if (same != _places.end()) {
+      if (!worse(candidate, *same)) return;
+      _places.erase(same);
+    }
+    _places.insert(std::upper_bound(_places.begin(), _places.end(), candidate, worse), candidate);
+    if (_places.size() > kept_per_solver_measure) _places.pop_back();
   }
+  const std::vector<WorstCellOfShape>& places() const { return _places; }
+
+private:
+  static bool worse(const WorstCellOfShape& a, const WorstCellOfShape& b) {
+    return is_worse_place(measure, a, b);
+  }
+
+  std::vector<WorstCellOfShape> _places;
 };
 
-/// The figures of one piece.
-struct PieceRow {
-  std::array<ClassRow, face_class_count> of_class;
-  GlobalIndex cells = 0, boundary_faces = 0, skewed = 0, stretched = 0, underdetermined = 0;
-  double largest_skewness = 0, largest_aspect_ratio = 0;
-  double determinants = 0, least_determinant = none_yet;
-
-  void add_skewness(double value) {
-    largest_skewness = std::max(largest_skewness, value);
-    if (value > severe_skewness) ++skewed;
-  }
-  void add_cell(double aspect, double determinant) {
-    ++cells;
-    largest_aspect_ratio = std::max(largest_aspect_ratio, aspect);
-    if (aspect > severe_aspect_ratio) ++stretched;
-    determinants += determinant;
-    least_determinant = std::min(least_determinant, determinant);
-    if (determinant < severe_determinant) ++underdetermined;
-  }
-  void add(const PieceRow& other) {
-    for (std::size_t c = 0; c < face_class_count; ++c) of_class[c].add(other.of_class[c]);
-    cells += other.cells, boundary_faces += other.boundary_faces;
-    skewed += other.skewed, stretched += other.stretched, underdetermined += other.underdetermined;
-    largest_skewness = std::max(largest_skewness, other.largest_skewness);
-    largest_aspect_ratio = std::max(largest_aspect_ratio, other.largest_aspect_ratio);
-    determinants += other.determinants;
-    least_determinant = std::min(least_determinant, other.least_determinant);
-  }
-};
+/// Below this value a measure of which the larger is worse matters neither for counts nor for places.
+template <SolverMeasure measure>
+double least_that_matters(const WorstOf<measure>& worst, double severe) {
+  return worst.is_full() ? std::min(severe, worst.last()) : 0;
+}
 
 /// What the cell on the other side of a face has to know.
 struct CellFacts {
@@ -92,159 +74,188 @@ struct CellFacts {
   std::int64_t in_layers = 0;
 };
 
+struct CellsAtFace {
+  CellFacts own, beyond;
+};
+
+FaceClass class_between(const CellFacts& a, const CellFacts& b) {
+  const std::int64_t in_layers = a.in_layers + b.in_layers;
+  return in_layers == 2   ? FaceClass::within_layers
+         : in_layers == 1 ? FaceClass::at_front
+                          : FaceClass::off_layers;
+}
+
+template <CellShape shape>
+constexpr const auto& faces_of_shape() {
+  if constexpr (shape == CellShape::tetrahedron) {
+    return faces_of_tetrahedra;
+  } else if constexpr (shape == CellShape::pyramid) {
+    return faces_of_pyramids;
+  } else {
+    return faces_of_prisms;
+  }
+}
+
 /// One cell with its points.
+template <CellShape shape>
 class CellAtHand {
 public:
-  CellAtHand(const Piece& piece, LocalIndex cell) : _place(cell_of(piece, cell)) {
-    points_of(piece, _place, _points.data());
-  }
-  CellShape shape() const { return _place.shape; }
-  std::size_t face_count() const { return faces_of(_place.shape).size(); }
+  static constexpr const auto& sides = faces_of_shape<shape>();
 
-  /// Fills `corners`; valid until that is filled again.
-  std::span<const Vec3> corners_at(std::size_t side, std::array<Vec3, 4>& corners) const {
-    std::size_t count = 0;
-    for (const std::int8_t k : faces_of(_place.shape)[side]) {
-      if (k >= 0) corners[count++] = _points[static_cast<std::uint8_t>(k)];
-    }
-    return {corners.data(), count};
+  CellAtHand(const Piece& piece, const LocalIndex* vertices) {
+    for (std::size_t k = 0; k < _points.size(); ++k) _points[k] = piece.point(vertices[k]);
   }
-  /// Fills `faces`; valid until that is filled again.
-  std::span<const FaceGeometry> faces(std::array<FaceGeometry, 5>& faces) const {
-    std::array<Vec3, 4> corners;
-    for (std::size_t side = 0; side < face_count(); ++side)
-      faces[side] = measure_face(corners_at(side, corners));
-    return {faces.data(), face_count()};
+  template <std::size_t side>
+  auto corners() const {
+    constexpr CellFace face = sides[side];
+    constexpr std::size_t count = face[3] < 0 ? 3 : 4;
+    std::array<Vec3, count> corners;
+    for (std::size_t k = 0; k < count; ++k) corners[k] = _points[static_cast<std::uint8_t>(face[k])];
+    return corners;
+  }
+  /// Calls visit(side, corners) for each side.
+  template <class Visit>
+  void for_each_side(const Visit& visit) const {
+    [&]<std::size_t... side>(std::index_sequence<side...>) {
+      (visit(side, corners<side>()), ...);
+    }
+    (std::make_index_sequence<sides.size()>{});
   }
 
 private:
-  CellOfPiece _place;
-  std::array<Vec3, 6> _points;
+  std::array<Vec3, static_cast<std::size_t>(corners_of(shape))> _points;
 };
 
-/// Measures the pieces of this rank: first cells, then faces, when what other pieces tell is there.
+/// Measures the pieces of this rank. A face between two pieces is left to the lower one, which is told of the
+/// cell in the higher one.
 class LocalJudge {
 public:
   LocalJudge(const NumberedMesh& mesh, const FaceLinks& links, bool layers_known)
-      : _mesh(mesh), _links(links), _layers_known(layers_known), _rows(mesh.pieces.size()) {}
-
-  void measure_cells() {
-    for (std::size_t p = 0; p < _mesh.pieces.size(); ++p) {
-      const Piece& piece = _mesh.pieces[p];
+      : _mesh(mesh), _links(links), _layers_known(layers_known), _sums(mesh.pieces.size()) {
+    for (const Piece& piece : mesh.pieces) {
       _cells.emplace_back(static_cast<std::size_t>(piece.total_cell_count()));
-      for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) measure_cell_at(p, c);
     }
   }
 
-  /// Tells the lower of both pieces at a face of the cell in the higher one.
-  std::vector<Told<CellFacts>> words() const {
+  /// All cells and all other faces. Returns what to tell.
+  std::vector<Told<CellFacts>> measure_pieces() {
     std::vector<Told<CellFacts>> words;
     for (std::size_t p = 0; p < _mesh.pieces.size(); ++p) {
-      const Piece& piece = _mesh.pieces[p];
-      const std::vector<CellNeighbour>& neighbours = _links.pieces[p].neighbours;
-      for (std::size_t side = 0; side < neighbours.size(); ++side) {
-        if (neighbours[side].exists() && neighbours[side].piece < piece.id)
-          words.push_back({neighbours[side], facts_of(p, cell_at_side(piece, side).cell)});
-      }
+      measure_cells<CellShape::prism>(p, words);
+      measure_cells<CellShape::pyramid>(p, words);
+      measure_cells<CellShape::tetrahedron>(p, words);
     }
     return words;
   }
 
-  /// `told` by cell and side.
-  void measure_faces(const std::vector<Told<CellFacts>>& told) {
-    auto next = told.begin();
-    for (std::size_t p = 0; p < _mesh.pieces.size(); ++p) {
-      for (LocalIndex c = 0; c < _mesh.pieces[p].total_cell_count(); ++c) measure_faces_of(p, c, next);
+  /// The faces between pieces.
+  void measure_between(const std::vector<Told<CellFacts>>& told) {
+    std::array<Vec3, 4> corners;
+    for (const auto& [to, beyond] : told) {
+      const std::size_t p = position_of(_mesh, to.piece);
+      const Piece& piece = _mesh.pieces[p];
+      const FaceKey<LocalIndex> vertices = PieceFaces(piece).side(to.cell, to.side);
+      const std::size_t count = vertices[3] < 0 ? 3 : 4;
+      for (std::size_t k = 0; k < count; ++k) corners[k] = piece.point(vertices[k]);
+      const std::span<const Vec3> of_face(corners.data(), count);
+      measure_inner_face(measure_face(of_face), of_face, {p, to.cell, cell_of(piece, to.cell).shape},
+                         {facts_of(p, to.cell), beyond});
     }
   }
 
-  const std::vector<PieceRow>& rows() const { return _rows; }
-  const std::vector<WorstCellOfShape>& worst(std::size_t measure) const { return _worst[measure]; }
+  const std::vector<PieceSums>& sums() const { return _sums; }
+  /// The worst places of this rank by SolverMeasure.
+  std::array<std::vector<WorstCellOfShape>, solver_measure_count> worst() const {
+    return {_non_orthogonal.places(), _skewed.places(), _stretched.places(), _underdetermined.places(),
+            _jumps.places()};
+  }
 
 private:
-  using Word = std::vector<Told<CellFacts>>::const_iterator;
-
-  void measure_cell_at(std::size_t p, LocalIndex c) {
-    const Piece& piece = _mesh.pieces[p];
-    const CellAtHand cell(piece, c);
-    std::array<FaceGeometry, 5> storage;
-    const std::span<const FaceGeometry> faces = cell.faces(storage);
-    const CellGeometry geometry = _cells[p][static_cast<std::size_t>(c)] = measure_cell(faces);
-    const CellNeighbour* neighbours = _links.pieces[p].neighbours.data() + first_side(piece, c);
-    DeterminantSum inner;
-    for (std::size_t side = 0; side < faces.size(); ++side) {
-      if (neighbours[side].exists()) inner.add(faces[side].area);
-    }
-    const double aspect = aspect_ratio(faces, geometry.volume), determinant = inner.determinant();
-    _rows[p].add_cell(aspect, determinant);
-    WorstCellOfShape place{aspect, _mesh.numbering.first_cell[p] + c, cell.shape(), geometry.center};
-    keep(SolverMeasure::aspect_ratio, place);
-    place.value = determinant;
-    keep(SolverMeasure::determinant, place);
-  }
-
-  /// The faces that no cell before this one has. `next`: what the first of them is told.
-  void measure_faces_of(std::size_t p, LocalIndex c, Word& next) {
-    const Piece& piece = _mesh.pieces[p];
-    const CellNeighbour* neighbours = _links.pieces[p].neighbours.data() + first_side(piece, c);
-    const CellAtHand cell(piece, c);
-    const CellFacts own = facts_of(p, c);
-    const WorstCellOfShape here{0, _mesh.numbering.first_cell[p] + c, cell.shape(), {}};
-    WorstFaces worst(here);
-    std::array<Vec3, 4> storage;
-    for (std::size_t side = 0; side < cell.face_count(); ++side) {
-      const CellNeighbour& other = neighbours[side];
-      if (other.exists() && std::tie(other.piece, other.cell) < std::tie(piece.id, c)) continue;
-      const std::span<const Vec3> corners = cell.corners_at(side, storage);
-      const FaceGeometry face = measure_face(corners);
-      if (!other.exists()) {
-        ++_rows[p].boundary_faces;
-        const double skewness = skewness_at_boundary(face, corners, own.geometry.center);
-        _rows[p].add_skewness(skewness);
-        worst.meet(SolverMeasure::skewness, skewness, face.center);
-        continue;
-      }
-      const CellFacts beyond = other.piece == piece.id ? facts_of(p, other.cell) : (next++)->what;
-      const double skewness = skewness_inside(face, corners, own.geometry.center, beyond.geometry.center);
-      const double cosine = cosine_at_face(face.area, own.geometry.center, beyond.geometry.center);
-      const double fraction = volume_fraction(own.geometry.volume, beyond.geometry.volume);
-      _rows[p].of_class[class_between(own, beyond)].add(cosine, fraction);
-      _rows[p].add_skewness(skewness);
-      worst.meet(SolverMeasure::skewness, skewness, face.center);
-      worst.meet(SolverMeasure::non_orthogonality, cosine, face.center);
-      worst.meet(SolverMeasure::volume_ratio, fraction, face.center);
-    }
-    for (const SolverMeasure measure :
-         {SolverMeasure::non_orthogonality, SolverMeasure::skewness, SolverMeasure::volume_ratio}) {
-      if (worst.has(measure)) keep(measure, worst.of(measure));
-    }
-  }
-
-  /// The worst face of one cell by measure.
-  class WorstFaces {
-  public:
-    explicit WorstFaces(const WorstCellOfShape& cell) { _of.fill(cell); }
-    void meet(SolverMeasure measure, double value, Vec3 center) {
-      const auto m = static_cast<std::size_t>(measure);
-      WorstCellOfShape& worst = _of[m];
-      if (_has[m] && (larger_is_kept(m) ? value <= worst.value : value >= worst.value)) return;
-      _has[m] = true;
-      worst.value = value;
-      worst.center = center;
-    }
-    bool has(SolverMeasure measure) const { return _has[static_cast<std::size_t>(measure)]; }
-    const WorstCellOfShape& of(SolverMeasure measure) const { return _of[static_cast<std::size_t>(measure)]; }
-
-  private:
-    std::array<WorstCellOfShape, solver_measure_count> _of;
-    std::array<bool, solver_measure_count> _has{};
+  struct Place {
+    std::size_t piece;  ///< of this rank
+    LocalIndex cell;
+    CellShape shape;
   };
 
-  static std::size_t class_between(const CellFacts& a, const CellFacts& b) {
-    const std::int64_t in_layers = a.in_layers + b.in_layers;
-    return static_cast<std::size_t>(in_layers == 2   ? FaceClass::within_layers
-                                    : in_layers == 1 ? FaceClass::at_front
-                                                     : FaceClass::off_layers);
+  /// The last cells first, so each face is measured from the lower of its cells when both are known.
+  template <CellShape shape>
+  void measure_cells(std::size_t p, std::vector<Told<CellFacts>>& words) {
+    const Piece& piece = _mesh.pieces[p];
+    constexpr auto corners = static_cast<std::size_t>(corners_of(shape));
+    const std::span<const LocalIndex> vertices = connectivity_of(piece, shape);
+    LocalIndex first = 0;
+    if (shape != CellShape::tetrahedron) first += piece.cell_count();
+    if (shape == CellShape::prism) first += static_cast<LocalIndex>(piece.pyramids.size() / 5);
+    for (std::size_t i = vertices.size() / corners; i-- > 0;) {
+      const CellAtHand<shape> cell(piece, vertices.data() + corners * i);
+      measure_cell_at(cell, {p, first + static_cast<LocalIndex>(i), shape}, words);
+    }
+  }
+
+  template <CellShape shape>
+  void measure_cell_at(const CellAtHand<shape>& cell, const Place& place,
+                       std::vector<Told<CellFacts>>& words) {
+    const Piece& piece = _mesh.pieces[place.piece];
+    const CellNeighbour* neighbours =
+        _links.pieces[place.piece].neighbours.data() + first_side(piece, place.cell);
+    std::array<FaceGeometry, CellAtHand<shape>::sides.size()> faces;
+    DeterminantSum inner;
+    cell.for_each_side([&](std::size_t side, const auto& corners) {
+      faces[side] = measure_face(corners);
+      if (neighbours[side].exists()) inner.add(faces[side].area);
+    });
+    const CellGeometry geometry = measure_cell(faces);
+    add_cell(faces, geometry, inner.determinant(), place);
+    const CellFacts own = facts_of(place.piece, place.cell);
+    cell.for_each_side([&](std::size_t side, const auto& corners) {
+      const CellNeighbour& other = neighbours[side];
+      if (!other.exists()) {
+        ++_sums[place.piece].boundary_faces;
+        add_skewness(skewness_at_boundary(faces[side], corners, geometry.center), place, faces[side].center);
+      } else if (other.piece == piece.id) {
+        if (other.cell > place.cell)
+          measure_inner_face(faces[side], corners, place, {own, facts_of(place.piece, other.cell)});
+      } else if (other.piece < piece.id) {
+        words.push_back({other, own});
+      }
+    });
+  }
+
+  void add_cell(std::span<const FaceGeometry> faces, const CellGeometry& geometry, double determinant,
+                const Place& place) {
+    _cells[place.piece][static_cast<std::size_t>(place.cell)] = geometry;
+    PieceSums& sums = _sums[place.piece];
+    sums.add_determinant(determinant);
+    offer(_underdetermined, determinant, place, geometry.center);
+    if (!may_be_stretched(faces, geometry.volume, least_that_matters(_stretched, severe_aspect_ratio)))
+      return;
+    const double aspect = aspect_ratio(faces, geometry.volume);
+    sums.add_aspect_ratio(aspect);
+    offer(_stretched, aspect, place, geometry.center);
+  }
+
+  void measure_inner_face(const FaceGeometry& face, std::span<const Vec3> corners, const Place& place,
+                          const CellsAtFace& cells) {
+    const auto& [own, beyond] = cells;
+    const Vec3 here = own.geometry.center, there = beyond.geometry.center;
+    const double cosine = cosine_at_face(face.area, here, there);
+    const double fraction = volume_fraction(own.geometry.volume, beyond.geometry.volume);
+    _sums[place.piece].of_class[static_cast<std::size_t>(class_between(own, beyond))].add(cosine, fraction);
+    offer(_non_orthogonal, cosine, place, face.center);
+    offer(_jumps, fraction, place, face.center);
+    if (may_be_skewed(face, corners, here, there, least_that_matters(_skewed, severe_skewness)))
+      add_skewness(skewness_inside(face, corners, here, there), place, face.center);
+  }
+
+  void add_skewness(double skewness, const Place& place, Vec3 center) {
+    _sums[place.piece].add_skewness(skewness);
+    offer(_skewed, skewness, place, center);
+  }
+
+  template <SolverMeasure measure>
+  void offer(WorstOf<measure>& worst, double value, const Place& place, Vec3 center) {
+    if (worst.may_keep(value))
+      worst.keep({value, _mesh.numbering.first_cell[place.piece] + place.cell, place.shape, center});
   }
 
   CellFacts facts_of(std::size_t p, LocalIndex c) const {
@@ -255,81 +266,30 @@ private:
     return {_cells[p][static_cast<std::size_t>(c)], in_layers ? 1 : 0};
   }
 
-  void keep(SolverMeasure measure, const WorstCellOfShape& candidate) {
-    const auto m = static_cast<std::size_t>(measure);
-    std::vector<WorstCellOfShape>& kept = _worst[m];
-    if (kept.size() == kept_per_solver_measure && !is_worse_place(m, candidate, kept.back())) return;
-    kept.insert(std::upper_bound(kept.begin(), kept.end(), candidate,
-                                 [m](const WorstCellOfShape& a, const WorstCellOfShape& b) {
-                                   return is_worse_place(m, a, b);
-                                 }),
-                candidate);
-    if (kept.size() > kept_per_solver_measure) kept.pop_back();
-  }
-
   const NumberedMesh& _mesh;
   const FaceLinks& _links;
   bool _layers_known;
   std::vector<std::vector<CellGeometry>> _cells;  // by piece
-  std::vector<PieceRow> _rows;
-  std::array<std::vector<WorstCellOfShape>, solver_measure_count> _worst;
+  std::vector<PieceSums> _sums;                   // by piece
+  WorstOf<SolverMeasure::non_orthogonality> _non_orthogonal;
+  WorstOf<SolverMeasure::skewness> _skewed;
+  WorstOf<SolverMeasure::aspect_ratio> _stretched;
+  WorstOf<SolverMeasure::determinant> _underdetermined;
+  WorstOf<SolverMeasure::volume_ratio> _jumps;
 };
 
 /// Of all ranks. Collective.
-std::vector<WorstCellOfShape> worst_places(const parallel::Communicator& communicator, std::size_t measure,
+std::vector<WorstCellOfShape> worst_places(const parallel::Communicator& communicator, SolverMeasure measure,
                                            const std::vector<WorstCellOfShape>& mine) {
   auto all = communicator.all_gather_items(std::span<const WorstCellOfShape>(mine));
   std::sort(all.begin(), all.end(), [measure](const WorstCellOfShape& a, const WorstCellOfShape& b) {
     return is_worse_place(measure, a, b);
   });
   if (all.size() > kept_per_solver_measure) all.resize(kept_per_solver_measure);
-  if (all_solver_measures[measure] == SolverMeasure::non_orthogonality) {
+  if (measure == SolverMeasure::non_orthogonality) {
     for (WorstCellOfShape& place : all) place.value = degrees_of_cosine(place.value);
   }
   return all;
-}
-
-double mean_of(double sum, GlobalIndex count) {
-  return sum / static_cast<double>(count);
-}
-
-FacesOfClass summarise(const ClassRow& row) {
-  FacesOfClass result;
-  if (row.faces == 0) return result;
-  result.faces = row.faces;
-  result.largest_non_orthogonality = degrees_of_cosine(row.least_cosine);
-  result.average_non_orthogonality = degrees_of_cosine(mean_of(row.cosines, row.faces));
-  result.non_orthogonal_faces = row.non_orthogonal;
-  result.largest_volume_ratio =
-      row.least_fraction * largest_ratio > 1 ? 1 / row.least_fraction : largest_ratio;
-  result.high_volume_ratios = row.high_ratios, result.severe_volume_ratios = row.severe_ratios;
-  return result;
-}
-
-SolverQuality summarise(const PieceRow& sum) {
-  SolverQuality result;
-  ClassRow all;
-  for (std::size_t c = 0; c < face_class_count; ++c) {
-    all.add(sum.of_class[c]);
-    result.of_class[c] = summarise(sum.of_class[c]);
-  }
-  const FacesOfClass inner = summarise(all);
-  result.cells = sum.cells, result.inner_faces = inner.faces, result.boundary_faces = sum.boundary_faces;
-  result.largest_non_orthogonality = inner.largest_non_orthogonality;
-  result.average_non_orthogonality = inner.average_non_orthogonality;
-  result.non_orthogonal_faces = inner.non_orthogonal_faces;
-  result.largest_skewness = sum.largest_skewness, result.skewed_faces = sum.skewed;
-  result.largest_aspect_ratio = sum.largest_aspect_ratio, result.stretched_cells = sum.stretched;
-  result.underdetermined_cells = sum.underdetermined;
-  if (sum.cells > 0) {
-    result.smallest_determinant = sum.least_determinant;
-    result.mean_determinant = mean_of(sum.determinants, sum.cells);
-  }
-  if (all.faces > 0) {
-    result.smallest_volume_ratio = all.least_fraction;
-    result.mean_volume_ratio = mean_of(all.fractions, all.faces);
-  }
-  return result;
 }
 
 }  // namespace
@@ -351,13 +311,13 @@ SolverQuality measure_as_solvers(const NumberedMesh& mesh, const FaceLinks& link
   const bool known = std::any_of(mesh.pieces.begin(), mesh.pieces.end(),
                                  [](const Piece& piece) { return !piece.layers.empty(); });
   LocalJudge judge(mesh, links, communicator.maximum(std::int64_t{known}) > 0);
-  judge.measure_cells();
-  judge.measure_faces(tell_cells(mesh, judge.words()));
-  PieceRow sum;
-  for (const PieceRow& row : gather_by_piece(mesh, judge.rows())) sum.add(row);
+  judge.measure_between(tell_cells(mesh, judge.measure_pieces()));
+  PieceSums sum;
+  for (const PieceSums& of_piece : gather_by_piece(mesh, judge.sums())) sum.add(of_piece);
   SolverQuality result = summarise(sum);
+  const auto worst = judge.worst();
   for (std::size_t m = 0; m < solver_measure_count; ++m)
-    result.worst[m] = worst_places(communicator, m, judge.worst(m));
+    result.worst[m] = worst_places(communicator, all_solver_measures[m], worst[m]);
   return result;
 }
 

@@ -97,6 +97,28 @@ TEST(FaceMeasuresLocal, SkewnessIsWhatTheLineMisses) {
   EXPECT_EQ(skewness_inside(face, square, {std::nan(""), 0, 0}, {}), largest_ratio);
 }
 
+TEST(FaceMeasuresLocal, WhatMayReachALimitDoes) {
+  const std::vector<Vec3> square = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const FaceGeometry face = measure_face(square);
+  for (const double height : {1e-6, 0.1, 1.0, 10.0, 1e3}) {
+    for (const double beside : {0.0, 1e-3, 0.5, 30.0}) {
+      const Vec3 own{beside, beside / 3, -height}, other{beside, 0, 2 * height};
+      const double skewness = skewness_inside(face, square, own, other);
+      EXPECT_TRUE(may_be_skewed(face, square, own, other, skewness));
+      EXPECT_TRUE(may_be_skewed(face, square, own, other, 0));
+      EXPECT_FALSE(may_be_skewed(face, square, own, other, 1.001 * skewness + 1e-3 / height));
+    }
+    std::vector<Vec3> points = regular_prism;
+    for (Vec3& p : points) p.z *= height;
+    const auto faces = faces_of_cell(CellShape::prism, points);
+    const double volume = height * std::sqrt(3.0) / 4, ratio = aspect_ratio(faces, volume);
+    EXPECT_TRUE(may_be_stretched(faces, volume, ratio));
+    EXPECT_FALSE(may_be_stretched(faces, volume, 1.001 * ratio));
+    EXPECT_TRUE(may_be_stretched(faces, -volume, 1e20)) << "inside out";
+  }
+  EXPECT_TRUE(may_be_skewed(face, square, {std::nan(""), 0, 0}, {}, 1e20));
+}
+
 TEST(FaceMeasuresLocal, AspectRatios) {
   const double root3 = std::sqrt(3.0);
   // Sums of components: sqrt(3), 2 and sqrt(3) / 2.
