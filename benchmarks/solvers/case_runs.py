@@ -57,6 +57,60 @@ x = 2; y = 4; c = 0.5;
 Call Section;
 ThruSections(1) = {root, loop};
 """
+#: Half a fuselage of 10 m that ends in a point, a wing with an edge 5 mm blunt and a tailplane with a sharp one, in millimetres.
+WING_BODY = """SetFactory("OpenCASCADE");
+Macro Section
+  first = newp;
+  For i In {0:40}
+    t = Pi*i/40;
+    s = 0.5*(1+Cos(t));
+    h = 0.6*(0.2969*Sqrt(s)+s*(-0.126+s*(-0.3516+s*(0.2843-0.1036*s))))+edge*s;
+    Point(first+i) = {x+c*s, y, z+c*h};
+    If (i > 0 && i < 40 || i == 0 && edge > 0)
+      Point(first+80-i) = {x+c*s, y, z-c*h};
+    EndIf
+  EndFor
+  line = newl;
+  Spline(line) = {first:first+40};
+  loop = newll;
+  If (edge > 0)
+    Spline(line+1) = {first+40:first+80};
+    Line(line+2) = {first+80, first};
+    Curve Loop(loop) = {line, line+1, line+2};
+  Else
+    Spline(line+1) = {first+40:first+79, first};
+    Curve Loop(loop) = {line, line+1};
+  EndIf
+Return
+nose = newp;
+For i In {0:30}
+  t = i/30;
+  Point(nose+i) = {10000*t, 0, 2400*Sqrt(t)*(1-t)};
+EndFor
+profile = newl;
+Spline(profile) = {nose:nose+30};
+Line(profile+1) = {nose+30, nose};
+half = newll;
+Curve Loop(half) = {profile, profile+1};
+section = news;
+Plane Surface(section) = {half};
+body[] = Extrude{{1, 0, 0}, {0, 0, 0}, 2*Pi}{ Surface{section}; };
+edge = 0.0025; x = 2500; y = 0; z = -100; c = 2200;
+Call Section;
+root = loop;
+x = 4500; y = 6000; c = 900;
+Call Section;
+wing = newv;
+ThruSections(wing) = {root, loop};
+edge = 0; x = 7800; y = 0; z = 100; c = 1100;
+Call Section;
+root = loop;
+x = 8600; y = 1900; c = 600;
+Call Section;
+tail = newv;
+ThruSections(tail) = {root, loop};
+BooleanUnion{ Volume{body[1]}; Delete; }{ Volume{wing, tail}; Delete; }
+"""
 Case = collections.namedtuple("Case", "name geometry keys length reynolds angle streamlined")
 
 
@@ -86,6 +140,7 @@ def cases():
         Case("half_d150", find("tigl_D150_fused_aircraft.brep"), half(), 4, 2e7, 0, True),
         Case("dlr_f6", find("gmsh_dlr_f6.brep"), dlr_f6, 141.2, 3e6, 0, True),
         Case("wing_fuselage", find("gmsh_wing_fuselage.step"), around, 1, 3e6, 0, True),
+        Case("wing_body", WING_BODY, half(), 1700, 2e7, 0, True),
     ]
 
 
