@@ -77,6 +77,24 @@ public:
 
   /// Over the facets of the patch's faces.
   void add_patch(std::int32_t patch, PatchLayerForecast& sum) const {
+    for_each_part(patch, [&](const WallFacet& facet, Vec3 middle, double size, double area) {
+      add_part(facet, middle, size, area, sum);
+    });
+  }
+
+  /// Of the sizes on the patch, weighted by area; 0 for a patch without facets.
+  double mean_size(std::int32_t patch) const {
+    double sum = 0, sum_of_areas = 0;
+    for_each_part(patch, [&](const WallFacet&, Vec3, double size, double area) {
+      sum += area * size, sum_of_areas += area;
+    });
+    return sum_of_areas > 0 ? sum / sum_of_areas : 0;
+  }
+
+private:
+  /// Calls visit(facet, middle, size, area) for parts that are not much larger than the size there.
+  template <class Visit>
+  void for_each_part(std::int32_t patch, const Visit& visit) const {
     std::vector<double> area_of_facets(_model.face_count(), 0);
     for (const WallFacet& facet : _facets) area_of_facets[facet.face] += norm(area_vector(facet.corners));
     for (const WallFacet& facet : _facets) {
@@ -84,13 +102,13 @@ public:
       if (face.patch != patch || face.back != cad::no_entity) continue;
       // Facets cut corners: the exact area makes up for it.
       const double larger = _model.face_area(facet.face) / area_of_facets[facet.face];
-      add_parts(facet, facet.corners, larger, 0, sum);
+      visit_parts(facet, facet.corners, larger, 0, visit);
     }
   }
 
-private:
-  void add_parts(const WallFacet& facet, const Triangle& t, double larger, int depth,
-                 PatchLayerForecast& sum) const {
+  template <class Visit>
+  void visit_parts(const WallFacet& facet, const Triangle& t, double larger, int depth,
+                   const Visit& visit) const {
     int longest = 0;
     for (int i = 1; i < 3; ++i)
       if (distance(t[i], t[(i + 1) % 3]) > distance(t[longest], t[(longest + 1) % 3])) longest = i;
@@ -98,10 +116,10 @@ private:
     const Vec3 middle = (a + b + c) / 3.0;
     const double size = _field(middle);
     if (distance(a, b) <= part_per_size * size || depth >= deepest_part)
-      return add_part(facet, middle, size, larger * norm(area_vector(t)), sum);
+      return visit(facet, middle, size, larger * norm(area_vector(t)));
     const Vec3 half = 0.5 * (a + b);
-    add_parts(facet, {a, half, c}, larger, depth + 1, sum);
-    add_parts(facet, {half, b, c}, larger, depth + 1, sum);
+    visit_parts(facet, {a, half, c}, larger, depth + 1, visit);
+    visit_parts(facet, {half, b, c}, larger, depth + 1, visit);
   }
 
   void add_part(const WallFacet& facet, Vec3 middle, double size, double area,
@@ -163,6 +181,17 @@ private:
   sizing::RayTree _tree;
 };
 
+/// Changes what is asked for as a run does; sizes stand for edges.
+void fit_patch(const cases::LayerRequest& request, const LayerCount& count, std::int32_t patch,
+               PatchLayerForecast& forecast) {
+  if (request.fit == cases::LayerFit::none) return;
+  const double size = count.mean_size(patch);
+  if (size <= 0) return;
+  const layers::WallLayers asked = forecast.asked;
+  forecast.asked = cases::fitted_layers(asked, size, request.fit, request.growth_maximum);
+  forecast.change = cases::change_of_fit(asked, forecast.asked, size);
+}
+
 std::string from_to(double low, double high) {
   return high > low ? fmt::format("{:.3g} to {:.3g}", low, high) : fmt::format("{:.3g}", low);
 }
@@ -180,6 +209,7 @@ std::string describe_patch(const LayerForecast& forecast, const PatchLayerForeca
       from_to(patch.least_count, patch.most_count), patch.asked.first,
       y_plus ? fmt::format(" (y+ {:.3g} at its node, {:.3g} at its centre)", *y_plus, 0.5 * *y_plus) : "",
       patch.asked.growth, from_to(patch.least_total, patch.most_total));
+  if (!patch.change.empty()) text += fmt::format("       by layers.fit: {}\n", patch.change);
   const std::string early = cases::early_end(patch.asked, patch.edges_area / patch.area);
   if (!early.empty()) text += fmt::format("       {}\n", early);
   if (patch.lacking_area > 0)
@@ -224,6 +254,7 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
   for (std::size_t p = 0; p < options.patches.size(); ++p) {
     if (options.patches[p].first <= 0) continue;
     PatchLayerForecast patch{.name = model.patches()[p], .asked = options.patches[p]};
+    fit_patch(input.layers, count, static_cast<std::int32_t>(p), patch);
     count.add_patch(static_cast<std::int32_t>(p), patch);
     if (patch.area > 0) forecast.patches.push_back(std::move(patch));
   }

@@ -19,7 +19,7 @@ namespace aeroloom::pipeline {
 /// The layers of a patch. Areas are in the square of the model's unit.
 struct PatchLayerForecast {
   std::string name;
-  layers::WallLayers asked;
+  layers::WallLayers asked;                      ///< as `layers.fit` has changed it
   std::int32_t least_count = 0, most_count = 0;  ///< number of layers wanted
   double least_total = 0, most_total = 0;        ///< total height wanted
   double cells = 0;
@@ -29,6 +29,7 @@ struct PatchLayerForecast {
   double lacking_area = 0;  ///< gaps do not hold the wanted number of layers
   double narrowest_gap = std::numeric_limits<double>::infinity();  ///< of the areas above
   geometry::Vec3 narrowest_at = {};                                ///< point on the wall
+  std::string change;                                              ///< by `layers.fit`; empty: none
 };
 
 struct LayerForecast {

@@ -3,14 +3,18 @@
 #include "layers/column_heights.hpp"
 #include "layers/end_planes.hpp"
 #include "mesh/transfer/split_pieces.hpp"
+#include "parallel/observation/log.hpp"
 #include "pipeline/stage_log.hpp"
 #include "sizing/field/sources.hpp"
 #include "surface/plane_remesher.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace aeroloom::pipeline {
 
@@ -83,6 +87,59 @@ std::vector<sizing::SizeSource> sizes_of_cap(const mesh::DistributedMesh& wall,
   return all;
 }
 
+/// What a piece has of a patch.
+struct EdgesOfPatch {
+  double area = 0, edges = 0;  ///< sum of areas; of areas times mean edges
+  std::int32_t patch = 0;
+  mesh::PieceId piece = 0;
+};
+
+std::vector<EdgesOfPatch> edges_of_piece(const mesh::Piece& piece, std::size_t patch_count) {
+  std::vector<EdgesOfPatch> sums(patch_count);
+  for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+    const LocalIndex* const cell = piece.cell(t);
+    const Vec3 a = piece.point(cell[0]), b = piece.point(cell[1]), c = piece.point(cell[2]);
+    const double area = 0.5 * norm(cross(b - a, c - a));
+    EdgesOfPatch& sum = sums.at(piece.triangle_patch[t]);
+    sum.area += area;
+    sum.edges += area * (distance(a, b) + distance(b, c) + distance(c, a)) / 3;
+  }
+  return sums;
+}
+
+/// The mean length of edges on each patch, weighted by area; 0 without triangles. Sums run in the order of
+/// pieces. Collective; equal for any number of ranks.
+std::vector<double> mean_edges_of_patches(const mesh::DistributedMesh& wall) {
+  std::vector<EdgesOfPatch> rows;
+  for (const mesh::Piece& piece : wall.pieces) {
+    const std::vector<EdgesOfPatch> sums = edges_of_piece(piece, wall.patches.size());
+    for (std::size_t p = 0; p < sums.size(); ++p) {
+      if (sums[p].area > 0)
+        rows.push_back({sums[p].area, sums[p].edges, static_cast<std::int32_t>(p), piece.id});
+    }
+  }
+  std::vector<double> areas(wall.patches.size(), 0), edges(wall.patches.size(), 0);
+  for (const EdgesOfPatch& row : wall.communicator.gather_sorted(rows, &EdgesOfPatch::piece))
+    areas[row.patch] += row.area, edges[row.patch] += row.edges;
+  for (std::size_t p = 0; p < edges.size(); ++p) edges[p] = areas[p] > 0 ? edges[p] / areas[p] : 0;
+  return edges;
+}
+
+/// Changes layers as `layers.fit` asks, and says so. Collective.
+void fit_layers(const cases::LayerRequest& request, const mesh::DistributedMesh& wall,
+                layers::LayerOptions& options) {
+  if (request.fit == cases::LayerFit::none) return;
+  const std::vector<double> edges = mean_edges_of_patches(wall);
+  for (std::size_t p = 0; p < options.patches.size(); ++p) {
+    layers::WallLayers& wanted = options.patches[p];
+    if (wanted.first <= 0 || edges.at(p) <= 0) continue;
+    const layers::WallLayers asked = wanted;
+    wanted = cases::fitted_layers(asked, edges[p], request.fit, request.growth_maximum);
+    const std::string change = cases::change_of_fit(asked, wanted, edges[p]);
+    if (!change.empty()) parallel::log_info(fmt::format("layers on '{}': {}", wall.patches[p], change));
+  }
+}
+
 /// Ascending.
 std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
                                          const layers::LayerOptions& options) {
@@ -98,9 +155,10 @@ std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
 
 LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   surface.patch_types = surface.types;
-  const layers::LayerOptions options =
+  layers::LayerOptions options =
       cases::layer_options(cases::without_missing_patches(input.layers, surface.patches), input.sizing,
                            surface.patches, surface.types);
+  fit_layers(input.layers, surface, options);
   const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
@@ -113,6 +171,7 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   report::LayerRecord record{options, std::move(made.report)};
   if (input.layers.reynolds && input.layers.length)
     record.boundary_layer = cases::boundary_layer_thickness(*input.layers.reynolds, *input.layers.length);
+  record.fit = input.layers.fit;
   log_layers(record);
   if (surface.communicator.is_root()) {
     warn_of_missing_layers(record, surface.patches);

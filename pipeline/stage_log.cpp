@@ -14,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -217,6 +218,15 @@ std::string below_boundary_layer(const std::optional<double>& thickness, const l
                      height, *thickness);
 }
 
+/// Of layers that end early, and that this has not mended.
+std::string_view remedy_after(cases::LayerFit fit) {
+  if (fit == cases::LayerFit::none)
+    return "layers.fit: growth or count, a larger layers.count or layers.total, or neither";
+  if (fit == cases::LayerFit::growth)
+    return "layers.fit: count, or a larger layers.growth_maximum or layers.count";
+  return "a growth above 1, or a larger layers.count or layers.total";
+}
+
 }  // namespace
 
 void warn_of_low_layers(const report::LayerRecord& layers, const std::vector<std::string>& patches) {
@@ -226,8 +236,7 @@ void warn_of_low_layers(const report::LayerRecord& layers, const std::vector<std
     const std::string early = cases::early_end(layers.asked.patches.at(p), made.sums.edges / made.area);
     if (!early.empty())
       parallel::log_warning(
-          fmt::format("layers: on '{}' {}. Remedy: a larger layers.count or layers.total, or neither",
-                      patches.at(p), early));
+          fmt::format("layers: on '{}' {}. Remedy: {}", patches.at(p), early, remedy_after(layers.fit)));
     const std::string low = below_boundary_layer(layers.boundary_layer, made);
     if (!low.empty())
       parallel::log_warning(fmt::format(

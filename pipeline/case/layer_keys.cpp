@@ -58,7 +58,7 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
       common({"Ratio of the heights of successive layers. It is less where there is little room.",
               "that of `sizing.level`; with `count` and `total` the one by which they fit; or 1.2", "1.2"}));
   keys.number("growth_maximum", request.growth_maximum, Range::between(least_growth, most_growth),
-              "Largest growth where it follows from `count` and `total`.");
+              "Largest growth where it follows from `count` and `total`, or where `fit: growth` raises it.");
   keys.integer("count", request.count, Range::between(1, most_layers, "layers"),
                {"Largest number of layers.", "as many as `until` takes", "40"});
   keys.number("total", request.total, Range::above(0, length_unit),
@@ -66,6 +66,13 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
   keys.choice<LayerEnd>("until", request.until, {{"isotropic", LayerEnd::isotropic}},
                         "Where layers stop without `count` and `total`. `isotropic`: once the last is 0.7 "
                         "times as high as the triangles there are wide.");
+  keys.choice<LayerFit>(
+      "fit", request.fit,
+      {{"none", LayerFit::none}, {"growth", LayerFit::growth}, {"count", LayerFit::count}},
+      "What changes on a patch whose `count` or `total` ends layers, at its mean edge, before half of the "
+      "height at which `until` ends them. `growth`: it is raised, at most to `growth_maximum`, so that "
+      "`count` layers end there; `total` no longer holds, and without `count` it gives their number. "
+      "`count`: neither `count` nor `total` holds.");
   using layers::LayerElements;
   keys.choice<LayerElements>("elements", request.elements,
                              {{"prisms", LayerElements::prisms}, {"tets", LayerElements::tets}},
@@ -172,8 +179,8 @@ void check_layers(const KeyTable& keys, const CaseDraft& draft) {
   if (from_flow && !request.y_plus && !draft.result.sizing.level)
     refuse("layers.reynolds", "needs 'layers.y_plus', or 'sizing.level', which has one");
   const bool height_for_all = request.first || from_flow;
-  const bool of_heights =
-      request.constant || request.growth || request.count || request.total || request.gate.given;
+  const bool of_heights = request.constant || request.growth || request.count || request.total ||
+                          request.gate.given || request.fit != LayerFit::none;
   if (request.walls == LayeredWalls::all && !height_for_all && (of_heights || !draft.layer_rules.empty()))
     refuse("layers",
            "'layers' needs the height of the first layer: 'first', or 'reynolds' and 'length' with 'y_plus'; "

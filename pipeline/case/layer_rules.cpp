@@ -134,6 +134,41 @@ std::string early_end(const layers::WallLayers& asked, double edge) {
                      count, heights.total(count), 100 * share, needed);
 }
 
+layers::WallLayers fitted_layers(const layers::WallLayers& asked, double edge, LayerFit fit,
+                                 double growth_maximum) {
+  if (fit == LayerFit::none || early_end(asked, edge).empty()) return asked;
+  layers::WallLayers fitted = asked;
+  fitted.total = 0;
+  if (fit == LayerFit::count) {
+    fitted.count = 0;
+    return asked.growth > 1 ? fitted : asked;
+  }
+  if (asked.count == 0) fitted.count = layers::wanted_count(asked, edge);
+  const std::int32_t steps = fitted.count - asked.constant;
+  if (steps <= 0) return asked;
+  const double needed = std::pow(layers::isotropic_height * edge / asked.first, 1.0 / steps);
+  fitted.growth = std::clamp(needed, asked.growth, std::max(asked.growth, growth_maximum));
+  return fitted;
+}
+
+std::string change_of_fit(const layers::WallLayers& asked, const layers::WallLayers& fitted, double edge) {
+  if (asked.growth == fitted.growth && asked.count == fitted.count && asked.total == fitted.total) return {};
+  const std::int32_t count = layers::wanted_count(fitted, edge);
+  if (fitted.count == 0)
+    return fmt::format("{} layers for {}, so that they end isotropic", count,
+                       layers::wanted_count(asked, edge));
+  std::string text = "no limit to their height";
+  if (fitted.growth > asked.growth) {
+    const char* const besides = asked.total > 0 ? " and no limit to their height" : "";
+    text = fmt::format("growth {:.4g} for {:.4g}{}", fitted.growth, asked.growth, besides);
+  }
+  // Numbers of layers are rounded.
+  const double last = layers::Heights{fitted.first, fitted.growth, fitted.constant}.last(count);
+  if (last * fitted.growth < layers::isotropic_height * edge)
+    return text + ", as much as 'layers.growth_maximum' allows";
+  return text + fmt::format(", so that {} layers end isotropic", count);
+}
+
 layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequest& sizing,
                                    const std::vector<std::string>& patches,
                                    const std::vector<mesh::PatchType>& types) {

@@ -24,6 +24,8 @@ struct LayerRule {
 enum class LayeredWalls : std::uint8_t { all, none };
 /// What ends columns that neither a count nor a total height ends.
 enum class LayerEnd : std::uint8_t { isotropic };
+/// What is changed where count and total end layers early: nothing, the growth, or count and total.
+enum class LayerFit : std::uint8_t { none, growth, count };
 
 /// Limits that layers must meet for the run to succeed. Empty members are not checked.
 struct LayerGate {
@@ -41,10 +43,11 @@ struct LayerRequest {
   std::optional<double> reynolds, length;
   std::optional<std::int64_t> constant;  ///< left out: that of the level, or 2
   std::optional<double> growth;          ///< left out: that of the level, or 1.2
-  double growth_maximum = 1.3;           ///< of the growth that follows from count and total
+  double growth_maximum = 1.3;           ///< of the growth that follows from count and total, or from `fit`
   std::optional<std::int64_t> count;
   std::optional<double> total;
   LayerEnd until = LayerEnd::isotropic;
+  LayerFit fit = LayerFit::none;
   layers::LayerElements elements = layers::LayerElements::prisms;
   LayerGate gate;
   std::vector<LayerRule> patches;
@@ -73,6 +76,16 @@ layers::WallLayers wanted_layers(const LayerRequest& request, const SizingReques
 /// Where the count or total of layers ends them before the last is half as high as meets sizes over edges of
 /// this length: "30 layers end at 0.011, ...; 47 are needed". Else empty.
 std::string early_end(const layers::WallLayers& asked, double edge);
+
+/// The layers asked for, changed where early_end() tells of them over edges of this mean length. `growth`:
+/// one that is larger, at most `growth_maximum`, so that the last of `count` layers meets the sizes; no
+/// total. Without a count it is the number of layers that the total holds. `count`: neither count nor total.
+/// Layers that do not grow stay.
+layers::WallLayers fitted_layers(const layers::WallLayers& asked, double edge, LayerFit fit,
+                                 double growth_maximum);
+
+/// What the change was: "growth 1.27 for 1.2, so that 30 layers end isotropic". Empty if there was none.
+std::string change_of_fit(const layers::WallLayers& asked, const layers::WallLayers& fitted, double edge);
 
 /// The layers of each patch. Throws std::invalid_argument, with the place in the case, for a rule whose patch
 /// does not exist (with the nearest name) or is no wall.

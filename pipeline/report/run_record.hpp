@@ -11,6 +11,7 @@
 #include "mesh/quality/quality.hpp"
 #include "mesh/quality/solver_quality.hpp"
 #include "parallel/observation/timers.hpp"
+#include "pipeline/case/layer_rules.hpp"
 #include "pipeline/case/quality_gate.hpp"
 #include "pipeline/domain/sizing_findings.hpp"
 #include "pipeline/report/picture.hpp"
@@ -55,10 +56,11 @@ struct RegionRow {
 
 /// The layers asked for and the layers made, both by patch of the mesh.
 struct LayerRecord {
-  layers::LayerOptions asked;
+  layers::LayerOptions asked;  ///< as `layers.fit` has changed it
   layers::LayerReport report;
   /// Thickness of a flat plate's boundary layer at the case's Reynolds number, if it has one.
   std::optional<double> boundary_layer = {};
+  cases::LayerFit fit = cases::LayerFit::none;  ///< the case's
 };
 
 /// The results of checking a finished surface mesh.

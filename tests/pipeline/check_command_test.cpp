@@ -176,6 +176,19 @@ TEST_F(CheckCommandLocal, TellsOfLayersAndOfRoomForThem) {
   EXPECT_GT(cells, 1000);
 }
 
+// As a run, which has edges for sizes.
+TEST_F(CheckCommandLocal, FitsLayersThatTheirCountEndsEarly) {
+  const std::string layered = coarse_duct() + "layers: {first: 1e-3, growth: 1.1, count: 30}\n";
+  check(0, layered, {"30 layers end at", "are needed"});
+  const CommandResult fitted =
+      expect(0, "check case.yaml --set layers.fit=growth", {"by layers.fit: growth"});
+  EXPECT_FALSE(fitted.has("layers end at")) << fitted;
+  for (const Json& row : read_json("out/check.json")["forecast"]["layers"]["patches"]) {
+    EXPECT_GT(row["growth"], 1.1);
+    EXPECT_EQ(row["layers_max"], 30);
+  }
+}
+
 // Layers too: half as high at first, twice as many, as high together.
 TEST_F(CheckCommandLocal, TellsOfAFamilyWhatEachOfItsCasesSays) {
   const std::string layered = coarse_duct() + "layers: {first: 0.004, growth: 1.44, count: 4}\n";

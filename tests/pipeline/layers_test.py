@@ -167,10 +167,23 @@ def check_plane(program):
     assert surface.GetNumberOfCells() == quads + mesh["boundary_triangles"]
 
 
+def check_fit(program):
+    """Layers that their count ends early grow more, one growth for the patch, and end as high as triangles are wide."""
+    text = SPHERE + "layers: {first: 1e-3, growth: 1.2, count: 24, total: 0.2, fit: growth}\n"
+    runs = [Run(program, text, ranks) for ranks in (1, 2)]
+    assert all(run.code == 0 for run in runs), [run.text for run in runs]
+    assert runs[0].report["mesh"]["hash"] == runs[1].report["mesh"]["hash"], "the mesh depends on the number of ranks"
+    row, = runs[0].report["layers"]["patches"]
+    assert 1.2 < row["growth"] < 1.3 and row["count"] == 24 and row["total"] is None, row
+    assert row["isotropic"] > 0.98 and abs(row["last_mean"] - 0.7) < 0.07 and row["layers_max"] == 24, row
+    assert f"growth {row['growth']:.4g} for 1.2" in runs[0].text and "layers end at" not in runs[0].text, runs[0].text
+
+
 def main():
     program = sys.argv[1]
     check_plane(program)
     check_gate(program)
+    check_fit(program)
     runs = {ranks: Run(program, SPHERE + LAYERS, ranks, (f"output.checkpoints={keeps}",)) for ranks, keeps in ((1, "none"), (3, "write"))}
     for ranks, run in runs.items():
         assert run.code == 0, f"{ranks} ranks ended with {run.code}:\n{run.text}"

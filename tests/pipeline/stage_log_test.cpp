@@ -192,7 +192,11 @@ TEST_F(StageLog, WarnsOfLayersBelowTheBoundaryLayer) {
   record.boundary_layer = 0.02;
   const Said high = said_by([&] { warn_of_low_layers(record, {"wing", "far"}); });
   EXPECT_TRUE(has(high.warnings, "layers: on 'wing' 10 layers end at 0.026")) << high.warnings;
+  EXPECT_TRUE(has(high.warnings, "Remedy: layers.fit: growth or count,")) << high.warnings;
   EXPECT_FALSE(has(high.warnings, "boundary layer")) << high.warnings;
+  record.fit = cases::LayerFit::growth;
+  const Said fitted = said_by([&] { warn_of_low_layers(record, {"wing", "far"}); });
+  EXPECT_TRUE(has(fitted.warnings, "Remedy: layers.fit: count,")) << fitted.warnings;
   record.asked.patches[0].count = 0;
   record.boundary_layer = 0.025;
   const Said low = said_by([&] { warn_of_low_layers(record, {"wing", "far"}); });

@@ -2,6 +2,7 @@
 #include "pipeline/case/layer_rules.hpp"
 #include "tests/pipeline/case/case_fixture.hpp"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -46,13 +47,15 @@ TEST_F(LayerKeys, ComeBack) {
   const Case input = with_layers(
       "walls: none, first: 1e-5, constant: 3, growth: 1.3, count: 20, total: 0.5, patches: {wing: {first: "
       "2e-5, "
-      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}, elements: tets, gate: {full_area: "
+      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}, elements: tets, fit: count, gate: "
+      "{full_area: "
       "0.9}");
   const Case again = case_of_resolved(resolved_yaml(input));
   EXPECT_TRUE(again.layers.given);
   EXPECT_EQ(again.layers.walls, LayeredWalls::none);
   ASSERT_EQ(again.layers.patches.size(), 2u);
   EXPECT_EQ(again.layers.elements, layers::LayerElements::tets);
+  EXPECT_EQ(again.layers.fit, LayerFit::count);
   EXPECT_EQ(again.layers.gate.full_area, 0.9);
   EXPECT_EQ(again.layers.patches[0].first, 2e-5);
   EXPECT_EQ(again.layers.patches[1].count, 0);
@@ -144,6 +147,58 @@ TEST(EarlyEnd, IsToldWithTheNumberThatIsNeeded) {
   EXPECT_NE(early_end(asked, 1).find(" are needed"), std::string::npos);
 }
 
+TEST(FittedLayers, GrowMoreUntilTheLastOfTheCountMeetsTheSizes) {
+  const layers::WallLayers asked{.first = 1e-3, .growth = 1.2, .constant = 2, .count = 30, .total = 0.1};
+  const layers::WallLayers fitted = fitted_layers(asked, 1, LayerFit::growth, 1.3);
+  EXPECT_NEAR(fitted.growth, std::pow(700, 1.0 / 28), 1e-12);
+  EXPECT_EQ(fitted.count, 30);
+  EXPECT_EQ(fitted.total, 0);
+  EXPECT_EQ(layers::wanted_count(fitted, 1), 30);
+  EXPECT_EQ(early_end(fitted, 1), "");
+  EXPECT_EQ(change_of_fit(asked, fitted, 1),
+            "growth 1.264 for 1.2 and no limit to their height, so that 30 layers end isotropic");
+  EXPECT_EQ(fitted_layers(asked, 1, LayerFit::growth, 1.1).growth, 1.2) << "never less";
+  layers::WallLayers enough = asked;
+  enough.count = 60;
+  const layers::WallLayers higher = fitted_layers(enough, 1, LayerFit::growth, 1.3);
+  EXPECT_EQ(higher.growth, 1.2) << "the total alone ended them";
+  EXPECT_EQ(change_of_fit(enough, higher, 1), "no limit to their height, so that 38 layers end isotropic");
+  layers::WallLayers high = asked;
+  high.count = 0;
+  const std::int32_t held = layers::wanted_count(high, 1);
+  EXPECT_EQ(fitted_layers(high, 1, LayerFit::growth, 2).count, held);
+}
+
+TEST(FittedLayers, GrowAtMostByTheMaximum) {
+  const layers::WallLayers asked{.first = 1e-3, .growth = 1.2, .constant = 2, .count = 10, .total = 0};
+  const layers::WallLayers fitted = fitted_layers(asked, 1, LayerFit::growth, 1.3);
+  EXPECT_EQ(fitted.growth, 1.3);
+  EXPECT_NE(early_end(fitted, 1), "");
+  EXPECT_EQ(change_of_fit(asked, fitted, 1), "growth 1.3 for 1.2, as much as 'layers.growth_maximum' allows");
+  layers::WallLayers level = asked;
+  level.constant = 10;
+  EXPECT_EQ(change_of_fit(level, fitted_layers(level, 1, LayerFit::growth, 1.3), 1), "") << "none grows";
+}
+
+TEST(FittedLayers, GoOnWithoutCountAndTotal) {
+  const layers::WallLayers asked{.first = 1e-3, .growth = 1.2, .constant = 2, .count = 10, .total = 0.5};
+  const layers::WallLayers fitted = fitted_layers(asked, 1, LayerFit::count, 1.3);
+  EXPECT_EQ(fitted.growth, 1.2);
+  EXPECT_EQ(fitted.count, 0);
+  EXPECT_EQ(fitted.total, 0);
+  EXPECT_EQ(change_of_fit(asked, fitted, 1), "38 layers for 10, so that they end isotropic");
+  layers::WallLayers level = asked;
+  level.growth = 1;
+  EXPECT_EQ(fitted_layers(level, 1, LayerFit::count, 1.3).count, 10) << "nothing would end them";
+}
+
+TEST(FittedLayers, StayWhereNotAskedForOrWhereTheyMeetTheSizes) {
+  const layers::WallLayers asked{.first = 1e-3, .growth = 1.2, .constant = 2, .count = 10, .total = 0};
+  EXPECT_EQ(change_of_fit(asked, fitted_layers(asked, 1, LayerFit::none, 1.3), 1), "");
+  for (const LayerFit fit : {LayerFit::growth, LayerFit::count})
+    EXPECT_EQ(change_of_fit(asked, fitted_layers(asked, 0.005, fit, 1.3), 0.005), "") << "small edges";
+}
+
 // Sums of heights stay about the same, so that a family of meshes resolves the same part of the flow.
 TEST_F(LayerKeys, TakeTheScaleOfTheSizes) {
   const std::string asked =
@@ -220,6 +275,8 @@ TEST_F(LayerKeys, SayWhatIsMissing) {
   expect("first: level, reynolds: 1e6, length: 1", "'layers.first: level' needs 'sizing.level'");
   expect("first: level, y_plus: 1", "'layers.first: level' and 'layers.y_plus' exclude");
   expect("first: levl", "expected a number or 'level', got 'levl'");
+  expect("fit: growth", "'layers' needs the height of the first layer");
+  expect("first: 1, fit: height", "growth");
   expect("gate: {full_area: 0.9}", "'layers' needs the height of the first layer");
   expect("first: 1, gate: {full_area: 2}", "at most 1");
   expect("walls: none", "needed below 'layers.patches'");
