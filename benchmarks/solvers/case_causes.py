@@ -13,6 +13,7 @@ import shutil
 import subprocess
 
 import case_runs
+import written_case
 from printed_table import PrintedTable, add_page_option
 
 #: Free streams; what is faster is dead.
@@ -70,7 +71,7 @@ CHANGES = (
 def launch(options, written, program, log):
     parallel = ["-parallel"] if options.ranks > 1 else []
     ranks = [case_runs.ROOT / "scripts/mpirun_local.sh", str(options.ranks)] if options.ranks > 1 else []
-    environment = case_runs.environment(written)
+    environment = written_case.environment(written)
     with open(written / log, "w", encoding="utf-8") as file:
         subprocess.run([*ranks, program, *parallel], cwd=written, stdout=file, stderr=file, check=False, env=environment)
 
@@ -96,9 +97,9 @@ def run(options, change, source, folder):
 def judge(folder):
     log = (folder / "log.simpleFoam").read_text()
     steps = log.split("\nTime = ")[1:]
-    speeds = case_runs.speeds(folder)
+    speeds = written_case.speeds(folder)
     lived = next((i for i, speed in enumerate(speeds) if not speed < DEAD), len(speeds))
-    drag = case_runs.coefficients(folder).get("Cd", [])[:lived]
+    drag = written_case.coefficients(folder).get("Cd", [])[:lived]
     continuity = re.findall(r"sum local = ([^,]+),", "".join(steps[:lived]))
     if lived == 0:
         return 0, "–", "–", "–", "–"

@@ -14,18 +14,19 @@ import argparse
 import collections
 import json
 import math
-import os
 import pathlib
 import re
 import subprocess
 import sys
+
+import written_case
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from printed_table import PrintedTable, add_page_option  # pylint: disable=wrong-import-position
 
 GEOMETRY = ROOT.parent / "shared" / "geometry"
-SPEED, FASTEST, FALL, AGREEMENT, CLIPPED = 50.0, 4.0, 100.0, 0.03, 0.01
+FASTEST, FALL, AGREEMENT, CLIPPED = 4.0, 100.0, 0.03, 0.01
 LAST = 50
 #: Iterations, as system/controlDict has them.
 FIRST_ORDER = 100
@@ -171,31 +172,14 @@ def mesh(options, case, y_plus, folder):
         return subprocess.run([options.program, "run", folder / "case.yaml"], stdout=log, stderr=log, check=False).returncode == 0
 
 
-def environment(written):
-    """What programs of OpenFOAM need, where nothing else has set it."""
-    return os.environ | {"PWD": str(written), "WM_PROJECT_DIR": os.environ.get("WM_PROJECT_DIR", "/usr/share/openfoam")}
-
-
-def turn_flow(written, angle):
-    turn = math.radians(angle)
-    along, across = f"{math.cos(turn):.9g} 0 {math.sin(turn):.9g}", f"{-math.sin(turn):.9g} 0 {math.cos(turn):.9g}"
-    conditions = written / "0.orig" / "conditions"
-    text = conditions.read_text()
-    for name, vector in (("velocity", f"{SPEED * math.cos(turn):.9g} 0 {SPEED * math.sin(turn):.9g}"),
-                         ("drag_direction", along), ("lift_direction", across)):
-        text = re.sub(rf"^({name}\s+)\([^)]*\)", rf"\g<1>({vector})", text, flags=re.MULTILINE)
-    conditions.write_text(text)
-
-
 def solve(options, case, written):
     log = written / "log.simpleFoam"
     if log.exists() and ("\nEnd\n" in log.read_text() or "sigFpe" in log.read_text()):
         return
-    control = written / "system" / "controlDict"
-    control.write_text(re.sub(r"^(endTime\s+)\d+;", rf"\g<1>{options.iterations};", control.read_text(), flags=re.MULTILINE))
+    written_case.set_iterations(written, options.iterations)
     if case.angle:
-        turn_flow(written, case.angle)
-    subprocess.run(["./run.sh"], cwd=written, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        written_case.turn_flow(written, case.angle)
+    written_case.run(written)
 
 
 def read_residuals(steps):
@@ -211,27 +195,6 @@ def fall_of(residuals):
     """By how much residuals fall from the largest one of the first ten to the last, the least of U and of p."""
     falls = [max(values[:10]) / max(values[-1], 1e-300) for values in residuals.values() if values]
     return min(falls, default=0)
-
-
-def speeds(written, after=0):
-    """The largest speed at each look after so many iterations, over that of the free stream."""
-    found = []
-    for file in sorted((written / "postProcessing" / "extremes").rglob("fieldMinMax*.dat")):
-        rows = [[word.strip() for word in line.split("\t")] for line in file.read_text().splitlines() if not line.startswith("#")]
-        found += [float(row[4]) / SPEED for row in rows if row[1] == "mag(U)" and float(row[0]) > after]
-    return found
-
-
-def coefficients(written):
-    """Columns of the table of forces by name."""
-    rows, names = [], []
-    for file in sorted((written / "postProcessing" / "forces").rglob("*.dat")):
-        for line in file.read_text().splitlines():
-            if line.startswith("# Time"):
-                names = line.lstrip("# ").split()
-            elif not line.startswith("#"):
-                rows.append([float(word) for word in line.split()])
-    return {name: [row[i] for row in rows] for i, name in enumerate(names)}
 
 
 def drift(values):
@@ -252,9 +215,9 @@ def clipped(steps):
 def judge(options, case, written):
     log = (written / "log.simpleFoam").read_text() if (written / "log.simpleFoam").exists() else ""
     steps = log.split("\nTime = ")[1:]
-    forces = coefficients(written)
+    forces = written_case.coefficients(written)
     drag, lift = forces.get("Cd", []), forces.get("Cl", [])
-    fall, speed, low = fall_of(read_residuals(steps)), max(speeds(written, FIRST_ORDER), default=math.nan), clipped(steps)
+    fall, speed, low = fall_of(read_residuals(steps)), max(written_case.speeds(written, FIRST_ORDER), default=math.nan), clipped(steps)
     drifts = [drift(drag)] + ([drift(lift)] if lift and drag and abs(lift[-1]) > abs(drag[-1]) else [])
     good = len(steps) == options.iterations and fall >= FALL and speed < FASTEST and low > -CLIPPED
     if case.streamlined:

@@ -9,7 +9,7 @@ FAR = 30.0
 REYNOLDS = 6e6
 FOIL_POINTS = 60
 
-CASE = """# NACA 0012 between two planes of symmetry, layers for wall functions.
+CASE = """# NACA 0012 between two planes of symmetry, with layers.
 geometry:
   file: section.brep
   domain: fluid
@@ -38,6 +38,7 @@ layers:
   y_plus: {y_plus}
   growth: 1.25
 output:
+  formats: [openfoam]
   pictures: false
 """
 

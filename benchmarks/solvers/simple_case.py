@@ -123,9 +123,10 @@ def write_control(folder, angle, steps, span):
 
 
 def write_case(folder, angle, reynolds):
-    """All but the mesh and the control. The turbulence of the free stream is that of NASA's page: k = 9e-9 a^2 and nut = 0.009 nu at Mach 0.15."""
-    k = 9e-9 / 0.15**2
-    nut = 0.009 / reynolds
+    """All but the mesh and the control. The turbulence of the free stream is that of cases as the program writes them: 0.1 %, and as much
+    eddy viscosity as viscosity."""
+    k = 1.5 * 0.001**2
+    nut = 1 / reynolds
     turn = math.radians(angle)
     values = {"flow": f"{math.cos(turn):.12g} 0 {math.sin(turn):.12g}", "k": f"{k:g}", "nut": f"{nut:g}",
               "omega": f"{k / nut:g}"}
