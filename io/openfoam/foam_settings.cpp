@@ -85,12 +85,12 @@ functions
 }
 )foam";
 
-/// `{}`: convection of the velocity.
+/// `{}`: gradients and convection of the velocity.
 constexpr std::string_view schemes =
     R"foam(// system/controlDict copies fvSchemes.first over fvSchemes at the start, and
 // fvSchemes.second after the first iterations: edit those two.
 ddtSchemes      {{ default steadyState; }}
-gradSchemes     {{ default cellLimited Gauss linear 1; }}
+gradSchemes     {{ {} }}
 divSchemes
 {{
     default         none;
@@ -236,8 +236,12 @@ std::vector<FoamSetting> foam_dictionaries() {
     all.push_back({std::filesystem::path(folder) / name, with_header("dictionary", folder, name, content)});
   };
   add("system", "controlDict", control);
-  const std::string first = fmt::format(schemes, "upwind"),
-                    second = fmt::format(schemes, "linearUpwind grad(U)");
+  const std::string first = fmt::format(schemes, "default cellLimited Gauss linear 1;", "upwind"),
+                    second = fmt::format(schemes,
+                                       "default cellLimited Gauss linear 1;\n"
+                                       "                  grad(p) cellLimited Gauss pointLinear 0.5;\n"
+                                       "                  convected cellLimited Gauss pointLinear 0.5;",
+                                       "linearUpwind convected");
   add("system", "fvSchemes", first);
   add("system", "fvSchemes.first", first);
   add("system", "fvSchemes.second", second);
