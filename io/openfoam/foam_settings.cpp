@@ -238,10 +238,10 @@ std::vector<FoamSetting> foam_dictionaries() {
   add("system", "controlDict", control);
   const std::string first = fmt::format(schemes, "default cellLimited Gauss linear 1;", "upwind"),
                     second = fmt::format(schemes,
-                                       "default cellLimited Gauss linear 1;\n"
-                                       "                  grad(p) cellLimited Gauss pointLinear 0.5;\n"
-                                       "                  convected cellLimited Gauss pointLinear 0.5;",
-                                       "linearUpwind convected");
+                                         "default cellLimited Gauss linear 1;\n"
+                                         "                  grad(p) cellLimited Gauss pointLinear 0.5;\n"
+                                         "                  convected cellLimited Gauss pointLinear 0.5;",
+                                         "linearUpwind convected");
   add("system", "fvSchemes", first);
   add("system", "fvSchemes.first", first);
   add("system", "fvSchemes.second", second);
