@@ -31,35 +31,8 @@ LAST = 50
 #: Iterations, as system/controlDict has them.
 FIRST_ORDER = 100
 SPHERE = "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\n"
-#: A wing of span 4 on y = 0: chord 1 to 0.5, swept by 27 degrees, a blunt edge of 0.5 % of the chord.
-SWEPT = """SetFactory("OpenCASCADE");
-Macro Section
-  first = newp;
-  For i In {0:40}
-    t = Pi*i/40;
-    s = 0.5*(1+Cos(t));
-    h = 0.6*(0.2969*Sqrt(s)+s*(-0.126+s*(-0.3516+s*(0.2843-0.1036*s))))+0.0025*s;
-    Point(first+i) = {x+c*s, y, c*h};
-    If (i < 40)
-      Point(first+80-i) = {x+c*s, y, -c*h};
-    EndIf
-  EndFor
-  line = newl;
-  Spline(line) = {first:first+40};
-  Spline(line+1) = {first+40:first+80};
-  Line(line+2) = {first+80, first};
-  loop = newll;
-  Curve Loop(loop) = {line, line+1, line+2};
-Return
-x = 0; y = 0; c = 1;
-Call Section;
-root = loop;
-x = 2; y = 4; c = 0.5;
-Call Section;
-ThruSections(1) = {root, loop};
-"""
-#: Half a fuselage of 10 m that ends in a point, a wing with an edge 5 mm blunt and a tailplane with a sharp one, in millimetres.
-WING_BODY = """SetFactory("OpenCASCADE");
+#: A macro of gmsh: the section at x, y, z of chord c, 12 % thick, with a trailing edge of twice `edge` chords.
+SECTION = """SetFactory("OpenCASCADE");
 Macro Section
   first = newp;
   For i In {0:40}
@@ -83,7 +56,18 @@ Macro Section
     Curve Loop(loop) = {line, line+1};
   EndIf
 Return
-nose = newp;
+"""
+#: A wing of span 4 on y = 0: chord 1 to 0.5, swept by 27 degrees, a blunt edge of 0.5 % of the chord.
+SWEPT = SECTION + """edge = 0.0025;
+x = 0; y = 0; z = 0; c = 1;
+Call Section;
+root = loop;
+x = 2; y = 4; c = 0.5;
+Call Section;
+ThruSections(1) = {root, loop};
+"""
+#: Half a fuselage of 10 m that ends in a point, a wing with an edge 11 to 5 mm thick and a tailplane with a sharp one, in millimetres.
+WING_BODY = SECTION + """nose = newp;
 For i In {0:30}
   t = i/30;
   Point(nose+i) = {10000*t, 0, 2400*Sqrt(t)*(1-t)};
