@@ -100,14 +100,12 @@ void ColumnLimits::limit_counts(std::vector<std::int32_t> counts, LayerLimit cau
   }
 }
 
-template <class Follow>
-void ColumnLimits::propagate(std::vector<double>& values, std::vector<std::int32_t> from,
-                             const Follow& follow) const {
-  std::vector<std::uint8_t> waits(values.size(), 0);
+void ColumnLimits::lower_by_slopes(std::vector<double>& limits, std::vector<std::int32_t> from) const {
+  std::vector<std::uint8_t> waits(limits.size(), 0);
   std::vector<std::int32_t> next;
-  const auto lower = [&](std::int32_t v, double value) {
-    if (!(value < values[v])) return;
-    values[v] = value;
+  const auto lower = [&](std::int32_t v, double limit) {
+    if (!(limit < limits[v])) return;
+    limits[v] = limit;
     if (waits[v] == 0) next.push_back(v);
     waits[v] = 1;
   };
@@ -115,12 +113,14 @@ void ColumnLimits::propagate(std::vector<double>& values, std::vector<std::int32
     while (!from.empty()) {
       for (const std::int32_t v : from) waits[v] = 0;
       for (const std::int32_t v : from) {
-        _wall.for_each_neighbour(v, [&](std::int32_t u) { lower(u, follow(v, u, values[v])); });
+        _wall.for_each_neighbour(v, [&](std::int32_t u) {
+          lower(u, limits[v] + _slopes[u] * distance(_wall.points[u], _wall.points[v]));
+        });
       }
       from.swap(next);
       next.clear();
     }
-    std::vector<double> combined = values;
+    std::vector<double> combined = limits;
     _wall.combine(combined, smaller);
     for (const std::int32_t v : _wall.vertex_of_copy) lower(v, combined[v]);
     from.swap(next);
@@ -131,9 +131,7 @@ void ColumnLimits::propagate(std::vector<double>& values, std::vector<std::int32
 
 void ColumnLimits::converge() {
   std::vector<double> limits = _limits;
-  propagate(limits, std::exchange(_lowered, {}), [&](std::int32_t v, std::int32_t u, double limit) {
-    return limit + _slopes[u] * distance(_wall.points[u], _wall.points[v]);
-  });
+  lower_by_slopes(limits, std::exchange(_lowered, {}));
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
     if (!(limits[v] < _limits[v])) continue;
     _limits[v] = limits[v];

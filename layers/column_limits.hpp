@@ -43,11 +43,9 @@ private:
   /// Fits the count of a column below its limit.
   void fit(std::int32_t v, LayerLimit cause);
   void cut_count(std::int32_t v, std::int32_t count, LayerLimit cause);
-  /// Lowers `values`, one per vertex, to their greatest fixed point. `follow(v, u, value of v)` is the
-  /// largest value allowed at the neighbour u of v. `from` lists the vertices whose values have fallen.
-  /// Collective.
-  template <class Follow>
-  void propagate(std::vector<double>& values, std::vector<std::int32_t> from, const Follow& follow) const;
+  /// Lowers limits to the greatest that rise no faster than the slopes. `from` lists the vertices whose
+  /// limits have fallen. Collective.
+  void lower_by_slopes(std::vector<double>& limits, std::vector<std::int32_t> from) const;
 
   const LocalWall& _wall;
   std::vector<double> _first, _growth, _mean_edges, _slopes;
