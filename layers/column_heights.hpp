@@ -7,10 +7,16 @@
 
 namespace aeroloom::layers {
 
-/// A geometric column: `constant` layers of height `first`, then each `growth` times the one below.
+/// The largest number of layers in a column.
+inline constexpr std::int32_t most_layers = 1000;
+
+/// A geometric column: `constant` layers of height `first`, then each `growth` times the one below. The last
+/// ones may be stretched.
 struct Heights {
   double first = 0, growth = 1;
   std::int32_t constant = 1;
+  std::int32_t regular = most_layers;  ///< layers above this one are `stretch` times as high
+  double stretch = 1;
 
   /// Calls visit(k, height of node k) for k = 1 ... count. All nodes are placed by this sum.
   template <class Visit>
@@ -18,7 +24,7 @@ struct Heights {
     double layer = first, sum = 0;
     for (std::int32_t k = 1; k <= count; ++k) {
       if (k > constant) layer *= growth;
-      sum += layer;
+      sum += k > regular ? stretch * layer : layer;
       visit(k, sum);
     }
   }
@@ -31,12 +37,12 @@ struct Heights {
   double last(std::int32_t count) const {
     double layer = count > 0 ? first : 0;
     for (std::int32_t k = constant + 1; k <= count; ++k) layer *= growth;
-    return layer;
+    return count > regular ? stretch * layer : layer;
   }
 };
 
-/// The largest number of layers in a column.
-inline constexpr std::int32_t most_layers = 1000;
+/// Of a column of a piece.
+Heights heights(const PieceColumns& columns, mesh::LocalIndex vertex);
 
 /// Height over the mean edge of a prism that is about as good as a tetrahedron.
 inline constexpr double isotropic_height = 0.7;
@@ -45,12 +51,30 @@ inline constexpr double isotropic_height = 0.7;
 /// half of what is aimed at.
 inline constexpr double smooth_end = 0.5 * isotropic_height;
 
-/// The number of layers of a column, at least 1, so that the last layer is about 0.7 of the mean edge length
-/// at the vertex. Count and total height in `wanted` are upper bounds.
+/// The number of layers of a column without stretch, at least 1, so that the last layer is about 0.7 of the
+/// mean edge length at the vertex. Count and total height in `wanted` are upper bounds.
 std::int32_t wanted_count(const WallLayers& wanted, double mean_edge);
 
 /// The largest number of layers, at most `count`, that are together no higher than `limit`.
 std::int32_t layers_below(const Heights& heights, std::int32_t count, double limit);
+
+/// The end of a column: how many layers it has, and how the last ones are stretched (Heights).
+struct FittedLayers {
+  std::int32_t count = 0, regular = most_layers;
+  double stretch = 1;
+
+  bool operator==(const FittedLayers&) const = default;
+};
+
+/// At most `count` layers that are together as high as `limit`. The last five are stretched, so that the
+/// number of layers is a multiple of four or `count`: neighbours with about the same limit have as many. In a
+/// column of less only the last is stretched; a first layer never is, and is left out where it is higher than
+/// the limit. `heights` without stretch.
+FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit);
+
+/// The layers that `wanted` asks for, at least one: those that are together as high as a column whose last
+/// layer is 0.7 of the mean edge length at the vertex. Count and total height in `wanted` are upper bounds.
+FittedLayers wanted_layers(const WallLayers& wanted, double mean_edge);
 
 /// The growth, from 1 to that of `steepest`, by which `count` layers are as high as `total` together.
 double growth_of_total(const Heights& steepest, std::int32_t count, double total);

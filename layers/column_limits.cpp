@@ -29,10 +29,11 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
                            const Directions& directions)
     : _wall(wall) {
   const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
+  const std::vector<double> edges = smooth_mean_edges(wall, all_wanted);
   const std::size_t n = all_wanted.size();
   _first.assign(n, 0), _growth.assign(n, 1), _mean_edges.assign(n, 0), _slopes.assign(n, 1),
       _limits.assign(n, 0);
-  _constant.assign(n, 1), _counts.assign(n, 0), _causes.assign(n, LayerLimit::none), _changed.assign(n, 0);
+  _constant.assign(n, 1), _fitted.assign(n, {}), _causes.assign(n, LayerLimit::none), _changed.assign(n, 0);
   _wanted_counts.assign(n, 0);
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
     const VertexLayers& asked = all_wanted[v];
@@ -41,7 +42,8 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
     const double total = asked.total < unlimited ? asked.total : 0;
     const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
                             static_cast<std::int32_t>(asked.count), total};
-    _wanted_counts[v] = layers::wanted_count(wanted, _mean_edges[v]);
+    const FittedLayers fitted = wanted_layers(wanted, edges[v]);
+    _wanted_counts[v] = fitted.count;
     if (stars.kinds[v] != StarKind::plain || directions.visibility[v] == 0) {
       _causes[v] = stars.kinds[v] == StarKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
       _lowered.push_back(v);
@@ -51,7 +53,7 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
     _growth[v] = asked.growth;
     _constant[v] = wanted.constant;
     _slopes[v] = slope_of(asked.growth);
-    _counts[v] = _wanted_counts[v];
+    _fitted[v] = fitted;
     _limits[v] = this->total(v);
     _lowered.push_back(v);
     note_change(v, LayerLimit::none);
@@ -70,16 +72,16 @@ std::vector<std::int32_t> ColumnLimits::take_changed() {
 }
 
 void ColumnLimits::cut_count(std::int32_t v, std::int32_t count, LayerLimit cause) {
-  _counts[v] = count;
+  _fitted[v] = {count};
   _limits[v] = std::min(_limits[v], total(v));
   _lowered.push_back(v);
   note_change(v, cause);
 }
 
 void ColumnLimits::fit(std::int32_t v, LayerLimit cause) {
-  const std::int32_t count = layers_below(heights(v), _counts[v], _limits[v]);
-  if (count == _counts[v]) return;
-  _counts[v] = count;
+  const FittedLayers fitted = fit_layers(regular_heights(v), count(v), _limits[v]);
+  if (fitted == _fitted[v]) return;
+  _fitted[v] = fitted;
   note_change(v, cause);
 }
 
@@ -96,7 +98,7 @@ void ColumnLimits::limit_totals(std::vector<double> limits, LayerLimit cause) {
 void ColumnLimits::limit_counts(std::vector<std::int32_t> counts, LayerLimit cause) {
   _wall.combine(counts, smaller);
   for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
-    if (counts[v] < _counts[v]) cut_count(v, counts[v], cause);
+    if (counts[v] < count(v)) cut_count(v, counts[v], cause);
   }
 }
 

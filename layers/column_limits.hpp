@@ -11,19 +11,22 @@
 
 namespace aeroloom::layers {
 
-/// The columns on the vertices of a wall. All pieces with a vertex have equal values for it. Layers keep
-/// their heights; counts and limits only fall, so columns lose their last layers.
+/// The columns on the vertices of a wall. All pieces with a vertex have equal values for it. Limits and
+/// counts only fall. A column below its limit loses its last layers, and those that are then the last are
+/// stretched up to it.
 class ColumnLimits {
 public:
   /// Starts with the columns that the patches ask for. Keeps a reference to the wall. Collective.
   ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
                const Directions& directions);
 
-  Heights heights(std::int32_t v) const { return {_first[v], _growth[v], _constant[v]}; }
-  std::int32_t count(std::int32_t v) const { return _counts[v]; }
+  Heights heights(std::int32_t v) const {
+    return {_first[v], _growth[v], _constant[v], _fitted[v].regular, _fitted[v].stretch};
+  }
+  std::int32_t count(std::int32_t v) const { return _fitted[v].count; }
   std::int32_t wanted_count(std::int32_t v) const { return _wanted_counts[v]; }
-  double total(std::int32_t v) const { return heights(v).total(_counts[v]); }
-  double last_height(std::int32_t v) const { return heights(v).last(_counts[v]); }
+  double total(std::int32_t v) const { return heights(v).total(count(v)); }
+  double last_height(std::int32_t v) const { return heights(v).last(count(v)); }
   LayerLimit cause(std::int32_t v) const { return _causes[v]; }
   double mean_edge(std::int32_t v) const { return _mean_edges[v]; }
 
@@ -40,7 +43,9 @@ public:
 
 private:
   void note_change(std::int32_t v, LayerLimit cause);
-  /// Fits the count of a column below its limit.
+  /// Without stretch.
+  Heights regular_heights(std::int32_t v) const { return {_first[v], _growth[v], _constant[v]}; }
+  /// Fits the layers of a column below its limit.
   void fit(std::int32_t v, LayerLimit cause);
   void cut_count(std::int32_t v, std::int32_t count, LayerLimit cause);
   /// Lowers limits to the greatest that rise no faster than the slopes. `from` lists the vertices whose
@@ -50,7 +55,8 @@ private:
   const LocalWall& _wall;
   std::vector<double> _first, _growth, _mean_edges, _slopes;
   std::vector<double> _limits;  ///< of total heights; neighbours use these
-  std::vector<std::int32_t> _constant, _counts, _wanted_counts;
+  std::vector<std::int32_t> _constant, _wanted_counts;
+  std::vector<FittedLayers> _fitted;
   std::vector<LayerLimit> _causes;
   std::vector<std::uint8_t> _changed;
   std::vector<std::int32_t> _changed_vertices;  ///< since the last take_changed()

@@ -4,8 +4,13 @@
 
 namespace aeroloom::layers {
 
+Heights heights(const PieceColumns& columns, mesh::LocalIndex vertex) {
+  return {columns.first[vertex], columns.growth[vertex], columns.constant[vertex], columns.regular[vertex],
+          columns.stretch[vertex]};
+}
+
 double height(const PieceColumns& columns, mesh::LocalIndex vertex, std::int32_t k) {
-  return Heights{columns.first[vertex], columns.growth[vertex], columns.constant[vertex]}.total(k);
+  return heights(columns, vertex).total(k);
 }
 
 geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, mesh::LocalIndex vertex,

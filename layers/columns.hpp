@@ -41,10 +41,10 @@ struct LayerOptions {
 
 /// The columns of a piece, by vertex. Node k stands at the height of the first k layers (Heights).
 struct PieceColumns {
-  std::vector<geometry::Vec3> directions;  ///< unit, into the fluid; zero: no column
-  std::vector<std::int32_t> counts;        ///< numbers of layers; 0: empty column
-  std::vector<std::int32_t> constant;
-  std::vector<double> first, growth;
+  std::vector<geometry::Vec3> directions;       ///< unit, into the fluid; zero: no column
+  std::vector<std::int32_t> counts;             ///< numbers of layers; 0: empty column
+  std::vector<std::int32_t> constant, regular;  ///< layers of the first height; layers below stretched ones
+  std::vector<double> first, growth, stretch;
 };
 
 struct Columns {

@@ -33,8 +33,10 @@ Columns make_columns(const LocalWall& wall, const Directions& directions, const 
       of_piece.directions.push_back(directions.smoothed[v]);
       of_piece.counts.push_back(limits.count(v));
       of_piece.constant.push_back(heights.constant);
+      of_piece.regular.push_back(heights.regular);
       of_piece.first.push_back(heights.first);
       of_piece.growth.push_back(heights.growth);
+      of_piece.stretch.push_back(heights.stretch);
     }
   }
   return columns;

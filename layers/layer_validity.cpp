@@ -111,7 +111,7 @@ public:
       const CornerColumn& column = _columns[i];
       if (_k > column.count) continue;
       if (_k > column.heights.constant) _layers[i] *= column.heights.growth;
-      _sums[i] += _layers[i];
+      _sums[i] += _k > column.heights.regular ? column.heights.stretch * _layers[i] : _layers[i];
       _level[i] = column.point + _sums[i] * column.direction;
     }
   }
@@ -198,7 +198,7 @@ bool has_good_cap(const TriangleColumns& columns) {
 
 double fitting_height(const TriangleColumns& columns) {
   constexpr double step = 0.95;  // between heights that are tried; chosen, not measured
-  constexpr double lowest = 0.01;
+  constexpr double lowest = 0.8;
   const Ends ends(columns);
   const Least least(columns);
   const double highest = ends.highest();
@@ -214,7 +214,7 @@ double fitting_height(const TriangleColumns& columns) {
     below = std::max(below, column.heights.total(std::min(good, column.count)));
     all = all && column.count <= good;
   }
-  return all ? std::numeric_limits<double>::infinity() : std::min(below, step * highest);
+  return all ? std::numeric_limits<double>::infinity() : std::clamp(below, lowest * highest, step * highest);
 }
 
 }  // namespace aeroloom::layers

@@ -27,7 +27,8 @@ std::int32_t good_layers(const TriangleColumns& columns);
 bool has_good_cap(const TriangleColumns& columns);
 
 /// A bound on the column heights over the triangle that brings cap and cells closer to being good. It is
-/// below the highest column, so the tallest columns shrink first. Infinite if all is good. If a bound does
+/// 0.76 to 0.95 of the highest column, so the tallest columns shrink first, and are fitted again before they
+/// fall further: what is bad may be how last layers are stretched. Infinite if all is good. If a bound does
 /// not suffice, the next call returns a lower one.
 double fitting_height(const TriangleColumns& columns);
 

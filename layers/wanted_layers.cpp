@@ -49,4 +49,27 @@ std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const Laye
   return all_wanted;
 }
 
+std::vector<double> smooth_mean_edges(const LocalWall& wall, const std::vector<VertexLayers>& wanted) {
+  constexpr int sweeps = 8;  // as many as directions have
+  struct Around {
+    double edges;
+    std::int64_t count;
+  };
+  std::vector<double> smooth(wanted.size());
+  for (std::size_t v = 0; v < wanted.size(); ++v) smooth[v] = wanted[v].mean_edge();
+  std::vector<Around> around(wanted.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
+      around[v] = {};
+      wall.for_each_neighbour(v, [&](std::int32_t u) { around[v].edges += smooth[u], ++around[v].count; });
+    }
+    wall.combine(around, [](Around a, Around b) { return Around{a.edges + b.edges, a.count + b.count}; });
+    for (std::size_t v = 0; v < wanted.size(); ++v) {
+      if (around[v].count == 0) continue;
+      smooth[v] = 0.5 * (smooth[v] + around[v].edges / static_cast<double>(around[v].count));
+    }
+  }
+  return smooth;
+}
+
 }  // namespace aeroloom::layers

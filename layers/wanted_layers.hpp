@@ -19,4 +19,8 @@ struct VertexLayers {
 /// By vertex, equal in all pieces. Vertices without layered triangles have no edges. Collective.
 std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const LayerOptions& options);
 
+/// Mean edges at the vertices, smoothed over the wall. Columns are several edges high, so what edges differ
+/// by from vertex to vertex would be several times as much at their ends. Collective.
+std::vector<double> smooth_mean_edges(const LocalWall& wall, const std::vector<VertexLayers>& wanted);
+
 }  // namespace aeroloom::layers

@@ -61,8 +61,8 @@ std::vector<ColumnEnd> ends_of_columns(const mesh::Piece& wall, const layers::Pi
   std::vector<ColumnEnd> ends;
   for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
     if (columns.counts[v] == 0) continue;
-    const layers::Heights heights{columns.first[v], columns.growth[v], columns.constant[v]};
-    ends.push_back({moved.point(v), size_above(edges[v], heights.last(columns.counts[v]))});
+    const double last = layers::heights(columns, v).last(columns.counts[v]);
+    ends.push_back({moved.point(v), size_above(edges[v], last)});
   }
   return ends;
 }

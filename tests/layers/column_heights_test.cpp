@@ -54,6 +54,60 @@ TEST(ColumnHeightsLocal, LoseTheirLastLayersAboveALimit) {
   EXPECT_EQ(layers_below(heights, 5, 0.4), 0);
 }
 
+Heights fitted_heights(const Heights& heights, const FittedLayers& fitted) {
+  return {heights.first, heights.growth, heights.constant, fitted.regular, fitted.stretch};
+}
+
+TEST(ColumnHeightsLocal, StretchTheLastLayersUpToALimit) {
+  const Heights heights{1e-5, 1.2, 2};
+  for (double limit = 1e-4; limit < heights.total(60); limit *= 1.07) {
+    const FittedLayers fitted = fit_layers(heights, 60, limit);
+    const Heights stretched = fitted_heights(heights, fitted);
+    EXPECT_NEAR(stretched.total(fitted.count), limit, 1e-12 * limit);
+    EXPECT_GE(fitted.count, 6);
+    EXPECT_EQ(fitted.count % 4, 0) << "neighbours have as many";
+    EXPECT_EQ(fitted.regular, fitted.count - 5);
+    EXPECT_GT(fitted.stretch, 0.5);
+    EXPECT_LT(fitted.stretch, 2);
+    EXPECT_EQ(stretched.total(fitted.regular), heights.total(fitted.regular)) << "the others stay";
+    EXPECT_DOUBLE_EQ(stretched.last(fitted.count), fitted.stretch * heights.last(fitted.count));
+  }
+  EXPECT_EQ(fit_layers(heights, 59, heights.total(59)), (FittedLayers{59, 54, 1}))
+      << "as many as allowed, too";
+  EXPECT_EQ(fit_layers(heights, 60, heights.total(60) / 1.5).count, 56) << "in steps of four";
+}
+
+TEST(ColumnHeightsLocal, StretchTheLastOfFewLayers) {
+  const Heights heights{0.5, 2, 3};  // ends at 0.5, 1, 1.5, 2.5, 4.5
+  EXPECT_EQ(fit_layers(heights, 5, 4), (FittedLayers{4, 3, 2.5}));
+  EXPECT_EQ(fit_layers(heights, 2, 1), (FittedLayers{2, 1, 1}));
+  EXPECT_EQ(fit_layers(heights, 5, 0.7), FittedLayers{1}) << "the first layer keeps its height";
+  EXPECT_EQ(fit_layers(heights, 5, 0.4).count, 0);
+}
+
+TEST(ColumnHeightsLocal, EndWherePatchesAsk) {
+  WallLayers wanted = wall_layers(1e-5, 1.2, 2);
+  for (double edge = 0.05; edge < 0.2; edge *= 1.01) {
+    const FittedLayers fitted = wanted_layers(wanted, edge);
+    EXPECT_NEAR(fitted.count, wanted_count(wanted, edge), 3);
+    const Heights heights = fitted_heights({1e-5, 1.2, 2}, fitted);
+    const double to_isotropic = 2e-5 + 6 * (isotropic_height * edge - 1e-5);
+    EXPECT_NEAR(heights.total(fitted.count), to_isotropic, 1e-9) << "a steady function of the edge";
+    EXPECT_GT(heights.last(fitted.count), smooth_end * edge);
+  }
+  wanted.total = 0.01;
+  EXPECT_NEAR(
+      fitted_heights({1e-5, 1.2, 2}, wanted_layers(wanted, 0.1)).total(wanted_layers(wanted, 0.1).count),
+      0.01, 1e-14);
+  wanted.total = 1e-6;
+  EXPECT_EQ(wanted_layers(wanted, 0.1), FittedLayers{1}) << "at least one";
+  wanted.total = 0, wanted.count = 30;
+  EXPECT_EQ(wanted_layers(wanted, 0.1), FittedLayers{30}) << "not stretched";
+  wanted = wall_layers(1, 1, 1);
+  wanted.count = 12;
+  EXPECT_EQ(wanted_layers(wanted, 1), FittedLayers{12});
+}
+
 TEST(ColumnHeightsLocal, GrowAsATotalAsks) {
   const Heights steepest{1, 1.5, 2};
   EXPECT_EQ(growth_of_total(steepest, 10, steepest.total(10)), 1.5);

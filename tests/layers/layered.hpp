@@ -2,6 +2,7 @@
 #pragma once
 
 #include "improve/improver.hpp"
+#include "layers/column_heights.hpp"
 #include "layers/layer_cells.hpp"
 #include "mesh/checks/validity.hpp"
 #include "parallel/observation/log.hpp"
@@ -64,6 +65,8 @@ struct Layered {
         of_piece.constant.push_back(2);
         of_piece.first.push_back(first);
         of_piece.growth.push_back(1.5);
+        of_piece.regular.push_back(most_layers);
+        of_piece.stretch.push_back(1);
         end.set_point(v, node(piece, of_piece, v, column.count));
       }
     }
