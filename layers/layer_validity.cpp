@@ -198,23 +198,28 @@ bool has_good_cap(const TriangleColumns& columns) {
 
 double fitting_height(const TriangleColumns& columns) {
   constexpr double step = 0.95;  // between heights that are tried; chosen, not measured
-  constexpr double lowest = 0.8;
+  // Of the highest column. Where counts differ, columns are fitted again before they fall further: then what
+  // is bad may be how their last layers are stretched.
+  constexpr double lowest = 0.01, lowest_of_unequal = 0.8;
+  const bool equal = columns[0].count == columns[1].count && columns[0].count == columns[2].count;
   const Ends ends(columns);
   const Least least(columns);
-  const double highest = ends.highest();
+  const double highest = ends.highest(), floor = (equal ? lowest : lowest_of_unequal) * highest;
   if (!is_good_below(columns, ends, least, highest)) {
     double height = step * highest;
-    while (height > lowest * highest && !is_good_below(columns, ends, least, height)) height *= step;
+    while (height > floor && !is_good_below(columns, ends, least, height)) height *= step;
     return height;
   }
   const std::int32_t good = good_layers(columns);
   double below = 0;
-  bool all = true;
+  bool all = true, stretched = false;
   for (const CornerColumn& column : columns) {
     below = std::max(below, column.heights.total(std::min(good, column.count)));
     all = all && column.count <= good;
+    stretched = stretched || good >= column.heights.regular;
   }
-  return all ? std::numeric_limits<double>::infinity() : std::clamp(below, lowest * highest, step * highest);
+  if (all) return std::numeric_limits<double>::infinity();
+  return std::clamp(below, stretched && !equal ? floor : 0, step * highest);
 }
 
 }  // namespace aeroloom::layers

@@ -29,7 +29,7 @@ GEOMETRY = ROOT.parent / "shared" / "geometry"
 FASTEST, FALL, AGREEMENT, CLIPPED = 4.0, 100.0, 0.03, 0.01
 LAST = 50
 #: Iterations, as system/controlDict has them.
-FIRST_ORDER = 100
+FIRST_ORDER = 50
 SPHERE = "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\n"
 #: A macro of gmsh: the section at x, y, z of chord c, 12 % thick, with a trailing edge of twice `edge` chords.
 SECTION = """SetFactory("OpenCASCADE");

@@ -4,7 +4,7 @@ import math
 import pathlib
 import subprocess
 
-SPAN = 0.2
+SPAN = 0.1
 FAR = 30.0
 REYNOLDS = 6e6
 FOIL_POINTS = 60
@@ -21,8 +21,8 @@ groups:
 sizing:
   solver: cell
   minimum: 0.001
-  surface_maximum: 0.9
-  maximum: 0.9
+  surface_maximum: 0.45
+  maximum: 0.45
   curvature_angle: 4
   growth: 1.2
   proximity: 0             # the planes are nearer to each other than the far field's elements are long

@@ -44,7 +44,18 @@ functions
         timeVsFile
         (
             (0 "$FOAM_CASE/system/fvSchemes.first")
-            (100 "$FOAM_CASE/system/fvSchemes.second")
+            (50 "$FOAM_CASE/system/fvSchemes.second")
+        );
+    }
+    relaxation
+    {
+        type            timeActivatedFileUpdate;
+        libs            ("libutilityFunctionObjects.so");
+        fileToUpdate    "$FOAM_CASE/system/fvSolution";
+        timeVsFile
+        (
+            (0 "$FOAM_CASE/system/fvSolution.first")
+            (50 "$FOAM_CASE/system/fvSolution.second")
         );
     }
     // Of all walls; postProcessing/forces has the table.
@@ -110,35 +121,38 @@ wallDist        {{ method meshWave; }}
 
 // Why each of these is as it is: docs/formats/openfoam.md.
 constexpr std::string_view solution =
-    R"foam(// Residuals are relative to sums over all cells, and those of a far field
+    R"foam(// system/controlDict copies fvSolution.first over fvSolution at the start, and
+// fvSolution.second after the first iterations: edit those two.
+
+// Residuals are relative to sums over all cells, and those of a far field
 // are huge: what is left of them says little about the body, so pressure is
 // solved well in each step.
 solvers
-{
+{{
     "(p|Phi)"
-    {
+    {{
         solver          GAMG;
         smoother        DICGaussSeidel;
         tolerance       1e-14;
         relTol          0.005;
         minIter         2;
         maxIter         50;
-    }
+    }}
     "(U|k|omega|epsilon|nuTilda)"
-    {
+    {{
         solver          PBiCGStab;
         preconditioner  DILU;
         tolerance       1e-9;
         relTol          0.1;
-    }
-}
-potentialFlow   { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; pRefCell 0; pRefValue 0; }
-SIMPLE          { nNonOrthogonalCorrectors 0; consistent yes; pRefCell 0; pRefValue 0; }
+    }}
+}}
+potentialFlow   {{ nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; pRefCell 0; pRefValue 0; }}
+SIMPLE          {{ nNonOrthogonalCorrectors 0; consistent yes; pRefCell 0; pRefValue 0; }}
 relaxationFactors
-{
-    fields          { p 0.9; }
-    equations       { U 0.7; "(k|omega|epsilon|nuTilda)" 0.6; }
-}
+{{
+    fields          {{ p {}; }}
+    equations       {{ U {}; "(k|omega|epsilon|nuTilda)" {}; }}
+}}
 )foam";
 
 constexpr std::string_view transport = R"foam(#include "../0.orig/conditions"
@@ -245,7 +259,10 @@ std::vector<FoamSetting> foam_dictionaries() {
   add("system", "fvSchemes", first);
   add("system", "fvSchemes.first", first);
   add("system", "fvSchemes.second", second);
-  add("system", "fvSolution", solution);
+  const std::string slow = fmt::format(solution, 0.9, 0.7, 0.6), fast = fmt::format(solution, 0.5, 0.9, 0.7);
+  add("system", "fvSolution", slow);
+  add("system", "fvSolution.first", slow);
+  add("system", "fvSolution.second", fast);
   add("constant", "transportProperties", transport);
   add("constant", "turbulenceProperties", turbulence);
   return all;
