@@ -185,6 +185,23 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
       std::move(made.columns), {mesh::number_mesh(std::move(made.cap)), std::move(field)}, std::move(record)};
 }
 
+std::vector<std::vector<std::int32_t>> layers_over_triangles(const mesh::DistributedMesh& surface,
+                                                             const LayersAndCap& layered) {
+  const std::vector<layers::WallLayers>& asked = layered.record.asked.patches;
+  std::vector<std::vector<std::int32_t>> all;
+  for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
+    const mesh::Piece& piece = surface.pieces[p];
+    const std::vector<std::int32_t>& counts = layered.columns.pieces[p].counts;
+    std::vector<std::int32_t>& mine = all.emplace_back();
+    for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const LocalIndex* const v = piece.cell(t);
+      const bool wanted = asked.at(piece.triangle_patch[t]).first > 0;
+      mine.push_back(wanted ? std::min({counts[v[0]], counts[v[1]], counts[v[2]]}) : -1);
+    }
+  }
+  return all;
+}
+
 void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, const LayersAndCap& layered,
                    mesh::DistributedMesh& volume) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default

@@ -92,7 +92,7 @@ private:
     domain::SizedDomain sized = stage("sizing", ExitCode::cad, [&] { return first.size(domain); });
     FinishedSurface surface =
         stage("surface", ExitCode::surface, [&] { return first.mesh(domain, std::move(sized)); });
-    const report::PictureSource pictured{surface, surface.types, domain.model.unit_name()};
+    report::PictureSource pictured{surface, surface.types, domain.model.unit_name()};
     std::optional<report::LayerRecord> layers;
     VolumeProduct volume = report::with_pictures_of_failure(pictured, _input.output, _record.pictures, [&] {
       VolumeStages stages(_input, *_checkpoints);
@@ -100,6 +100,7 @@ private:
       if (_input.layers.given) {
         layered = stage("layers", ExitCode::surface, [&] { return build_layers(_input, surface); });
         _record.layers = layers = layered->record;
+        if (_input.output.pictures) pictured.layers = layers_over_triangles(surface, *layered);
       }
       const sizing::SizedSurface& boundary = layered ? layered->cap : surface;
       VolumeStart start =

@@ -47,9 +47,9 @@ std::string navigation(const std::string& page) {
   std::string links;
   for (const auto& [id, words] :
        {std::pair("verdict", "Quality"), std::pair("pictures", "Pictures"),
-        std::pair("histograms", "Histograms"), std::pair("places", "Places"), std::pair("patches", "Patches"),
-        std::pair("warnings", "Warnings"), std::pair("geometry", "Geometry"), std::pair("stages", "Stages"),
-        std::pair("origin", "Origin")}) {
+        std::pair("histograms", "Histograms"), std::pair("solver", "Solver"), std::pair("layers", "Layers"),
+        std::pair("places", "Places"), std::pair("patches", "Patches"), std::pair("warnings", "Warnings"),
+        std::pair("geometry", "Geometry"), std::pair("stages", "Stages"), std::pair("origin", "Origin")}) {
     if (page.find(fmt::format("<section id=\"{}\"", id)) != std::string::npos)
       links += fmt::format("<a href=\"#{}\">{}</a> ", id, words);
   }
@@ -102,9 +102,10 @@ std::string report_html(const std::string& json, const std::vector<Picture>& pic
   using namespace html;
   const Json report = Json::parse(json);
   const std::string body = failure_section(report) + verdict_section(report) + pictures_section(pictures) +
-                           histograms_section(report) + solver_section(report) + places_section(report) +
-                           patches_section(report, pictures) + warnings_section(report) +
-                           geometry_section(report) + stages_section(report) + origin_section(report);
+                           histograms_section(report) + solver_section(report) + layers_section(report) +
+                           places_section(report) + patches_section(report, pictures) +
+                           warnings_section(report) + geometry_section(report) + stages_section(report) +
+                           origin_section(report);
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "

@@ -22,6 +22,8 @@ std::string pictures_section(const std::vector<Picture>& pictures);
 std::string histograms_section(const Json& report);
 /// Faces and cells as cell-centred solvers see them, where they were measured.
 std::string solver_section(const Json& report);
+/// Boundary layers by patch: what was asked for and made, and what limited them.
+std::string layers_section(const Json& report);
 /// The worst elements, and places of the CAD that force or explain small angles.
 std::string places_section(const Json& report);
 /// `pictures` have the colours of the patches.

@@ -2,10 +2,10 @@
 ///
 /// They are: `body`, the patches; `views`, from above, the side, the front and from behind; `leading_edge`
 /// and `junction`, triangles at two places (picture/places.hpp), if there are such places; `cut`, the
-/// tetrahedra in a plane; `leading_edge_cut`, those across the leading edge. Pictures show the body in the
-/// flow, or else the walls of the flow from inside (picture/scene.hpp). The flow comes along x, and z is up.
-/// The cut is the symmetry plane of half a body, the middle plane normal to y of a whole one, or the middle
-/// of a duct across its shortest side.
+/// tetrahedra in a plane; `leading_edge_cut`, those across the leading edge; `layers`, the number of boundary
+/// layers on each triangle. Pictures show the body in the flow, or else the walls of the flow from inside
+/// (picture/scene.hpp). The flow comes along x, and z is up. The cut is the symmetry plane of half a body,
+/// the middle plane normal to y of a whole one, or the middle of a duct across its shortest side.
 ///
 /// Each rank draws its pieces; only images and lines on the surface are gathered. Memory of a rank: 32 bytes
 /// for each of at most 0.7 million pixels, 200 bytes for each surface triangle. A picture has up to 256
@@ -17,6 +17,7 @@
 #include "pipeline/report/exit_code.hpp"
 #include "pipeline/report/picture.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct PictureSource {
   const mesh::NumberedMesh& surface;  ///< the boundary of the domain
   const std::vector<mesh::PatchType>& types;
   std::string unit;  ///< of lengths; may be empty
+  /// By piece and triangle: the number of boundary layers, -1 where none are asked for. Empty without layers.
+  std::vector<std::vector<std::int32_t>> layers = {};
 };
 
 /// The pictures on rank 0, empty elsewhere; the same bytes for any number of ranks. `volume` null: pictures

@@ -20,6 +20,10 @@ inline constexpr Colour ink{28, 32, 38};             ///< outlines
 inline constexpr Colour solid_grey{208, 212, 217};   ///< a body in a cut
 inline constexpr Colour layer_green{214, 232, 200};  ///< cells of boundary layers
 
+/// Fewer to more layers, without any first; suits red-green blindness.
+inline constexpr std::array<Colour, 5> layer_colours = {
+    {{222, 72, 50}, {254, 218, 140}, {235, 243, 205}, {176, 213, 232}, {104, 158, 204}}};
+
 /// Mixes `fraction` of b into a, from 0 to 1.
 Colour mix(Colour a, Colour b, double fraction);
 /// Makes a colour darker or lighter by a factor.

@@ -30,8 +30,9 @@ public:
   SurfaceDrawing(Canvas& canvas, const Camera& camera, const SurfaceLook& look)
       : _canvas(canvas), _camera(camera), _look(look) {}
 
+  /// `colours`: by triangle, or null for those of the patches.
   void draw(const mesh::Piece& piece, const std::vector<std::uint8_t>& shown,
-            const std::vector<EdgeNeighbour>& neighbours) {
+            const std::vector<EdgeNeighbour>& neighbours, const std::vector<Colour>* colours) {
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       if (!shown[t]) continue;
       const Vec3 normal = -normalized(area_normal(piece, t));
@@ -39,16 +40,16 @@ public:
       const LocalIndex* v = piece.cell(t);
       std::array<ScreenPoint, 3> corners;
       for (int i = 0; i < 3; ++i) corners[i] = _camera.project(piece.point(v[i]));
+      const Colour own = colours == nullptr ? colour_of(piece.triangle_patch[t]) : (*colours)[t];
       const Colour colour =
-          lit(colour_of(piece.triangle_patch[t]),
-              brightness(_camera.view,
-                         shading_normal(normal, neighbours.data() + 3 * static_cast<std::size_t>(t))));
+          lit(own, brightness(_camera.view,
+                              shading_normal(normal, neighbours.data() + 3 * static_cast<std::size_t>(t))));
       TriangleStyle style{colour, mix(colour, ink, 0.8), 1.1};
       if (_look.edge_opacity > 0) style.line_opacity.fill(_look.edge_opacity * visible_fraction(corners));
       _canvas.draw_triangle(corners, style);
       for (int i = 0; i < 3; ++i) {
         const EdgeNeighbour& neighbour = neighbours[3 * static_cast<std::size_t>(t) + i];
-        draw_border(corners[i], corners[(i + 1) % 3], normal, piece.triangle_patch[t], neighbour);
+        draw_border(corners[i], corners[(i + 1) % 3], normal, piece.triangle_patch[t], own, neighbour);
       }
     }
   }
@@ -85,14 +86,14 @@ private:
     return std::clamp((height - invisible) / (full - invisible), 0.0, 1.0);
   }
 
-  void draw_border(const ScreenPoint& a, const ScreenPoint& b, Vec3 normal, std::int32_t patch,
+  void draw_border(const ScreenPoint& a, const ScreenPoint& b, Vec3 normal, std::int32_t patch, Colour own,
                    const EdgeNeighbour& neighbour) {
     const bool is_outline = neighbour.is_open() || !neighbour.shown || !is_seen(-neighbour.normal);
     const bool is_sharp = neighbour.several || dot(normal, -neighbour.normal) < std::cos(sharp);
     if (is_outline) {
       _canvas.draw_line(a, b, _look.outline_width, ink, raised);
     } else if (is_sharp || neighbour.patch != patch) {
-      _canvas.draw_line(a, b, 0.85 * _look.outline_width, mix(ink, colour_of(patch), 0.25), raised);
+      _canvas.draw_line(a, b, 0.85 * _look.outline_width, mix(ink, own, 0.25), raised);
     }
   }
 
@@ -108,7 +109,9 @@ void draw_surface(Canvas& canvas, const Camera& camera, const mesh::DistributedM
   canvas.set_window(camera.window);
   SurfaceDrawing drawing(canvas, camera, look);
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
-    drawing.draw(surface.pieces[p], scene.shown[p], neighbours[p]);
+    const bool by_triangle = look.triangle_colours != nullptr;
+    drawing.draw(surface.pieces[p], scene.shown[p], neighbours[p],
+                 by_triangle ? &(*look.triangle_colours)[p] : nullptr);
   }
 }
 

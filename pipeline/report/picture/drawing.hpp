@@ -15,6 +15,8 @@ struct SurfaceLook {
   std::vector<Colour> patch_colours;  ///< by patch
   double edge_opacity = 0;            ///< of lines along all edges; at 0, shading is smoothed instead
   double outline_width = 1.2;         ///< in pixels, of outlines, sharp edges and patch borders
+  /// By piece and triangle, in place of colours by patch.
+  const std::vector<std::vector<Colour>>* triangle_colours = nullptr;
 };
 
 /// Draws the shown walls from their flow side only. Nearer walls of a duct are therefore invisible. Lines

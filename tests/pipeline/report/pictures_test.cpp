@@ -101,6 +101,27 @@ TEST(Pictures, OfTheAircraftAreTheSameForAnyNumberOfRanks) {
             }));
 }
 
+TEST(Pictures, OfLayersHaveTheirNumbers) {
+  const Communicator world = Communicator::world();
+  const auto with_layers = [](const std::string& name) {
+    cases::Case input = coarse_aircraft(name);
+    input.layers.given = true;
+    input.layers.first = 0.05;
+    return input;
+  };
+  const std::vector<Picture> pictures = record_of(world, with_layers("e")).pictures;
+  if (!world.is_root()) return;
+  ASSERT_FALSE(pictures.empty());
+  EXPECT_EQ(pictures.back().name, "layers");
+  std::set<std::string> names;
+  for (const LegendItem& item : pictures.back().legend) names.insert(item.name);
+  EXPECT_EQ(names.size(), pictures.back().legend.size());
+  EXPECT_TRUE(names.count("no layers"));
+  EXPECT_EQ(text_of(pictures), references::of_one_rank(world, text_of(pictures), [&] {
+              return text_of(record_of(Communicator::self(), with_layers("f")).pictures);
+            }));
+}
+
 TEST(Pictures, OfTheSurfaceRemainWhereTheVolumeFailsIfTheyAreWanted) {
   const Communicator world = Communicator::world();
   cases::Case input = coarse_aircraft("c");

@@ -14,6 +14,7 @@ namespace {
 
 namespace html = page;
 using html::Json;
+using layers::PatchLayers;
 
 constexpr const char* hostile = "</td></table></style><script>alert(1)</script><a href='http://x'>&\"\x01";
 constexpr std::size_t limit = 5'000'000;
@@ -55,6 +56,16 @@ RunRecord rich_record() {
   record.pinned.features.resize(1);
   record.pinned.features[0].face = 1;
   record.patches = {{"wing", mesh::PatchType::wall, 10, 10.1, 60, false}};
+  LayerRecord& layers = record.layers.emplace();
+  layers.asked.patches = {{2.5e-4, 1.2, 2, 30, 0}};
+  layers.boundary_layer = 0.5;
+  layers.report.patches.resize(1);
+  PatchLayers& on_wing = layers.report.patches[0];
+  on_wing.area = 10, on_wing.full_area = 7, on_wing.partial_area = 2, on_wing.empty_area = 1;
+  on_wing.limited_area[static_cast<std::size_t>(layers::LayerLimit::gap)] = 1;
+  on_wing.limited_area[static_cast<std::size_t>(layers::LayerLimit::validity)] = 2;
+  on_wing.sums = {255, 300, 6.25, 3, 4.2};
+  on_wing.most_layers = 30;
   record.regions_filled = {{"fluid", 53156962.9, 1'384'540}};
   record.wall_seconds = 7.4;
   return record;
@@ -119,6 +130,17 @@ TEST(ReportHtml, SaysWhatPeopleAskFor) {
     EXPECT_TRUE(contains(page, words)) << words;
   }
   EXPECT_TRUE(contains(page, "317 MiB"));  // messages of all kinds
+}
+
+TEST(ReportHtml, TellsOfLayersByPatch) {
+  const std::string page = report_html(rich_report().dump(), {});
+  for (const char* words :
+       {"<section id=\"layers\"", "70.0 % of the walls have all layers", "0.00025", "30 layers",
+        "25.5 of 30.0", "1.250", "0.420", "20.0 % bad cells, 10.0 % walls opposite"})
+    EXPECT_TRUE(contains(page, words)) << words;
+  Json without = rich_report();
+  without.erase("layers");
+  EXPECT_FALSE(contains(report_html(without.dump(), {}), "id=\"layers\""));
 }
 
 TEST(ReportHtml, EveryTextIsEscaped) {
