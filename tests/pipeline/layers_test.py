@@ -19,7 +19,8 @@ import layer_coverage  # noqa: E402
 SPHERE = f"""
 geometry: {{file: "{SOURCE}/configs/geometry/sphere.brep"}}
 farfield: {{shape: box, extent: 2}}
-sizing: {{minimum: 0.1, maximum: 2, curvature_angle: 20, growth: 1.8, proximity: 0}}
+sizing:
+  {{minimum: 0.05, maximum: 2, curvature_angle: 20, growth: 1.8, proximity: 0, sources: {{near: {{shape: point, center: [1, 0, 0], size: 0.05}}}}}}
 surface: {{piece_triangles: 100}}
 volume: {{piece_tets: 800}}
 """ + NO_PICTURES
@@ -97,7 +98,7 @@ def check_measured(run):
     for key in ("full", "partial", "empty"):
         assert abs(found[key] - said[key]) < 1e-6, (key, found, said)
     assert abs(found["layers_mean"] - said["layers_mean"]) < 1e-6 * said["layers_mean"], (found, said)
-    assert abs(found["first"][1] - 1) < 0.02 and abs(found["growth"][1] - 1.5) < 0.02, found
+    assert abs(found["first"][1] - 1) < 0.02 and abs(found["growth"][1] - 1.5) < 0.05, found  # the last five layers are stretched
 
 
 def check_tets(program, folder, prisms):
