@@ -127,7 +127,7 @@ TEST_F(OpenFoam, BytesDoNotDependOnRanks) {
     EXPECT_EQ(files, examples::files_below(folder / "one"));
     // Of each part the mesh and what refers to fields; dictionaries in system/ and constant/; fields with
     // their numbers; a script.
-    EXPECT_EQ(files.size(), 4U * (11 + 6) + 6 + 2 + 7 + 1);
+    EXPECT_EQ(files.size(), 4U * (11 + 6) + 8 + 2 + 7 + 1);
     const std::string boundary = files.at("processor2/constant/polyMesh/boundary");
     for (const char* expected : {"wing___lower_side", "inGroups        1(wall);", "far_field",
                                  "procBoundary2to1", "type            symmetry;"})
