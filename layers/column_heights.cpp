@@ -30,8 +30,7 @@ std::int32_t layers_below(const Heights& heights, std::int32_t count, double lim
 }
 
 FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit) {
-  // Chosen among steps and numbers of 1 to 12: at the front of six aircraft 3 to 5 degrees less than with all
-  // numbers of layers.
+  // Chosen among steps and numbers of 1 to 12 (benchmarks/results/layers.md, "Where columns end").
   constexpr std::int32_t step = 4, stretched = 5;
   constexpr double most_stretch = 2.5;
   std::array<double, stretched + 1> nodes{};  // heights of the last nodes, in turn

@@ -67,9 +67,9 @@ struct FittedLayers {
 };
 
 /// At most `count` layers that are together as high as `limit`. The last five are stretched, so that the
-/// number of layers is a multiple of four or `count`: neighbours with about the same limit have as many. In a
-/// column of less only the last is stretched; a first layer never is, and is left out where it is higher than
-/// the limit. `heights` without stretch.
+/// number of layers is a multiple of four or `count`: neighbours with about the same limit have as many. Of at
+/// most five layers only the last is stretched. A first layer never is, and is left out where it is higher
+/// than the limit. `heights` without stretch.
 FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit);
 
 /// The layers that `wanted` asks for, at least one: those that are together as high as a column whose last

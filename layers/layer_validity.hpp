@@ -26,10 +26,10 @@ std::int32_t good_layers(const TriangleColumns& columns);
 /// cheap test finds most failures.
 bool has_good_cap(const TriangleColumns& columns);
 
-/// A bound on the column heights over the triangle that brings cap and cells closer to being good. It is
-/// 0.76 to 0.95 of the highest column, so the tallest columns shrink first, and are fitted again before they
-/// fall further: what is bad may be how last layers are stretched. Infinite if all is good. If a bound does
-/// not suffice, the next call returns a lower one.
+/// A bound on the column heights over the triangle that brings cap and cells closer to being good. It is at
+/// most 0.95 of the highest column, so the tallest columns shrink first. Where counts differ it is little
+/// less, for columns are then fitted again. Infinite if all is good. If a bound does not suffice, the next call
+/// returns a lower one.
 double fitting_height(const TriangleColumns& columns);
 
 }  // namespace aeroloom::layers
