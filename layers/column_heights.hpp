@@ -67,8 +67,8 @@ struct FittedLayers {
 };
 
 /// At most `count` layers that are together as high as `limit`. The last five are stretched, so that the
-/// number of layers is a multiple of four or `count`: neighbours with about the same limit have as many. Of at
-/// most five layers only the last is stretched. A first layer never is, and is left out where it is higher
+/// number of layers is a multiple of four or `count`: neighbours with about the same limit have as many. Of
+/// at most five layers only the last is stretched. A first layer never is, and is left out where it is higher
 /// than the limit. `heights` without stretch.
 FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit);
 

@@ -28,8 +28,8 @@ bool has_good_cap(const TriangleColumns& columns);
 
 /// A bound on the column heights over the triangle that brings cap and cells closer to being good. It is at
 /// most 0.95 of the highest column, so the tallest columns shrink first. Where counts differ it is little
-/// less, for columns are then fitted again. Infinite if all is good. If a bound does not suffice, the next call
-/// returns a lower one.
+/// less, for columns are then fitted again. Infinite if all is good. If a bound does not suffice, the next
+/// call returns a lower one.
 double fitting_height(const TriangleColumns& columns);
 
 }  // namespace aeroloom::layers
