@@ -2,7 +2,7 @@
 """Turbulent flow about NACA 0012 at a Reynolds number of 6 million by OpenFOAM's simpleFoam with k-omega SST, on a mesh with boundary
 layers and on a C-grid of blockMesh, with the same domain, first height and turbulence of the free stream.
 
-usage: naca0012.py FOLDER [--angle 10] [--steps 3000] [--y-plus 1] [--ranks 1] [--program AEROLOOM] [--report] [--page FILE]
+usage: naca0012.py FOLDER [--angle 10] [--steps 1500] [--y-plus 1] [--ranks 1] [--program AEROLOOM] [--report] [--page FILE]
 
 Both start from uniform flow. Our case runs as the program writes it: what is set is its number of iterations, the direction of the flow and
 the area of reference. The C-grid, which is one process, has schemes and relaxation of its own (simple_case.py). Called again, runs go on
@@ -99,7 +99,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--angle", type=float, default=10.0, help="of incidence, in degrees")
-    parser.add_argument("--steps", type=int, default=3000, help="a multiple of 100, after which steps are written")
+    parser.add_argument("--steps", type=int, default=1500, help="a multiple of 100, after which steps are written")
     parser.add_argument("--y-plus", type=float, default=1.0, help="of the first cell's centre")
     parser.add_argument("--ranks", type=int, default=1, help="for our mesh")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/aeroloom")
