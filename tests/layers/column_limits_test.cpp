@@ -1,8 +1,10 @@
 #include "layers/column_limits.hpp"
 
+#include "layers/wanted_layers.hpp"
 #include "tests/layers/directed_wall.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -63,6 +65,31 @@ TEST(ColumnLimits, BeginAsThePatchesAsk) {
   }
   EXPECT_EQ(limited.columns.take_changed().size(), static_cast<std::size_t>(n));
   EXPECT_TRUE(limited.columns.take_changed().empty());
+}
+
+TEST(WantedLayers, SmoothEdgesDifferLessAndAreTheSameInAllPieces) {
+  Limited limited(Communicator::world(), 6);
+  const LocalWall& wall = limited.base.wall;
+  const std::vector<VertexLayers> wanted = gather_wanted_layers(wall, limited.options);
+  const std::vector<double> smooth = smooth_mean_edges(wall, wanted);
+  double before = 0, after = 0, low = unlimited, high = 0;
+  std::map<std::array<double, 3>, double> by_place;
+  limited.for_each_edge([&](std::int32_t v, std::int32_t u) {
+    before = std::max(before, std::abs(wanted[v].mean_edge() - wanted[u].mean_edge()));
+    after = std::max(after, std::abs(smooth[v] - smooth[u]));
+    low = std::min(low, wanted[v].mean_edge()), high = std::max(high, wanted[v].mean_edge());
+    const Vec3 p = wall.points[v];
+    EXPECT_EQ(by_place.emplace(std::array{p.x, p.y, p.z}, smooth[v]).first->second, smooth[v]);
+  });
+  const parallel::Communicator& ranks = limited.communicator;
+  before = ranks.maximum(before), after = ranks.maximum(after), high = ranks.maximum(high),
+  low = -ranks.maximum(-low);
+  EXPECT_GT(before, 0);
+  EXPECT_LT(after, 0.6 * before);
+  limited.for_each_edge([&](std::int32_t v, std::int32_t) {
+    EXPECT_GE(smooth[v], low * (1 - 1e-12));
+    EXPECT_LE(smooth[v], high * (1 + 1e-12));
+  });
 }
 
 TEST(ColumnLimits, TotalsTakeLastLayersAwayAndStretchOthers) {
