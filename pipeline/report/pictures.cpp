@@ -26,7 +26,6 @@ using picture::Camera;
 using picture::Canvas;
 using picture::Colour;
 using picture::Place;
-using picture::Scene;
 using picture::Viewpoint;
 using picture::Window;
 
