@@ -195,7 +195,8 @@ std::vector<std::vector<std::int32_t>> layers_over_triangles(const mesh::Distrib
     std::vector<std::int32_t>& mine = all.emplace_back();
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* const v = piece.cell(t);
-      const bool wanted = asked.at(piece.triangle_patch[t]).first > 0;
+      const auto patch = static_cast<std::size_t>(piece.triangle_patch[t]);  // of none: beyond all
+      const bool wanted = patch < asked.size() && asked[patch].first > 0;
       mine.push_back(wanted ? std::min({counts[v[0]], counts[v[1]], counts[v[2]]}) : -1);
     }
   }
