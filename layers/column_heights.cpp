@@ -32,7 +32,7 @@ std::int32_t layers_below(const Heights& heights, std::int32_t count, double lim
 FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit) {
   // Chosen among steps and numbers of 1 to 12 (benchmarks/results/layers.md, "Where columns end").
   constexpr std::int32_t step = 4, stretched = 5;
-  constexpr double most_stretch = 2.5;
+  constexpr double most_stretch = 2.5;        // chosen, not measured
   std::array<double, stretched + 1> nodes{};  // heights of the last nodes, in turn
   FittedLayers fewest, best;
   double layer = heights.first, height = 0, least_change = std::log(most_stretch);

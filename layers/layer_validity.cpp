@@ -199,7 +199,7 @@ bool has_good_cap(const TriangleColumns& columns) {
 double fitting_height(const TriangleColumns& columns) {
   constexpr double step = 0.95;  // between heights that are tried; chosen, not measured
   // Of the highest column. Where counts differ, columns are fitted again before they fall further: then what
-  // is bad may be how their last layers are stretched.
+  // is bad may be how their last layers are stretched. Chosen, not measured.
   constexpr double lowest = 0.01, lowest_of_unequal = 0.8;
   const bool equal = columns[0].count == columns[1].count && columns[0].count == columns[2].count;
   const Ends ends(columns);

@@ -50,7 +50,7 @@ std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const Laye
 }
 
 std::vector<double> smooth_mean_edges(const LocalWall& wall, const std::vector<VertexLayers>& wanted) {
-  constexpr int sweeps = 8;  // as many as directions have
+  constexpr int sweeps = 8;  // as many as directions have; chosen, not measured
   struct Around {
     double edges;
     std::int64_t count;

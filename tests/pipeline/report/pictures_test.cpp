@@ -116,7 +116,7 @@ TEST(Pictures, OfLayersHaveTheirNumbers) {
   std::set<std::string> names;
   for (const LegendItem& item : pictures.back().legend) names.insert(item.name);
   EXPECT_EQ(names.size(), pictures.back().legend.size());
-  EXPECT_TRUE(names.count("no layers"));
+  EXPECT_GT(names.size(), 2U) << "there are layers";
   EXPECT_EQ(text_of(pictures), references::of_one_rank(world, text_of(pictures), [&] {
               return text_of(record_of(Communicator::self(), with_layers("f")).pictures);
             }));
