@@ -29,18 +29,25 @@ std::int32_t layers_below(const Heights& heights, std::int32_t count, double lim
   return fitting;
 }
 
+std::int32_t layers_in_a_step(double growth) {
+  // At a growth of 1.2 chosen among steps of 1 to 12 (benchmarks/results/layers.md, "Where columns end").
+  if (growth <= 1) return longest_step;
+  return static_cast<std::int32_t>(
+      std::clamp<long>(std::lround(std::log(2) / std::log(growth)), 1, longest_step));
+}
+
 FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit) {
-  // Chosen among steps and numbers of 1 to 12 (benchmarks/results/layers.md, "Where columns end").
-  constexpr std::int32_t step = 4, stretched = 5;
-  constexpr double most_stretch = 2.5;        // chosen, not measured
-  std::array<double, stretched + 1> nodes{};  // heights of the last nodes, in turn
+  constexpr double most_stretch = 2.5;  // chosen, not measured
+  const std::int32_t step = layers_in_a_step(heights.growth), stretched = step + 1;
+  std::array<double, longest_step + 2> nodes{};  // heights of the last nodes, in turn
+  const auto node = [&](std::int32_t k) -> double& { return nodes[k % (stretched + 1)]; };
   FittedLayers fewest, best;
   double layer = heights.first, height = 0, least_change = std::log(most_stretch);
   for (std::int32_t k = 1; k <= count; ++k) {
     if (k > heights.constant) layer *= heights.growth;
-    const double below = height, base = nodes[(k + 1) % nodes.size()];  // of nodes k - 1 and k - stretched
+    const double below = height, base = node(k + 1);  // of nodes k - 1 and k - stretched
     height += layer;
-    nodes[k % nodes.size()] = height;
+    node(k) = height;
     if (base >= limit) break;
     if (height <= limit) fewest = k > 1 ? FittedLayers{k, k - 1, (limit - below) / layer} : FittedLayers{1};
     if (k <= stretched || (k % step != 0 && k != count)) continue;

@@ -77,12 +77,37 @@ TEST(ColumnHeightsLocal, StretchTheLastLayersUpToALimit) {
   EXPECT_EQ(fit_layers(heights, 60, heights.total(60) / 1.5).count, 56) << "in steps of four";
 }
 
+TEST(ColumnHeightsLocal, TakeStepsOfAboutAFactorOfTwo) {
+  EXPECT_EQ(layers_in_a_step(1), 8) << "at most";
+  EXPECT_EQ(layers_in_a_step(1 + 1e-15), 8);
+  EXPECT_EQ(layers_in_a_step(1.1), 7);
+  EXPECT_EQ(layers_in_a_step(1.2), 4);
+  EXPECT_EQ(layers_in_a_step(1.3), 3);
+  EXPECT_EQ(layers_in_a_step(1.5), 2);
+  EXPECT_EQ(layers_in_a_step(2), 1);
+  EXPECT_EQ(layers_in_a_step(10), 1);
+  for (const double growth : {1.1, 1.15, 1.3, 1.5, 2.0}) {
+    const Heights heights{1e-5, growth, 2};
+    const std::int32_t step = layers_in_a_step(growth);
+    for (double limit = heights.total(2 * step + 1); limit < heights.total(50); limit *= 1.07) {
+      const FittedLayers fitted = fit_layers(heights, 60, limit);
+      EXPECT_NEAR(fitted_heights(heights, fitted).total(fitted.count), limit, 1e-12 * limit);
+      EXPECT_EQ(fitted.count % step, 0) << growth;
+      EXPECT_EQ(fitted.regular, fitted.count - step - 1);
+      EXPECT_GT(fitted.stretch, 0.5) << growth << ", " << limit;
+      EXPECT_LT(fitted.stretch, 2) << growth << ", " << limit;
+    }
+  }
+}
+
 TEST(ColumnHeightsLocal, StretchTheLastOfFewLayers) {
-  const Heights heights{0.5, 2, 3};  // ends at 0.5, 1, 1.5, 2.5, 4.5
-  EXPECT_EQ(fit_layers(heights, 5, 4), (FittedLayers{4, 3, 2.5}));
+  const Heights heights{0.5, 1.25, 3};  // ends at 0.5, 1, 1.5, 2.125
+  EXPECT_EQ(fit_layers(heights, 4, 2), (FittedLayers{3, 2, 2})) << "steps of three, four to stretch";
   EXPECT_EQ(fit_layers(heights, 2, 1), (FittedLayers{2, 1, 1}));
-  EXPECT_EQ(fit_layers(heights, 5, 0.7), FittedLayers{1}) << "the first layer keeps its height";
-  EXPECT_EQ(fit_layers(heights, 5, 0.4).count, 0);
+  EXPECT_EQ(fit_layers(heights, 4, 0.7), FittedLayers{1}) << "the first layer keeps its height";
+  EXPECT_EQ(fit_layers(heights, 4, 0.4).count, 0);
+  const Heights steep{0.5, 2, 3};  // ends at 0.5, 1, 1.5, 2.5, 4.5
+  EXPECT_EQ(fit_layers(steep, 5, 4), (FittedLayers{5, 3, 2.5 / 3})) << "steps of one, two to stretch";
 }
 
 TEST(ColumnHeightsLocal, EndWherePatchesAsk) {
