@@ -6,9 +6,9 @@ usage: case_runs.py FOLDER [--program AEROLOOM] [--ranks N] [--iterations N] [--
 Each case is meshed with layers at y+ 1 and at y+ 60, written for OpenFOAM and run by the script beside it, from uniform flow. What is
 there already in FOLDER is not done again, so that a run that was stopped goes on. Nothing of the case is changed but the iterations and,
 where a case has an angle of attack, directions in 0.orig/conditions. A case is good where all iterations are made, residuals of U and p
-fall by a factor of 100, the speed stays below four times that of the free stream from iteration 100 on, fifty after the change to second order, no
-turbulence is clipped below minus 1 % of its average in the last 100, and drag (lift too, where it is larger) of the last two 50s agree within 3 %. Needs OpenFOAM and, for some,
-gmsh.
+fall by a factor of 100, the speed stays below four times that of the free stream in all but the first 100 iterations, no turbulence is
+clipped below minus 1 % of its average in the last 100, and drag (lift too, where it is larger) of the last two 50s agree within 3 %. Needs
+OpenFOAM and, for some, gmsh.
 """
 import argparse
 import collections
@@ -28,7 +28,7 @@ from printed_table import PrintedTable, add_page_option  # pylint: disable=wrong
 GEOMETRY = ROOT.parent / "shared" / "geometry"
 FASTEST, FALL, AGREEMENT, CLIPPED = 4.0, 100.0, 0.03, 0.01
 LAST = 50
-#: Iterations after which speeds count: those of the change of order, at 50, have left.
+#: Iterations before speeds count: 50 of first order, as many in which the change of order settles.
 SETTLED = 100
 SPHERE = "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\n"
 #: A macro of gmsh: the section at x, y, z of chord c, 12 % thick, with a trailing edge of twice `edge` chords.
