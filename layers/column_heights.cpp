@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace aeroloom::layers {
 
@@ -36,23 +37,64 @@ std::int32_t layers_in_a_step(double growth) {
       std::clamp<long>(std::lround(std::log(2) / std::log(growth)), 1, longest_step));
 }
 
-FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit) {
-  constexpr double most_stretch = 2.5;  // chosen, not measured
+namespace {
+
+/// The growth of the last layers at most, where columns are lower than they should be: those below the
+/// tetrahedra are thin there otherwise. At 1.2 numbers in steps of a factor of two need 1 to 1.5.
+double steepest_end(double growth) {
+  return std::max(1.5, 1.25 * growth);
+}
+
+/// The ratio x by which the sum of layers[i] x^(i+1) is `height`; between `low` and `high`.
+double stretch_to(std::span<const double> layers, double height, double low, double high) {
+  constexpr int most_steps = 60;
+  double x = std::clamp(1.0, low, high);
+  for (int step = 0; step < most_steps; ++step) {
+    double sum = 0, slope = 0, power = 1;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      slope += static_cast<double>(i + 1) * layers[i] * power;
+      power *= x;
+      sum += layers[i] * power;
+    }
+    (sum < height ? low : high) = x;
+    const double newton = x - (sum - height) / slope,
+                 next = newton > low && newton < high ? newton : 0.5 * (low + high);
+    if (std::abs(next - x) <= 1e-15 * x) break;
+    x = next;
+  }
+  return x;
+}
+
+double stretched_sum(std::span<const double> layers, double x) {
+  double sum = 0;
+  for (std::size_t i = layers.size(); i-- > 0;) sum = (sum + layers[i]) * x;
+  return sum;
+}
+
+}  // namespace
+
+FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit, double last) {
   const std::int32_t step = layers_in_a_step(heights.growth), stretched = step + 1;
-  std::array<double, longest_step + 2> nodes{};  // heights of the last nodes, in turn
-  const auto node = [&](std::int32_t k) -> double& { return nodes[k % (stretched + 1)]; };
+  const double low = 1 / heights.growth, high = steepest_end(heights.growth) / heights.growth;
+  std::array<double, longest_step + 1> layers{};  // the last ones, ascending
+  const std::span<double> ends(layers.data(), static_cast<std::size_t>(stretched));
   FittedLayers fewest, best;
-  double layer = heights.first, height = 0, least_change = std::log(most_stretch);
+  double layer = heights.first, height = 0, base = 0, least_off = std::numeric_limits<double>::infinity();
   for (std::int32_t k = 1; k <= count; ++k) {
     if (k > heights.constant) layer *= heights.growth;
-    const double below = height, base = node(k + 1);  // of nodes k - 1 and k - stretched
+    const double below = height;
     height += layer;
-    node(k) = height;
+    if (k > stretched) base += ends[0];
+    std::shift_left(ends.begin(), ends.end(), 1);
+    ends.back() = layer;
     if (base >= limit) break;
     if (height <= limit) fewest = k > 1 ? FittedLayers{k, k - 1, (limit - below) / layer} : FittedLayers{1};
     if (k <= stretched || (k % step != 0 && k != count)) continue;
-    const double stretch = (limit - base) / (height - base), change = std::abs(std::log(stretch));
-    if (change < least_change) best = {k, k - stretched, stretch}, least_change = change;
+    const double rest = limit - base;
+    if (rest < stretched_sum(ends, low) || rest > stretched_sum(ends, high)) continue;
+    const FittedLayers fitted{k, k - stretched, stretch_to(ends, rest, low, high)};
+    const double end = layer * std::pow(fitted.stretch, stretched), off = std::abs(std::log(end / last));
+    if (off < least_off) best = fitted, least_off = off;
   }
   return best.count > 0 ? best : fewest;
 }
@@ -60,15 +102,17 @@ FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit
 FittedLayers wanted_layers(const WallLayers& wanted, double mean_edge) {
   const Heights heights{wanted.first, wanted.growth, wanted.constant};
   const std::int32_t most = wanted.count > 0 ? wanted.count : most_layers;
-  double limit = wanted.total > 0 ? wanted.total : std::numeric_limits<double>::infinity();
+  double limit = wanted.total > 0 ? wanted.total : std::numeric_limits<double>::infinity(),
+         last = wanted.first;
   if (wanted.growth > 1) {
     // The sum of the geometric series up to a last layer, for any height of that.
-    const double last = std::max(isotropic_height * mean_edge, wanted.first);
-    const double growing = wanted.growth / (wanted.growth - 1) * (last - wanted.first);
-    limit = std::min(limit, wanted.constant * wanted.first + growing);
+    const double below = wanted.constant * wanted.first, rise = wanted.growth / (wanted.growth - 1);
+    const double isotropic = std::max(isotropic_height * mean_edge, wanted.first);
+    limit = std::min(limit, below + rise * (isotropic - wanted.first));
+    last = wanted.first + std::max(0.0, limit - below) / rise;
   }
   if (heights.total(most) <= limit) return {most};
-  const FittedLayers fitted = fit_layers(heights, most, limit);
+  const FittedLayers fitted = fit_layers(heights, most, limit, last);
   return fitted.count > 0 ? fitted : FittedLayers{1};
 }
 

@@ -11,11 +11,11 @@ namespace aeroloom::layers {
 inline constexpr std::int32_t most_layers = 1000;
 
 /// A geometric column: `constant` layers of height `first`, then each `growth` times the one below. The last
-/// ones may be stretched.
+/// ones may grow more, or less.
 struct Heights {
   double first = 0, growth = 1;
   std::int32_t constant = 1;
-  std::int32_t regular = most_layers;  ///< layers above this one are `stretch` times as high
+  std::int32_t regular = most_layers;  ///< each layer above this one is in addition `stretch` times as high
   double stretch = 1;
 
   /// Calls visit(k, height of node k) for k = 1 ... count. All nodes are placed by this sum.
@@ -24,7 +24,8 @@ struct Heights {
     double layer = first, sum = 0;
     for (std::int32_t k = 1; k <= count; ++k) {
       if (k > constant) layer *= growth;
-      sum += k > regular ? stretch * layer : layer;
+      if (k > regular) layer *= stretch;
+      sum += layer;
       visit(k, sum);
     }
   }
@@ -36,8 +37,11 @@ struct Heights {
   /// Height of the last of `count` layers; 0 for count = 0.
   double last(std::int32_t count) const {
     double layer = count > 0 ? first : 0;
-    for (std::int32_t k = constant + 1; k <= count; ++k) layer *= growth;
-    return count > regular ? stretch * layer : layer;
+    for (std::int32_t k = 1; k <= count; ++k) {
+      if (k > constant) layer *= growth;
+      if (k > regular) layer *= stretch;
+    }
+    return layer;
   }
 };
 
@@ -71,11 +75,12 @@ struct FittedLayers {
 std::int32_t layers_in_a_step(double growth);
 inline constexpr std::int32_t longest_step = 8;
 
-/// At most `count` layers that are together as high as `limit`. The last ones, one more than
-/// layers_in_a_step, are stretched, so that the number of layers is a multiple of that step or `count`:
-/// neighbours with about the same limit have as many. Of fewer layers only the last is stretched. A first
-/// layer never is, and is left out where it is higher than the limit. `heights` without stretch.
-FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit);
+/// At most `count` layers that are together as high as `limit`, the last about as high as `last`. The last
+/// ones, one more than layers_in_a_step, grow by 1 to 1.5 (1.25 times the growth where that is more) from one
+/// to the next, so that the number of layers is a multiple of that step or `count`: neighbours with about the
+/// same limit have as many. Of fewer layers only the last is stretched. A first layer never is, and is left
+/// out where it is higher than the limit. `heights` without stretch.
+FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit, double last);
 
 /// The layers that `wanted` asks for, at least one: those that are together as high as a column whose last
 /// layer is 0.7 of the mean edge length at the vertex. Count and total height in `wanted` are upper bounds.

@@ -32,7 +32,7 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
   const std::vector<double> edges = smooth_mean_edges(wall, all_wanted);
   const std::size_t n = all_wanted.size();
   _first.assign(n, 0), _growth.assign(n, 1), _mean_edges.assign(n, 0), _slopes.assign(n, 1),
-      _limits.assign(n, 0);
+      _limits.assign(n, 0), _wanted_lasts.assign(n, 0);
   _constant.assign(n, 1), _fitted.assign(n, {}), _causes.assign(n, LayerLimit::none), _changed.assign(n, 0);
   _wanted_counts.assign(n, 0);
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
@@ -55,6 +55,7 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, c
     _slopes[v] = slope_of(asked.growth);
     _fitted[v] = fitted;
     _limits[v] = this->total(v);
+    _wanted_lasts[v] = last_height(v);
     _lowered.push_back(v);
     note_change(v, LayerLimit::none);
   }
@@ -79,7 +80,7 @@ void ColumnLimits::cut_count(std::int32_t v, std::int32_t count, LayerLimit caus
 }
 
 void ColumnLimits::fit(std::int32_t v, LayerLimit cause) {
-  const FittedLayers fitted = fit_layers(regular_heights(v), count(v), _limits[v]);
+  const FittedLayers fitted = fit_layers(regular_heights(v), count(v), _limits[v], _wanted_lasts[v]);
   if (fitted == _fitted[v]) return;
   _fitted[v] = fitted;
   note_change(v, cause);

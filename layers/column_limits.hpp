@@ -53,7 +53,7 @@ private:
   void lower_by_slopes(std::vector<double>& limits, std::vector<std::int32_t> from) const;
 
   const LocalWall& _wall;
-  std::vector<double> _first, _growth, _mean_edges, _slopes;
+  std::vector<double> _first, _growth, _mean_edges, _slopes, _wanted_lasts;
   std::vector<double> _limits;  ///< of total heights; neighbours use these
   std::vector<std::int32_t> _constant, _wanted_counts;
   std::vector<FittedLayers> _fitted;

@@ -111,7 +111,8 @@ public:
       const CornerColumn& column = _columns[i];
       if (_k > column.count) continue;
       if (_k > column.heights.constant) _layers[i] *= column.heights.growth;
-      _sums[i] += _k > column.heights.regular ? column.heights.stretch * _layers[i] : _layers[i];
+      if (_k > column.heights.regular) _layers[i] *= column.heights.stretch;
+      _sums[i] += _layers[i];
       _level[i] = column.point + _sums[i] * column.direction;
     }
   }

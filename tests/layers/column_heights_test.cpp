@@ -58,23 +58,45 @@ Heights fitted_heights(const Heights& heights, const FittedLayers& fitted) {
   return {heights.first, heights.growth, heights.constant, fitted.regular, fitted.stretch};
 }
 
-TEST(ColumnHeightsLocal, StretchTheLastLayersUpToALimit) {
+/// The last of layers that grow regularly to this height.
+double regular_last(const Heights& heights, double total) {
+  return heights.first + (total - heights.constant * heights.first) * (heights.growth - 1) / heights.growth;
+}
+
+TEST(ColumnHeightsLocal, GrowUpToALimit) {
   const Heights heights{1e-5, 1.2, 2};
-  for (double limit = 1e-4; limit < heights.total(60); limit *= 1.07) {
-    const FittedLayers fitted = fit_layers(heights, 60, limit);
-    const Heights stretched = fitted_heights(heights, fitted);
-    EXPECT_NEAR(stretched.total(fitted.count), limit, 1e-12 * limit);
-    EXPECT_GE(fitted.count, 6);
-    EXPECT_EQ(fitted.count % 4, 0) << "neighbours have as many";
-    EXPECT_EQ(fitted.regular, fitted.count - 5);
-    EXPECT_GT(fitted.stretch, 0.5);
-    EXPECT_LT(fitted.stretch, 2);
-    EXPECT_EQ(stretched.total(fitted.regular), heights.total(fitted.regular)) << "the others stay";
-    EXPECT_DOUBLE_EQ(stretched.last(fitted.count), fitted.stretch * heights.last(fitted.count));
+  for (double limit = 2e-4; limit < heights.total(60); limit *= 1.07) {
+    for (const double aim : {1.0, 2.0, 1e3}) {
+      const FittedLayers fitted = fit_layers(heights, 60, limit, aim * regular_last(heights, limit));
+      const Heights grown = fitted_heights(heights, fitted);
+      EXPECT_NEAR(grown.total(fitted.count), limit, 1e-12 * limit);
+      EXPECT_EQ(fitted.count % 4, 0) << "neighbours have as many";
+      EXPECT_EQ(fitted.regular, fitted.count - 5);
+      EXPECT_GT(1.2 * fitted.stretch, 1 - 1e-9);
+      EXPECT_LT(1.2 * fitted.stretch, 1.5 + 1e-9);
+      EXPECT_EQ(grown.total(fitted.regular), heights.total(fitted.regular)) << "the others stay";
+      EXPECT_NEAR(grown.last(fitted.count), grown.total(fitted.count) - grown.total(fitted.count - 1),
+                  1e-12 * limit);
+    }
   }
-  EXPECT_EQ(fit_layers(heights, 59, heights.total(59)), (FittedLayers{59, 54, 1}))
-      << "as many as allowed, too";
-  EXPECT_EQ(fit_layers(heights, 60, heights.total(60) / 1.5).count, 56) << "in steps of four";
+  const FittedLayers allowed = fit_layers(heights, 59, heights.total(59), heights.last(59));
+  EXPECT_EQ(allowed.count, 59) << "as many as allowed, too";
+  EXPECT_NEAR(allowed.stretch, 1, 1e-14);
+}
+
+TEST(ColumnHeightsLocal, AimAtALastLayer) {
+  const Heights heights{1e-5, 1.2, 2};
+  const double limit = heights.total(40) / 1.3, last = regular_last(heights, limit);
+  std::int32_t count = 40;
+  for (double aim = last / 2; aim < 3 * last; aim *= 1.1) {
+    const FittedLayers fitted = fit_layers(heights, 60, limit, aim);
+    EXPECT_LE(fitted.count, count) << "fewer and thicker ones";
+    count = fitted.count;
+  }
+  EXPECT_EQ(fit_layers(heights, 60, limit, last / 2).count, 40);
+  const FittedLayers fewest = fit_layers(heights, 60, limit, 3 * last);
+  EXPECT_EQ(fewest.count, 36);
+  EXPECT_GT(fitted_heights(heights, fewest).last(36), 1.5 * last) << "of the same height together";
 }
 
 TEST(ColumnHeightsLocal, TakeStepsOfAboutAFactorOfTwo) {
@@ -86,28 +108,26 @@ TEST(ColumnHeightsLocal, TakeStepsOfAboutAFactorOfTwo) {
   EXPECT_EQ(layers_in_a_step(1.5), 2);
   EXPECT_EQ(layers_in_a_step(2), 1);
   EXPECT_EQ(layers_in_a_step(10), 1);
-  for (const double growth : {1.1, 1.15, 1.3, 1.5, 2.0}) {
+  for (const double growth : {1.1, 1.15, 1.3, 1.5, 2.0, 3.0}) {
     const Heights heights{1e-5, growth, 2};
     const std::int32_t step = layers_in_a_step(growth);
-    for (double limit = heights.total(2 * step + 1); limit < heights.total(50); limit *= 1.07) {
-      const FittedLayers fitted = fit_layers(heights, 60, limit);
-      EXPECT_NEAR(fitted_heights(heights, fitted).total(fitted.count), limit, 1e-12 * limit);
+    for (double limit = heights.total(3 * step + 2); limit < heights.total(50); limit *= 1.07) {
+      const FittedLayers fitted = fit_layers(heights, 60, limit, regular_last(heights, limit));
+      const Heights grown = fitted_heights(heights, fitted);
+      EXPECT_NEAR(grown.total(fitted.count), limit, 1e-12 * limit);
       EXPECT_EQ(fitted.count % step, 0) << growth;
       EXPECT_EQ(fitted.regular, fitted.count - step - 1);
-      EXPECT_GT(fitted.stretch, 0.5) << growth << ", " << limit;
-      EXPECT_LT(fitted.stretch, 2) << growth << ", " << limit;
+      EXPECT_GT(grown.last(fitted.count), 0.5 * regular_last(heights, limit)) << growth << ", " << limit;
     }
   }
 }
 
 TEST(ColumnHeightsLocal, StretchTheLastOfFewLayers) {
   const Heights heights{0.5, 1.25, 3};  // ends at 0.5, 1, 1.5, 2.125
-  EXPECT_EQ(fit_layers(heights, 4, 2), (FittedLayers{3, 2, 2})) << "steps of three, four to stretch";
-  EXPECT_EQ(fit_layers(heights, 2, 1), (FittedLayers{2, 1, 1}));
-  EXPECT_EQ(fit_layers(heights, 4, 0.7), FittedLayers{1}) << "the first layer keeps its height";
-  EXPECT_EQ(fit_layers(heights, 4, 0.4).count, 0);
-  const Heights steep{0.5, 2, 3};  // ends at 0.5, 1, 1.5, 2.5, 4.5
-  EXPECT_EQ(fit_layers(steep, 5, 4), (FittedLayers{5, 3, 2.5 / 3})) << "steps of one, two to stretch";
+  EXPECT_EQ(fit_layers(heights, 4, 2, 1), (FittedLayers{3, 2, 2})) << "steps of three, four to stretch";
+  EXPECT_EQ(fit_layers(heights, 2, 1, 1), (FittedLayers{2, 1, 1}));
+  EXPECT_EQ(fit_layers(heights, 4, 0.7, 1), FittedLayers{1}) << "the first layer keeps its height";
+  EXPECT_EQ(fit_layers(heights, 4, 0.4, 1).count, 0);
 }
 
 TEST(ColumnHeightsLocal, EndWherePatchesAsk) {

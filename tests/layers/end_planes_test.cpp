@@ -201,7 +201,7 @@ TEST(EndPlanes, EmptyColumnsAtLastWhereTheyBearNoTrace) {
   const mesh::DistributedMesh mesh = distribute(world, box_with_planes());
   const PlaneRemesher refuse = refuse_moves(mesh, [](Vec3 from, Vec3 to) { return !(to == from); });
   LayerOptions options = layers_on_floor();
-  options.patches[0].growth = 1.01;
+  options.patches[0].growth = 1.005;
   const Layers layers = build(mesh, options, refuse);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v)
