@@ -28,8 +28,8 @@ from printed_table import PrintedTable, add_page_option  # pylint: disable=wrong
 GEOMETRY = ROOT.parent / "shared" / "geometry"
 FASTEST, FALL, AGREEMENT, CLIPPED = 4.0, 100.0, 0.03, 0.01
 LAST = 50
-#: Iterations before speeds count: 50 of first order, as many in which the change of order settles.
-SETTLED = 100
+#: Iterations before speeds count: 50 of first order, and as many after the change to second.
+UNCOUNTED = 100
 SPHERE = "SetFactory(\"OpenCASCADE\");\nSphere(1) = {0, 0, 0, 1};\n"
 #: A macro of gmsh: the section at x, y, z of chord c, 12 % thick, with a trailing edge of twice `edge` chords.
 SECTION = """SetFactory("OpenCASCADE");
@@ -201,7 +201,7 @@ def judge(options, case, written):
     steps = log.split("\nTime = ")[1:]
     forces = written_case.coefficients(written)
     drag, lift = forces.get("Cd", []), forces.get("Cl", [])
-    fall, speed, low = fall_of(read_residuals(steps)), max(written_case.speeds(written, SETTLED), default=math.nan), clipped(steps)
+    fall, speed, low = fall_of(read_residuals(steps)), max(written_case.speeds(written, UNCOUNTED), default=math.nan), clipped(steps)
     drifts = [drift(drag)] + ([drift(lift)] if lift and drag and abs(lift[-1]) > abs(drag[-1]) else [])
     good = len(steps) == options.iterations and fall >= FALL and speed < FASTEST and low > -CLIPPED
     if case.streamlined:
