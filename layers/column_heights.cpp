@@ -45,7 +45,8 @@ double steepest_end(double growth) {
   return std::max(1.5, 1.25 * growth);
 }
 
-/// The ratio x by which the sum of layers[i] x^(i+1) is `height`; between `low` and `high`.
+/// The ratio x between `low` and `high` by which the sum of layers[i] x^(i+1) is `height`. By Newton's
+/// method.
 double stretch_to(std::span<const double> layers, double height, double low, double high) {
   constexpr int most_steps = 60;
   double x = std::clamp(1.0, low, high);
@@ -56,11 +57,10 @@ double stretch_to(std::span<const double> layers, double height, double low, dou
       power *= x;
       sum += layers[i] * power;
     }
+    const double newton = x - (sum - height) / slope;
+    if (std::abs(newton - x) <= 1e-15 * x) break;
     (sum < height ? low : high) = x;
-    const double newton = x - (sum - height) / slope,
-                 next = newton > low && newton < high ? newton : 0.5 * (low + high);
-    if (std::abs(next - x) <= 1e-15 * x) break;
-    x = next;
+    x = newton > low && newton < high ? newton : 0.5 * (low + high);
   }
   return x;
 }

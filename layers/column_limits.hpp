@@ -12,8 +12,8 @@
 namespace aeroloom::layers {
 
 /// The columns on the vertices of a wall. All pieces with a vertex have equal values for it. Limits and
-/// counts only fall. A column below its limit loses its last layers, and those that are then the last are
-/// stretched up to it.
+/// counts only fall. A column above its limit loses its last layers, and those that are then the last
+/// grow up to it (fit_layers).
 class ColumnLimits {
 public:
   /// Starts with the columns that the patches ask for. Keeps a reference to the wall. Collective.

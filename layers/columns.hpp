@@ -43,7 +43,7 @@ struct LayerOptions {
 struct PieceColumns {
   std::vector<geometry::Vec3> directions;       ///< unit, into the fluid; zero: no column
   std::vector<std::int32_t> counts;             ///< numbers of layers; 0: empty column
-  std::vector<std::int32_t> constant, regular;  ///< layers of the first height; layers below stretched ones
+  std::vector<std::int32_t> constant, regular;  ///< as Heights has them
   std::vector<double> first, growth, stretch;
 };
 
