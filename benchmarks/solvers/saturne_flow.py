@@ -17,6 +17,7 @@ import re
 import subprocess
 import sys
 
+import saturne_mesh
 import written_case
 from potential_flow import ROOT, run
 
@@ -70,12 +71,7 @@ def coefficients(folder, written):
 
 
 def solve(folder, options):
-    mesh = options.mesh.resolve()
-    if mesh.suffix != ".cgns":
-        run([options.program.resolve(), "convert", mesh, folder / "mesh.cgns"], folder, "log.convert")
-        mesh = folder / "mesh.cgns"
-    run([options.tools / "cs_preprocess", "--grp-fac", "section", "--log", "preprocessor.log", "-o", "mesh_input", mesh], folder,
-        "log.preprocess")
+    saturne_mesh.preprocess(options, folder)
     write_flow(folder, options.written, options.iterations)
     source = pathlib.Path(__file__).resolve().with_suffix(".c")
     run(["mpicc", "-DHAVE_CONFIG_H", "-O2", "-shared", "-fPIC", f"-I{options.include}", f"-I{options.include / 'code_saturne'}", "-I.", source,
@@ -92,8 +88,7 @@ def main():
     parser.add_argument("written", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--iterations", type=int, default=300)
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/aeroloom")
-    parser.add_argument("--tools", type=pathlib.Path, default=pathlib.Path("/usr/lib/code_saturne"))
+    saturne_mesh.add_options(parser)
     parser.add_argument("--include", type=pathlib.Path, default=pathlib.Path("/usr/include"))
     add_page_option(parser)
     options = parser.parse_args()

@@ -11,6 +11,7 @@ import pathlib
 import re
 import sys
 
+import saturne_mesh
 from potential_flow import ROOT, run
 
 sys.path.append(str(ROOT / "benchmarks"))
@@ -27,18 +28,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("mesh", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/aeroloom")
-    parser.add_argument("--tools", type=pathlib.Path, default=pathlib.Path("/usr/lib/code_saturne"))
+    saturne_mesh.add_options(parser)
     add_page_option(parser)
     options = parser.parse_args()
     folder = options.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    mesh = options.mesh.resolve()
-    if mesh.suffix != ".cgns":
-        run([options.program.resolve(), "convert", mesh, folder / "mesh.cgns"], folder, "log.convert")
-        mesh = folder / "mesh.cgns"
-    run([options.tools / "cs_preprocess", "--grp-fac", "section", "--log", "preprocessor.log", "-o", "mesh_input", mesh], folder,
-        "log.preprocess")
+    saturne_mesh.preprocess(options, folder)
     run([options.tools / "cs_solver", "--quality"], folder, "log.quality")
     log = (folder / "run_solver.log").read_text(errors="replace")
     cells = int(re.search(r"Number of cells: +(\d+)", log).group(1))
