@@ -77,9 +77,10 @@ inline constexpr std::int32_t longest_step = 8;
 
 /// At most `count` layers that are together as high as `limit`, the last about as high as `last`. The last
 /// ones, one more than layers_in_a_step, grow by 1 to 1.5 (1.25 times the growth where that is more) from one
-/// to the next, so that the number of layers is a multiple of that step or `count`: neighbours with about the
-/// same limit have as many. Of fewer layers only the last is stretched. A first layer never is, and is left
-/// out where it is higher than the limit. `heights` without stretch.
+/// to the next (less among layers of constant height), so that the number of layers is a multiple of that
+/// step or `count`: neighbours with about the same limit have as many. Of fewer layers only the last is
+/// stretched. A first layer never is, and is left out where it is higher than the limit. `heights` without
+/// stretch.
 FittedLayers fit_layers(const Heights& heights, std::int32_t count, double limit, double last);
 
 /// The layers that `wanted` asks for, at least one: those that are together as high as a column whose last

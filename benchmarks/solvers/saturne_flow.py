@@ -14,6 +14,7 @@ import math
 import os
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 
@@ -92,6 +93,8 @@ def main():
     parser.add_argument("--include", type=pathlib.Path, default=pathlib.Path("/usr/include"))
     add_page_option(parser)
     options = parser.parse_args()
+    if options.iterations < 2 * LAST:
+        parser.error(f"--iterations: at least {2 * LAST}, for two means")
     folder = options.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     done = folder / "forces.csv"
@@ -103,11 +106,11 @@ def main():
     means = {}
     for name, lift, drag, fastest in (("Code_Saturne", lifts, drags, speeds),
                                       ("OpenFOAM", other["Cl"], other["Cd"], written_case.speeds(options.written))):
-        means[name] = sum(lift[-LAST:]) / LAST
-        table.add(name, len(lift), f"{means[name]:.5g}", f"{sum(drag[-LAST:]) / LAST:.5g}", f"{fastest[-1]:.2f}")
+        means[name] = statistics.fmean(lift[-LAST:])
+        table.add(name, len(lift), f"{means[name]:.5g}", f"{statistics.fmean(drag[-LAST:]):.5g}", f"{fastest[-1]:.2f}")
     table.save(options.page)
     off = means["Code_Saturne"] / means["OpenFOAM"] - 1
-    before = sum(lifts[-2 * LAST:-LAST]) / LAST
+    before = statistics.fmean(lifts[-2 * LAST:-LAST])
     steady = abs(means["Code_Saturne"] - before) <= SHARE * abs(means["Code_Saturne"])
     ok = len(lifts) == options.iterations and abs(off) <= SHARE and steady
     print(f"RESULT iterations={len(lifts)} lift={means['Code_Saturne']:.5g} lift_off={off:+.4f} steady={int(steady)} ok={int(ok)}")
