@@ -1,4 +1,4 @@
-/// A mesh of tetrahedra, pyramids and prisms through all that a mesh goes through: mpirun -n N
+/// A mesh of cells of all shapes through all that a mesh goes through: mpirun -n N
 /// mixed_benchmark [SQUARES [FOLDER]] assembles the hand-made mesh of tests/meshes/mixed_mesh.hpp with so
 /// many squares along each side (353: a million cells), and prints one RESULT line with the seconds of each
 /// step and the hash, the same on any number of ranks. Every check must then find out a mesh that is broken

@@ -79,7 +79,7 @@ void require_sound(const RawMesh& raw) {
 
 /// Counts before the cells of this rank, and totals.
 struct CellPlaces {
-  std::array<GlobalIndex, cell_shape_count> first{};  ///< among all cells: tetrahedra, pyramids, prisms
+  std::array<GlobalIndex, cell_shape_count> first{};  ///< among all cells, which come by shape
   GlobalIndex total = 0;
 };
 
@@ -127,6 +127,7 @@ void reverse_orientation(std::array<LocalIndex, N>& c) {
   if constexpr (N == 4) std::swap(c[0], c[1]);
   if constexpr (N == 5) std::swap(c[1], c[3]);
   if constexpr (N == 6) std::swap(c[1], c[2]), std::swap(c[4], c[5]);
+  if constexpr (N == 8) std::swap(c[1], c[3]), std::swap(c[5], c[7]);
 }
 
 /// Builds the mesh of this rank with numbers in place of ids.
@@ -137,7 +138,7 @@ public:
 
   void add_cells(const CellPlaces& places, std::int32_t parts, LocalMesh& local, PieceItems& items) {
     mesh::for_each_cell_shape([&](auto s) {
-      constexpr std::size_t n = s + 4;
+      constexpr auto n = static_cast<std::size_t>(corners_of(cell_shapes[s]));
       const std::vector<GlobalIndex>& ids = _raw.cells[s];
       auto& out = std::get<s>(items.cells);
       out.reserve(ids.size() / n);
@@ -268,7 +269,7 @@ Assembled assemble(RawMesh raw, std::int32_t parts) {
   agree_on(raw.file, [&] { require_sound(raw); });
   bound_names(raw);
   const CellPlaces places = place_cells(raw);
-  if (places.total == 0) refuse(raw.file, "there are no tetrahedra, pyramids or prisms in it");
+  if (places.total == 0) refuse(raw.file, "there are no tetrahedra, pyramids, prisms or hexahedra in it");
   if (parts <= 0) parts = suitable_parts(places.total);
   Assembled result;
   PointTable store = store_points(raw);

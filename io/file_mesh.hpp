@@ -75,7 +75,11 @@ struct MeshPart {
   const mesh::Piece* piece = nullptr;  ///< the piece; null for a part that another rank has sent
 
   mesh::LocalIndex vertex_count() const { return static_cast<mesh::LocalIndex>(numbers.size()); }
-  mesh::LocalIndex cell_count() const { return cells[0].count() + cells[1].count() + cells[2].count(); }
+  mesh::LocalIndex cell_count() const {
+    mesh::LocalIndex count = 0;
+    for (const Block& block : cells) count += block.count();
+    return count;
+  }
   mesh::LocalIndex face_count() const { return faces[0].count() + faces[1].count(); }
   geometry::Vec3 point(mesh::LocalIndex v) const {
     const double* p = coordinates.data() + 3 * static_cast<std::size_t>(v);

@@ -39,8 +39,8 @@ struct Assembled {
   mesh::GlobalIndex unnamed_faces = 0;   ///< without a patch in the file
   mesh::GlobalIndex left_out_faces = 0;  ///< of no cell, or given twice
 };
-/// Assembles a mesh of `parts` pieces (0: a suitable number) in the order of the file. Tetrahedra come first,
-/// then pyramids, then prisms. Each part gets an equal range of the cells, and owns an equal range of the
+/// Assembles a mesh of `parts` pieces (0: a suitable number) in the order of the file. Cells come by
+/// shape, in CellShape's order. Each part gets an equal range of the cells, and owns an equal range of the
 /// vertices; repartition() makes compact parts. Mirrored cells are reversed, faces directed out of the fluid,
 /// and points without a cell dropped. Vertices are numbered by id. Faces that are missing in the file get
 /// patches `boundary_of_REGION` or `REGION_to_REGION`. The result does not depend on the number of ranks.

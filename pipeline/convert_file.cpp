@@ -31,10 +31,12 @@ void convert_file(const parallel::Communicator& communicator, const Conversion& 
   const io::FileMesh& mesh = file.mesh;
   if (communicator.is_root()) {
     parallel::log_info(fmt::format(
-        "read {} points, {} tetrahedra, {} pyramids, {} prisms, {} region(s), {} patch(es) in {:.2f} s; {}",
+        "read {} points, {} tetrahedra, {} pyramids, {} prisms, {} hexahedra, {} region(s), {} patch(es) in "
+        "{:.2f} s; {}",
         mesh.vertex_count, mesh.cell_count(io::CellShape::tetrahedron),
-        mesh.cell_count(io::CellShape::pyramid), mesh.cell_count(io::CellShape::prism), mesh.regions.size(),
-        mesh.patches.size(), parallel::wall_seconds() - begin, io::describe(file)));
+        mesh.cell_count(io::CellShape::pyramid), mesh.cell_count(io::CellShape::prism),
+        mesh.cell_count(io::CellShape::hexahedron), mesh.regions.size(), mesh.patches.size(),
+        parallel::wall_seconds() - begin, io::describe(file)));
   }
   const double read = parallel::wall_seconds();
   io::WriteOptions options = conversion.options;

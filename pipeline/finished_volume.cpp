@@ -37,7 +37,7 @@ std::vector<report::RegionRow> table_of_regions(const mesh::DistributedMesh& vol
 bool has_layers(const mesh::DistributedMesh& volume, const mesh::MeshCounts& counts) {
   const bool here = std::any_of(volume.pieces.begin(), volume.pieces.end(),
                                 [](const mesh::Piece& piece) { return !piece.layers.empty(); });
-  return volume.communicator.maximum(std::int64_t{here}) > 0 || counts.prisms + counts.pyramids > 0;
+  return volume.communicator.maximum(std::int64_t{here}) > 0 || counts.has_other_shapes();
 }
 
 /// Measures that compare neighbours and edges, and what solvers make of faces. Collective.

@@ -5,6 +5,7 @@
 #include "pipeline/report/change_json.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -85,6 +86,11 @@ Json doubled_nodes_json(const io::DoubledNodes& doubled) {
           {"patches", doubled.patches}};
 }
 
+mesh::GlobalIndex cells_of_region(const io::FileMesh& mesh, std::size_t region) {
+  const auto& cells = mesh.region_cells[region];
+  return std::accumulate(cells.begin(), cells.end(), mesh::GlobalIndex{0});
+}
+
 Json info_json(const io::Assembled& file, const MeshFileFacts& facts) {
   const io::FileMesh& mesh = file.mesh;
   Json json = {{"kind", "mesh"},
@@ -95,11 +101,11 @@ Json info_json(const io::Assembled& file, const MeshFileFacts& facts) {
                {"tetrahedra", mesh.cell_count(io::CellShape::tetrahedron)},
                {"pyramids", mesh.cell_count(io::CellShape::pyramid)},
                {"prisms", mesh.cell_count(io::CellShape::prism)},
+               {"hexahedra", mesh.cell_count(io::CellShape::hexahedron)},
                {"bounds", report::to_json(facts.bounds)}};
   json["regions"] = Json::array();
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-    const auto& cells = mesh.region_cells[r];
-    json["regions"].push_back({{"name", mesh.regions[r]}, {"cells", cells[0] + cells[1] + cells[2]}});
+    json["regions"].push_back({{"name", mesh.regions[r]}, {"cells", cells_of_region(mesh, r)}});
   }
   json["patches"] = Json::array();
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
@@ -120,13 +126,12 @@ std::string info_text(const io::Assembled& file, const MeshFileFacts& facts) {
   const io::FileMesh& mesh = file.mesh;
   std::string text = fmt::format("a mesh, {}{}\n", facts.format,
                                  facts.parts > 0 ? fmt::format(", {} part(s)", facts.parts) : "");
-  text += fmt::format("points {}, tetrahedra {}, pyramids {}, prisms {}\n", mesh.vertex_count,
+  text += fmt::format("points {}, tetrahedra {}, pyramids {}, prisms {}, hexahedra {}\n", mesh.vertex_count,
                       mesh.cell_count(io::CellShape::tetrahedron), mesh.cell_count(io::CellShape::pyramid),
-                      mesh.cell_count(io::CellShape::prism));
+                      mesh.cell_count(io::CellShape::prism), mesh.cell_count(io::CellShape::hexahedron));
   text += "box " + box_text(facts.bounds) + "\n";
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
-    const auto& cells = mesh.region_cells[r];
-    text += fmt::format("region {:<30} {:>12} cells\n", mesh.regions[r], cells[0] + cells[1] + cells[2]);
+    text += fmt::format("region {:<30} {:>12} cells\n", mesh.regions[r], cells_of_region(mesh, r));
   }
   for (std::size_t p = 0; p < mesh.patches.size(); ++p) {
     const auto& faces = mesh.patch_faces[p];

@@ -27,6 +27,7 @@ Json mesh_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
           {"tetrahedra", mesh.cell_count(mesh::CellShape::tetrahedron)},
           {"pyramids", mesh.cell_count(mesh::CellShape::pyramid)},
           {"prisms", mesh.cell_count(mesh::CellShape::prism)},
+          {"hexahedra", mesh.cell_count(mesh::CellShape::hexahedron)},
           {"boundary_triangles", mesh.boundary_count(mesh::FaceShape::triangle)},
           {"boundary_quadrilaterals", mesh.boundary_count(mesh::FaceShape::quadrilateral)},
           {"volume", quality.volume}};
@@ -39,7 +40,8 @@ Json regions_json(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
                     {"volume", quality.region_volumes[r]},
                     {"tetrahedra", mesh.region_cells[r][0]},
                     {"pyramids", mesh.region_cells[r][1]},
-                    {"prisms", mesh.region_cells[r][2]}});
+                    {"prisms", mesh.region_cells[r][2]},
+                    {"hexahedra", mesh.region_cells[r][3]}});
   }
   return json;
 }

@@ -14,6 +14,7 @@ using hdf5::ItemType;
 namespace {
 
 struct ShapeName {
+  int corners;
   std::int32_t type;
   const char* ending;
 };
@@ -22,16 +23,11 @@ template <std::size_t N>
 struct SectionKind {
   const char* stand_in;  ///< for names that are not fit
   bool is_taken;         ///< names are among the nodes' already
-  int fewest_corners;    ///< of the first shape; one more of each that follows
   std::array<ShapeName, N> shapes;
 };
 const SectionKind<cell_shape_count> region_sections = {
-    "Region",
-    false,
-    corners_of(CellShape::tetrahedron),
-    {{{10, "_TETRA_4"}, {12, "_PYRA_5"}, {14, "_PENTA_6"}}}};
-const SectionKind<face_shape_count> patch_sections = {
-    "Patch", true, corners_of(FaceShape::triangle), {{{5, "_TRI_3"}, {7, "_QUAD_4"}}}};
+    "Region", false, {{{4, 10, "_TETRA_4"}, {5, 12, "_PYRA_5"}, {6, 14, "_PENTA_6"}, {8, 17, "_HEXA_8"}}}};
+const SectionKind<face_shape_count> patch_sections = {"Patch", true, {{{3, 5, "_TRI_3"}, {4, 7, "_QUAD_4"}}}};
 
 /// Of mass, length, time, temperature and angle.
 constexpr std::array<float, 5> exponents_of_length = {0, 1, 0, 0, 0};
@@ -71,7 +67,7 @@ std::array<std::int32_t, N> add_sections(Plan& plan, NodeNames& names, const Sec
     section.name = single && kind.is_taken ? name : names.take(name, kind.stand_in, ending);
     if (!kind.is_taken && section.name != name + ending) section.full_name = name;
     section.type = kind.shapes[s].type;
-    section.corners = kind.fewest_corners + static_cast<int>(s);
+    section.corners = kind.shapes[s].corners;
     section.first = plan.sections.empty() ? 1 : plan.sections.back().first + plan.sections.back().count;
     section.count = counts[s];
     places[s] = static_cast<std::int32_t>(plan.sections.size());

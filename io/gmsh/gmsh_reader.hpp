@@ -13,7 +13,7 @@ namespace aeroloom::io {
 /// The path is that of a file. For a partitioned mesh it is the first file STEM_1.msh, or the pattern
 /// STEM_*.msh. Then all files STEM_1.msh ... STEM_N.msh are read, each by one rank. Of a single binary file
 /// every rank reads a range; rank 0 reads an ASCII file. Collective. Throws CollectiveError with the file and
-/// the place: (input) for damage, elements of higher order, hexahedra and other versions of the format;
+/// the place: (input) for damage, elements of higher order and other versions of the format;
 /// (files) where a file cannot be opened.
 RawMesh read_msh(const SharedPath& file);
 

@@ -10,7 +10,7 @@
 namespace aeroloom::io {
 
 /// Gmsh's numbers of the shapes (column `type` of $Elements).
-inline constexpr std::array<std::int32_t, cell_shape_count> msh_cell_type = {4, 7, 6};
+inline constexpr std::array<std::int32_t, cell_shape_count> msh_cell_type = {4, 7, 6, 5};
 inline constexpr std::array<std::int32_t, face_shape_count> msh_face_type = {2, 3};
 
 /// The elements of one shape in one entity.

@@ -47,11 +47,11 @@ std::int32_t corners_of_type(const MshScanner& scanner, std::int32_t type) {
     case 6:
       return 6;
     case 5:
-      scanner.fail("hexahedra are not read: cells are tetrahedra, pyramids and prisms");
+      return 8;
     default:
       scanner.fail(fmt::format(
-          "elements of type {} are not read: cells are tetrahedra, pyramids and prisms of first order "
-          "(gmsh -order 1)",
+          "elements of type {} are not read: cells are tetrahedra, pyramids, prisms and hexahedra of first "
+          "order (gmsh -order 1)",
           type));
   }
 }

@@ -56,10 +56,10 @@ mesh::DistributedMesh pieces_of(const io::FileMesh& mesh, const std::string& pat
   if (others > 0) {
     throw parallel::CollectiveError(
         parallel::FailureKind::input,
-        fmt::format(
-            "'{}' has {} pyramids and prisms beside {} tetrahedra. Remedy: give a mesh of tetrahedra alone; "
-            "`aeroloom convert` and `aeroloom quality` take the others too",
-            path, others, tets));
+        fmt::format("'{}' has {} pyramids, prisms and hexahedra beside {} tetrahedra. Remedy: give a mesh of "
+                    "tetrahedra alone; "
+                    "`aeroloom convert` and `aeroloom quality` take the others too",
+                    path, others, tets));
   }
   const std::int64_t size = piece_tets.value_or(partition::suitable_piece_tets(static_cast<double>(tets)));
   const bool one = 2 * tets <= 3 * size;

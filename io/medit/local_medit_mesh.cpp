@@ -7,10 +7,8 @@ namespace aeroloom::io {
 
 namespace {
 
-/// Cells of volume that are neither tetrahedra nor pyramids nor prisms of straight edges. Curved faces
-/// are left out like edges.
-constexpr std::array<std::pair<std::int32_t, const char*>, 14> unreadable = {{{10, "Hexahedra"},
-                                                                              {30, "TetrahedraP2"},
+/// Cells of volume of other shapes, or curved. Curved faces are left out like edges.
+constexpr std::array<std::pair<std::int32_t, const char*>, 13> unreadable = {{{30, "TetrahedraP2"},
                                                                               {33, "HexahedraQ2"},
                                                                               {46, "Polyhedra"},
                                                                               {86, "PrismsP2"},
@@ -55,8 +53,8 @@ std::string medit_unreadable(std::int32_t keyword) {
 }
 
 bool medit_unreadable(const std::string& keyword) {
-  return keyword == "Hexaedra" || std::any_of(unreadable.begin(), unreadable.end(),
-                                              [&](const auto& entry) { return keyword == entry.second; });
+  return std::any_of(unreadable.begin(), unreadable.end(),
+                     [&](const auto& entry) { return keyword == entry.second; });
 }
 
 }  // namespace aeroloom::io

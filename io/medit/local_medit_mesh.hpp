@@ -31,7 +31,7 @@ struct LocalMeditMesh {
 
 /// The number of corners of cells or faces with this keyword; 0 for other sections.
 int medit_corners(std::int32_t keyword);
-/// The name of a section with cells that cannot be read: hexahedra, polyhedra, curved cells; else empty.
+/// The name of a section with cells that cannot be read: polyhedra, curved cells; else empty.
 std::string medit_unreadable(std::int32_t keyword);
 /// Whether a text file calls such a section `keyword`.
 bool medit_unreadable(const std::string& keyword);

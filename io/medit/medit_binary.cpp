@@ -131,8 +131,8 @@ private:
     const std::int64_t count = integer(count_at, widths.integer()), lines = count_at + widths.integer();
     if (!unreadable.empty()) {
       if (count == 0) return after(at, lines, next);
-      _file.fail(at, fmt::format("there are {} {}; only tetrahedra, pyramids and prisms with straight edges "
-                                 "can be read",
+      _file.fail(at, fmt::format("there are {} {}; only tetrahedra, pyramids, prisms and hexahedra with "
+                                 "straight edges can be read",
                                  count, unreadable));
     }
     if (count < 0 || count > (_file.size() - lines) / bytes) {

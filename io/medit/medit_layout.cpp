@@ -70,13 +70,14 @@ void add_section(MeditLayout& layout, MeditKeyword keyword, int corners, GlobalI
 }  // namespace
 
 std::string_view name_of(MeditKeyword keyword) {
-  constexpr std::array<std::pair<MeditKeyword, std::string_view>, 8> names = {
+  constexpr std::array<std::pair<MeditKeyword, std::string_view>, 9> names = {
       {{MeditKeyword::dimension, "Dimension"},
        {MeditKeyword::vertices, "Vertices"},
        {MeditKeyword::triangles, "Triangles"},
        {MeditKeyword::quadrilaterals, "Quadrilaterals"},
        {MeditKeyword::tetrahedra, "Tetrahedra"},
        {MeditKeyword::prisms, "Prisms"},
+       {MeditKeyword::hexahedra, "Hexahedra"},
        {MeditKeyword::pyramids, "Pyramids"},
        {MeditKeyword::end, "End"}}};
   for (const auto& [of_name, name] : names)

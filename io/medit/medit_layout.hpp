@@ -19,11 +19,12 @@ enum class MeditKeyword : std::int32_t {
   quadrilaterals = 7,
   tetrahedra = 8,
   prisms = 9,
+  hexahedra = 10,
   end = 54,
   pyramids = 49,
 };
 inline constexpr std::array<MeditKeyword, cell_shape_count> medit_cells = {
-    MeditKeyword::tetrahedra, MeditKeyword::pyramids, MeditKeyword::prisms};
+    MeditKeyword::tetrahedra, MeditKeyword::pyramids, MeditKeyword::prisms, MeditKeyword::hexahedra};
 inline constexpr std::array<MeditKeyword, face_shape_count> medit_faces = {MeditKeyword::triangles,
                                                                            MeditKeyword::quadrilaterals};
 /// The spelling of a keyword in text files.

@@ -16,7 +16,8 @@ namespace aeroloom::io {
 
 namespace {
 
-constexpr std::array<std::string_view, cell_shape_count> cell_words = {"tetrahedra", "pyramids", "prisms"};
+constexpr std::array<std::string_view, cell_shape_count> cell_words = {"tetrahedra", "pyramids", "prisms",
+                                                                       "hexahedra"};
 constexpr std::array<std::string_view, face_shape_count> face_words = {"triangles", "quadrilaterals"};
 
 bool is_control(char c) {
@@ -94,7 +95,8 @@ std::string parse_line(std::string_view line, MeditNames& names) {
   const std::string_view word = take_word(line);
   const bool of_cells = is_among(word, cell_words);
   if (!of_cells && !is_among(word, face_words))
-    return fmt::format("'{}' is none of tetrahedra, pyramids, prisms, triangles, quadrilaterals", word);
+    return fmt::format("'{}' is none of tetrahedra, pyramids, prisms, hexahedra, triangles, quadrilaterals",
+                       word);
   const std::string_view number = take_word(line);
   std::int64_t reference = 0;
   if (!parse_number(number, reference)) return fmt::format("'{}' is no reference", number);

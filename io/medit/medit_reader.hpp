@@ -11,7 +11,7 @@ namespace aeroloom::io {
 /// (io/medit/medit_names.hpp) names them if it has all references in use; otherwise it is ignored with a
 /// warning. Without names they are `region_REF`, and `patch_REF`, a wall. Edges, ridges, corners, geometry
 /// and solutions are left out. Collective. Throws CollectiveError: (files) where the file cannot be read;
-/// (input) with the place for a wrong format, two dimensions, damage, repeated sections, hexahedra, curved
+/// (input) with the place for a wrong format, two dimensions, damage, repeated sections, polyhedra, curved
 /// cells, and more than 65,536 references.
 RawMesh read_medit(const SharedPath& file);
 

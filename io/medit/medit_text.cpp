@@ -128,9 +128,10 @@ private:
     } else if (medit_unreadable(keyword)) {
       const std::int64_t count = _words.integer("a count");
       if (count != 0) {
-        _words.refuse(fmt::format(
-            "there are {} {}; only tetrahedra, pyramids and prisms with straight edges can be read", count,
-            keyword));
+        _words.refuse(
+            fmt::format("there are {} {}; only tetrahedra, pyramids, prisms and hexahedra with straight "
+                        "edges can be read",
+                        count, keyword));
       }
       _following = _words.next();
     } else if (!read_items(keyword)) {
@@ -164,8 +165,8 @@ private:
   bool read_items(const std::string& keyword) {
     for (const MeditKeyword known :
          {MeditKeyword::triangles, MeditKeyword::quadrilaterals, MeditKeyword::tetrahedra,
-          MeditKeyword::pyramids, MeditKeyword::prisms}) {
-      if (keyword != name_of(known)) continue;
+          MeditKeyword::pyramids, MeditKeyword::prisms, MeditKeyword::hexahedra}) {
+      if (keyword != name_of(known) && !(known == MeditKeyword::hexahedra && keyword == "Hexaedra")) continue;
       MeditItems& items = *_local.items(static_cast<std::int32_t>(known));
       if (!items.references.empty()) _words.refuse(keyword + " come twice");
       read_items(keyword, medit_corners(static_cast<std::int32_t>(known)), items);

@@ -263,9 +263,9 @@ private:
 FoamFormat format_of(const FileMesh& mesh, const FoamPlan& plan, const OpenFoamOptions& options) {
   GlobalIndex corners = 0;
   for (const MeshPart& part : mesh.parts) {
-    corners = std::max<GlobalIndex>(corners, 12 * GlobalIndex{part.cells[0].count()} +
-                                                 16 * GlobalIndex{part.cells[1].count()} +
-                                                 18 * GlobalIndex{part.cells[2].count()});
+    corners = std::max<GlobalIndex>(
+        corners, 12 * GlobalIndex{part.cells[0].count()} + 16 * GlobalIndex{part.cells[1].count()} +
+                     18 * GlobalIndex{part.cells[2].count()} + 24 * GlobalIndex{part.cells[3].count()});
   }
   corners = mesh.communicator().maximum(corners);
   FoamFormat format;

@@ -53,7 +53,6 @@ void append_su2_element(RawMesh& raw, const Su2Element& element, const Points& p
 
 /// The text of a message about a type that is not supported.
 inline std::string su2_type_text(std::int64_t type) {
-  if (type == 12) return "hexahedra (type 12) are not supported";
   return "elements of type " + std::to_string(type) + " are not supported";
 }
 

@@ -123,7 +123,7 @@ private:
       if (!parse_number(words.next(), type)) _lines.fail("an element begins with its type, a number");
       const std::optional<Su2Element> element = su2_element_of(type);
       if (!element) _lines.fail(su2_type_text(type));
-      std::array<GlobalIndex, 6> points{};
+      std::array<GlobalIndex, mesh::most_corners> points{};
       for (int k = 0; k < element->corners; ++k) points[static_cast<std::size_t>(k)] = point(words);
       if (element->cell && patch >= 0) _lines.fail("a marker has faces, no cells");
       append_su2_element(_raw, *element, points, patch);

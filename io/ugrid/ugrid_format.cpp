@@ -43,7 +43,7 @@ std::string mapbc_path_of(const std::string& path) {
 
 std::array<mesh::GlobalIndex, 7> in_ugrid_order(const ShapeCounts& counts) {
   const auto& [points, faces, cells] = counts;
-  return {points, faces[0], faces[1], cells[0], cells[1], cells[2], 0};
+  return {points, faces[0], faces[1], cells[0], cells[1], cells[2], cells[3]};
 }
 
 UgridLayout ugrid_layout(const ShapeCounts& counts, int integer_bytes) {

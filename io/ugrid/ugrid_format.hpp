@@ -29,7 +29,7 @@ UgridKind ugrid_kind_of(const std::string& path);
 std::string mapbc_path_of(const std::string& path);
 
 /// The counts at the beginning of a file: points, triangles, quadrilaterals, tetrahedra, pyramids, prisms and
-/// (none) hexahedra.
+/// hexahedra.
 std::array<mesh::GlobalIndex, 7> in_ugrid_order(const ShapeCounts& counts);
 
 /// The offsets of the sections in bytes.
@@ -37,7 +37,7 @@ struct UgridLayout {
   std::int64_t points = 0;
   std::array<std::int64_t, face_shape_count> faces{}, patch_ids{};
   std::array<std::int64_t, cell_shape_count> cells{};
-  std::int64_t end = 0;  ///< of the prisms
+  std::int64_t end = 0;  ///< of the cells
 };
 /// All sections together must be smaller than 2^63 bytes.
 UgridLayout ugrid_layout(const ShapeCounts& counts, int integer_bytes);
@@ -47,9 +47,12 @@ void require_ugrid_fits(const ShapeCounts& counts, const UgridKind& kind, const 
 
 /// Corner k of a cell in UGRID's order is corner to_ugrid[shape][k] of CellShape. UG_IO has the apex of a
 /// pyramid third: the base is 1, 4, 5, 2, counter-clockwise seen from the apex 3. The faces of cells in
-/// refine (ref_cell.c) agree. Tetrahedra and prisms have the same order in both.
-inline constexpr std::array<std::array<std::int8_t, 6>, cell_shape_count> to_ugrid = {
-    {{0, 1, 2, 3, -1, -1}, {1, 0, 4, 2, 3, -1}, {0, 1, 2, 3, 4, 5}}};
+/// refine (ref_cell.c) agree. The other shapes have the same order in both.
+inline constexpr std::array<std::array<std::int8_t, mesh::most_corners>, cell_shape_count> to_ugrid = {
+    {{0, 1, 2, 3, -1, -1, -1, -1},
+     {1, 0, 4, 2, 3, -1, -1, -1},
+     {0, 1, 2, 3, 4, 5, -1, -1},
+     {0, 1, 2, 3, 4, 5, 6, 7}}};
 
 /// FUN3D's number of a boundary condition (its manual, `boundary conditions`): wall 4000, slip 3000, farfield
 /// 5000, inlet 7011, outlet 7012. A symmetry plane normal to x, y, z has 6661, 6662, 6663. Any other has

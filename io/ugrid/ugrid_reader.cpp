@@ -27,7 +27,8 @@ constexpr std::size_t most_patches = 1U << 20;
 constexpr std::int64_t chunk_items = 1 << 17;
 
 constexpr std::array<const char*, face_shape_count> face_names = {"triangle", "quadrilateral"};
-constexpr std::array<const char*, cell_shape_count> cell_names = {"tetrahedron", "pyramid", "prism"};
+constexpr std::array<const char*, cell_shape_count> cell_names = {"tetrahedron", "pyramid", "prism",
+                                                                  "hexahedron"};
 
 /// The ids of the patches of the faces on this rank, by shape.
 using PatchIds = std::array<std::vector<std::int64_t>, face_shape_count>;
@@ -76,10 +77,7 @@ private:
                                counts[i], names[i], _file.size()));
       left -= counts[i] * item_bytes[i];
     }
-    if (counts[6] > 0)
-      _file.fail(6 * width,
-                 fmt::format("{} hexahedra; only tetrahedra, pyramids and prisms are supported", counts[6]));
-    _counts = {counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5]}};
+    _counts = {counts[0], {counts[1], counts[2]}, {counts[3], counts[4], counts[5], counts[6]}};
     _layout = ugrid_layout(_counts, static_cast<int>(width));
     require_known_rest();
   }

@@ -9,7 +9,7 @@
 #include "io/raw_mesh.hpp"
 namespace aeroloom::io {
 
-/// Collective. Throws CollectiveError with the byte, or the line of the .mapbc: (input) for hexahedra, counts
+/// Collective. Throws CollectiveError with the byte, or the line of the .mapbc: (input) for counts
 /// that the file is too short for, points out of range, and coordinates that are no numbers; (files) where it
 /// cannot be read.
 RawMesh read_ugrid(const SharedPath& file);

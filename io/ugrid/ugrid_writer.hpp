@@ -1,7 +1,7 @@
 /// Writes UGRID files with their .mapbc, which FUN3D, refine, Flow360 and USM3D read.
 ///
 /// The path tells the kind (io/ugrid/ugrid_format.hpp): .lb8.ugrid, .b8.ugrid, or .lb8l.ugrid, .b8l.ugrid
-/// with 64-bit integers. Points come by number; tetrahedra, pyramids and prisms come by part. Triangles, then
+/// with 64-bit integers. Points come by number; cells come by part and shape. Triangles, then
 /// quadrilaterals, of all patches on the boundary come by patch id, and point into the fluid. Ids are 1 ... N
 /// in the order of the patches that have faces. NAME.mapbc lists id, FUN3D's number of the condition and
 /// name; blanks and `/ , ; * ' "` in names become `_`, and repeated names get `_2`, ... A symmetry plane is

@@ -40,6 +40,17 @@ double prism_ratio(std::span<const Vec3> p) {
   return smallest;
 }
 
+double hexahedron_ratio(std::span<const Vec3> p) {
+  double smallest = 1;
+  for (int i = 0; i < 8; ++i) {
+    const bool upper = i >= 4;
+    const int base = upper ? 4 : 0, next = base + (i + 1) % 4, last = base + (i + 3) % 4;
+    smallest = std::min(smallest, corner_shape(p[upper ? last : next] - p[i], p[upper ? next : last] - p[i],
+                                               p[(i + 4) % 8] - p[i]));
+  }
+  return smallest;
+}
+
 }  // namespace
 
 double mean_ratio(CellShape shape, std::span<const Vec3> corners) {
@@ -48,6 +59,8 @@ double mean_ratio(CellShape shape, std::span<const Vec3> corners) {
       return pyramid_ratio(corners);
     case CellShape::prism:
       return prism_ratio(corners);
+    case CellShape::hexahedron:
+      return hexahedron_ratio(corners);
     default:
       return mesh::mean_ratio(corners[0], corners[1], corners[2], corners[3]);
   }

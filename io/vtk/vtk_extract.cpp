@@ -85,9 +85,9 @@ Kind kind_of(int type, std::size_t corners, vtkIdType cell) {
       return {};
     default:
       throw std::runtime_error(
-          fmt::format("cell {} is of type {} ({}) with {} points; what can be read are tetrahedra, pyramids "
-                      "and prisms of "
-                      "4, 5 and 6 points, and triangles and quadrilaterals as their faces",
+          fmt::format("cell {} is of type {} ({}) with {} points; what can be read are tetrahedra, "
+                      "pyramids, prisms and hexahedra of 4, 5, 6 and 8 points, and triangles and "
+                      "quadrilaterals as their faces",
                       cell, type, vtkCellTypes::GetClassNameFromTypeId(type), corners));
   }
 }

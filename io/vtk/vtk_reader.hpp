@@ -7,9 +7,9 @@
 
 namespace aeroloom::io {
 
-/// Reads the tetrahedra, pyramids and prisms of a .vtu, .pvtu or (legacy) .vtk file in any encoding. The
-/// files of a .pvtu are distributed over ranks; one rank reads a single file. VTK reads in a child process,
-/// so that no file can crash the program (in a host program only with worker servers,
+/// Reads the tetrahedra, pyramids, prisms and hexahedra of a .vtu, .pvtu or (legacy) .vtk file in any
+/// encoding. The files of a .pvtu are distributed over ranks; one rank reads a single file. VTK reads in a
+/// child process, so that no file can crash the program (in a host program only with worker servers,
 /// parallel/sandbox/sandbox.hpp).
 ///
 /// Points with equal `global_id` are one point (or with equal ids in the array that the file marks as

@@ -45,7 +45,7 @@ void append_cell(const MeshPart& part, CellShape shape, const mesh::LocalIndex* 
                  const std::vector<PointIndex>& places, CellArrays& arrays) {
   const auto s = static_cast<std::size_t>(shape);
   const int count = corners_of(shape);
-  std::array<geometry::Vec3, 6> p;
+  std::array<geometry::Vec3, mesh::most_corners> p;
   for (int k = 0; k < count; ++k) {
     p[k] = part.point(corners[k]);
     arrays.cells.connectivity.push_back(places[corners[to_vtk[s][k]]]);

@@ -21,8 +21,6 @@ std::string name_of_cell_type(std::int64_t type) {
   switch (type) {
     case 11:
       return "a voxel";
-    case 12:
-      return "a hexahedron";
     case 42:
       return "a polyhedron";
     default:
@@ -177,8 +175,9 @@ private:
   void check_type(std::int64_t type, std::int64_t cell) const {
     const bool is_left_out = type >= 0 && type <= 4;  // nothing, points and lines
     if (is_left_out || cell_shape(type) || face_shape(type)) return;
-    fail(fmt::format("cell {} is {} (VTK's type {}); only tetrahedra, pyramids and prisms can be read", cell,
-                     name_of_cell_type(type), type));
+    fail(fmt::format(
+        "cell {} is {} (VTK's type {}); only tetrahedra, pyramids, prisms and hexahedra can be read", cell,
+        name_of_cell_type(type), type));
   }
 
   void read_cells(RawMesh& raw, LocalRange range) {

@@ -162,7 +162,7 @@ void check_orphans(const NumberedMesh& mesh, Findings& findings) {
   for (std::size_t i = 0; i < mesh.pieces.size(); ++i) {
     const Piece& piece = mesh.pieces[i];
     used.assign(piece.vertex_count(), 0);
-    for (const auto* cells : {&piece.cells, &piece.pyramids, &piece.prisms}) {
+    for (const auto* cells : {&piece.cells, &piece.pyramids, &piece.prisms, &piece.hexahedra}) {
       for (const LocalIndex v : *cells) used[v] = 1;
     }
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {

@@ -39,7 +39,7 @@ double judge_tetrahedron(const Piece& piece, LocalIndex c, Findings& findings) {
 /// Pyramids and prisms: by their bilinear volume, and exactly at each corner.
 double judge_other_cell(const Piece& piece, LocalIndex c, Findings& findings) {
   const CellOfPiece cell = cell_of(piece, c);
-  std::array<Vec3, 6> points;
+  std::array<Vec3, most_corners> points;
   points_of(piece, cell, points.data());
   const double volume = cell_volume(cell.shape, points.data());
   const Offender offender{{piece.id, c}, piece.id, Entity::cell, c};
@@ -120,8 +120,8 @@ std::optional<Violation> judge_two_cells(const FaceParts& parts, FaceSides sides
              : std::nullopt;
 }
 
-/// Calls sink(corners, role, item) for the faces of pyramids and prisms with N corners, and for boundary
-/// faces.
+/// Calls sink(corners, role, item) for the faces of pyramids, prisms and hexahedra with N corners, and
+/// for boundary faces.
 template <std::size_t N, class Sink>
 void enumerate_faces(const Piece& piece, const Sink& sink) {
   const auto face_of = [](const LocalIndex* v, const auto& face) {
@@ -135,7 +135,7 @@ void enumerate_faces(const Piece& piece, const Sink& sink) {
     sink(face_of(corners_of_boundary(piece, f).data(), std::array{0, 1, 2, 3}), triangle_role,
          static_cast<std::uint32_t>(f));
   auto item = static_cast<std::uint32_t>(first_side(piece, piece.cell_count()));
-  for (const CellShape shape : {CellShape::pyramid, CellShape::prism}) {
+  for (const CellShape shape : {CellShape::pyramid, CellShape::prism, CellShape::hexahedron}) {
     const std::span<const LocalIndex> corners = connectivity_of(piece, shape);
     for (std::size_t i = 0; i < corners.size(); i += static_cast<std::size_t>(corners_of(shape))) {
       for (const CellFace& face : faces_of(shape)) {

@@ -87,7 +87,22 @@ void migrate(DistributedMesh& mesh, const std::vector<parallel::Rank>& owner);
 /// those of faces between two regions.
 struct MeshCounts {
   GlobalIndex vertices = 0, cells = 0, boundary_triangles = 0, inner_triangles = 0;
-  GlobalIndex pyramids = 0, prisms = 0, boundary_quads = 0, inner_quads = 0;
+  GlobalIndex pyramids = 0, prisms = 0, hexahedra = 0, boundary_quads = 0, inner_quads = 0;
+
+  bool has_other_shapes() const { return pyramids + prisms + hexahedra > 0; }
+  /// The cells of a shape.
+  GlobalIndex of(CellShape shape) const {
+    switch (shape) {
+      case CellShape::pyramid:
+        return pyramids;
+      case CellShape::prism:
+        return prisms;
+      case CellShape::hexahedron:
+        return hexahedra;
+      default:
+        return cells - pyramids - prisms - hexahedra;
+    }
+  }
 };
 /// Collective.
 MeshCounts count_mesh(const NumberedMesh& mesh);

@@ -14,7 +14,7 @@ void require(bool fulfilled, const Piece& piece, const char* what) {
 
 std::size_t side_count(const Piece& piece) {
   return 4 * (piece.cells.size() / piece.vertices_per_cell()) + piece.pyramids.size() +
-         5 * piece.prisms.size() / 6;
+         5 * piece.prisms.size() / 6 + 6 * piece.hexahedra.size() / 8;
 }
 
 /// Runs end where the cells do, one after another; regions ascend among the cells of a shape.
@@ -42,8 +42,17 @@ bool all_below(const std::vector<LocalIndex>& indices, LocalIndex end) {
 }  // namespace
 
 std::span<const LocalIndex> connectivity_of(const Piece& piece, CellShape shape) {
-  if (shape == CellShape::tetrahedron) return piece.cells;
-  return shape == CellShape::pyramid ? piece.pyramids : piece.prisms;
+  switch (shape) {
+    case CellShape::tetrahedron:
+      return piece.cells;
+    case CellShape::pyramid:
+      return piece.pyramids;
+    case CellShape::prism:
+      return piece.prisms;
+    case CellShape::hexahedron:
+      return piece.hexahedra;
+  }
+  throw std::logic_error("no such shape of a cell");
 }
 
 std::span<const LocalIndex> connectivity_of(const Piece& piece, FaceShape shape) {
@@ -65,8 +74,8 @@ void require_consistent_arrays(const Piece& piece) {
           "unknown cell kind");
   require(piece.coordinates.size() == 3 * n, piece, "the coordinates are no whole number of points");
   require(piece.cells.size() % piece.vertices_per_cell() == 0, piece, "the last cell is incomplete");
-  require(piece.pyramids.size() % 5 == 0 && piece.prisms.size() % 6 == 0, piece,
-          "the last cell is incomplete");
+  require(piece.pyramids.size() % 5 == 0 && piece.prisms.size() % 6 == 0 && piece.hexahedra.size() % 8 == 0,
+          piece, "the last cell is incomplete");
   require(side_count(piece) <= max_sides_per_piece, piece, "too many cells");
   require(piece.boundary.size() % 3 == 0, piece, "the last boundary triangle is incomplete");
   require(piece.quads.size() % 4 == 0, piece, "the last boundary quadrilateral is incomplete");
@@ -92,7 +101,8 @@ void require_consistent_arrays(const Piece& piece) {
                              std::greater_equal<>()) == piece.shared_vertices.end(),
           piece, "shared vertices are not ascending");
   for (const std::vector<LocalIndex>* indices :
-       {&piece.cells, &piece.boundary, &piece.shared_vertices, &piece.pyramids, &piece.prisms, &piece.quads})
+       {&piece.cells, &piece.boundary, &piece.shared_vertices, &piece.pyramids, &piece.prisms,
+        &piece.hexahedra, &piece.quads})
     require(all_below(*indices, piece.vertex_count()), piece, "a vertex index is out of range");
 }
 
@@ -103,9 +113,9 @@ std::int64_t bytes_at_rest(const Piece& piece) {
   return static_cast<std::int64_t>(sizeof(Piece)) + bytes(piece.coordinates) + bytes(piece.cells) +
          bytes(piece.vertex_dimension) + bytes(piece.vertex_entity) + bytes(piece.boundary) +
          bytes(piece.triangle_face) + bytes(piece.triangle_patch) + bytes(piece.shared_vertices) +
-         bytes(piece.shared_keys) + bytes(piece.pyramids) + bytes(piece.prisms) + bytes(piece.quads) +
-         bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs) + bytes(piece.layers) +
-         bytes(piece.surface_numbers);
+         bytes(piece.shared_keys) + bytes(piece.pyramids) + bytes(piece.prisms) + bytes(piece.hexahedra) +
+         bytes(piece.quads) + bytes(piece.quad_face) + bytes(piece.quad_patch) + bytes(piece.runs) +
+         bytes(piece.layers) + bytes(piece.surface_numbers);
 }
 
 }  // namespace aeroloom::mesh

@@ -33,12 +33,12 @@ struct RegionRun {
 };
 
 /// Flat arrays of one piece. n vertices, m cells, b boundary triangles. Cells of a volume piece (`kind`
-/// tetrahedron) have positive volume; they are its tetrahedra, `cells`, and k pyramids and l prisms, counted
-/// in this order: cell c of m + k + l. Its boundary triangles, and q quadrilaterals, lie on CAD faces (not on
-/// interfaces between pieces) and are counter-clockwise seen from outside the face's front region. A face
-/// between two regions has its triangles and quadrilaterals in pieces of the front region's cells alone. In a
-/// triangle piece the cells themselves are the boundary triangles: `boundary` is empty, and `triangle_face`
-/// and `triangle_patch` run over the cells.
+/// tetrahedron) have positive volume; they are its tetrahedra, `cells`, and k pyramids, l prisms and h
+/// hexahedra, counted in this order: cell c of m + k + l + h. Its boundary triangles, and q quadrilaterals,
+/// lie on CAD faces (not on interfaces between pieces) and are counter-clockwise seen from outside the face's
+/// front region. A face between two regions has its triangles and quadrilaterals in pieces of the front
+/// region's cells alone. In a triangle piece the cells themselves are the boundary triangles: `boundary` is
+/// empty, and `triangle_face` and `triangle_patch` run over the cells.
 ///
 /// What a mesh of tetrahedra, one region a piece, does not have is empty and costs nothing.
 struct Piece {
@@ -55,10 +55,11 @@ struct Piece {
   std::vector<LocalIndex> shared_vertices;     ///< (s) ascending: vertices that other pieces may know too
   std::vector<SharedVertexKey> shared_keys;    ///< (s)
 
-  std::vector<LocalIndex> pyramids, prisms;  ///< (k,5), (l,6), corners as in mesh/data/shapes.hpp
-  std::vector<LocalIndex> quads;             ///< (q,4)
-  std::vector<std::int32_t> quad_face;       ///< (q) CAD face
-  std::vector<std::int32_t> quad_patch;      ///< (q) patch
+  /// (k,5), (l,6), (h,8), corners as in mesh/data/shapes.hpp
+  std::vector<LocalIndex> pyramids, prisms, hexahedra;
+  std::vector<LocalIndex> quads;         ///< (q,4)
+  std::vector<std::int32_t> quad_face;   ///< (q) CAD face
+  std::vector<std::int32_t> quad_patch;  ///< (q) patch
   /// The regions of all cells, where they are several: ascending among the cells of a shape.
   std::vector<RegionRun> runs;
   /// Of all cells, from 1 at the wall: the boundary layer that each is of; empty: none are of any.
@@ -71,8 +72,9 @@ struct Piece {
     return std::tuple(&Piece::id, &Piece::kind, &Piece::region, &Piece::coordinates, &Piece::cells,
                       &Piece::vertex_dimension, &Piece::vertex_entity, &Piece::boundary,
                       &Piece::triangle_face, &Piece::triangle_patch, &Piece::shared_vertices,
-                      &Piece::shared_keys, &Piece::pyramids, &Piece::prisms, &Piece::quads, &Piece::quad_face,
-                      &Piece::quad_patch, &Piece::runs, &Piece::layers, &Piece::surface_numbers);
+                      &Piece::shared_keys, &Piece::pyramids, &Piece::prisms, &Piece::hexahedra, &Piece::quads,
+                      &Piece::quad_face, &Piece::quad_patch, &Piece::runs, &Piece::layers,
+                      &Piece::surface_numbers);
   }
 
   int vertices_per_cell() const { return static_cast<int>(kind); }
@@ -80,9 +82,12 @@ struct Piece {
   LocalIndex cell_count() const { return static_cast<LocalIndex>(cells.size() / vertices_per_cell()); }
   /// Of all shapes.
   LocalIndex total_cell_count() const {
-    return cell_count() + static_cast<LocalIndex>(pyramids.size() / 5 + prisms.size() / 6);
+    return cell_count() +
+           static_cast<LocalIndex>(pyramids.size() / 5 + prisms.size() / 6 + hexahedra.size() / 8);
   }
-  bool has_tetrahedra_alone() const { return pyramids.empty() && prisms.empty() && quads.empty(); }
+  bool has_tetrahedra_alone() const {
+    return pyramids.empty() && prisms.empty() && hexahedra.empty() && quads.empty();
+  }
   LocalIndex boundary_count() const {
     return static_cast<LocalIndex>(kind == CellKind::triangle ? cells.size() / 3 : boundary.size() / 3);
   }

@@ -119,8 +119,11 @@ inline CellOfPiece cell_of(const Piece& piece, LocalIndex cell) {
   if (cell < piece.cell_count()) return {CellShape::tetrahedron, cell};
   cell -= piece.cell_count();
   const auto pyramids = static_cast<LocalIndex>(piece.pyramids.size() / 5);
-  return cell < pyramids ? CellOfPiece{CellShape::pyramid, cell}
-                         : CellOfPiece{CellShape::prism, cell - pyramids};
+  if (cell < pyramids) return {CellShape::pyramid, cell};
+  cell -= pyramids;
+  const auto prisms = static_cast<LocalIndex>(piece.prisms.size() / 6);
+  return cell < prisms ? CellOfPiece{CellShape::prism, cell}
+                       : CellOfPiece{CellShape::hexahedron, cell - prisms};
 }
 /// Its vertices.
 inline const LocalIndex* vertices_of(const Piece& piece, CellOfPiece cell) {
@@ -135,10 +138,23 @@ inline int points_of(const Piece& piece, CellOfPiece cell, geometry::Vec3* point
   return count;
 }
 
+/// The first cell of a shape, which the piece need not have.
+inline LocalIndex first_cell(const Piece& piece, CellShape shape) {
+  LocalIndex first = 0;
+  for (const CellShape before : cell_shapes) {
+    if (before == shape) break;
+    first += static_cast<LocalIndex>(connectivity_of(piece, before).size() /
+                                     static_cast<std::size_t>(corners_of(before)));
+  }
+  return first;
+}
+
 /// The *sides* of a piece are the faces of its cells, cell by cell in the order of faces_of. The first side
 /// of a cell, for the number of cells that of all sides.
 inline std::size_t first_side(const Piece& piece, LocalIndex cell) {
-  return 5 * static_cast<std::size_t>(cell) - static_cast<std::size_t>(std::min(cell, piece.cell_count()));
+  if (cell <= piece.cell_count()) return 4 * static_cast<std::size_t>(cell);
+  const LocalIndex beyond = std::max(0, cell - first_cell(piece, CellShape::hexahedron));
+  return 5 * static_cast<std::size_t>(cell) - static_cast<std::size_t>(piece.cell_count() - beyond);
 }
 /// A cell and one of its faces.
 struct SideOfCell {
@@ -148,6 +164,12 @@ struct SideOfCell {
 inline SideOfCell cell_at_side(const Piece& piece, std::size_t side) {
   const std::size_t of_tetrahedra = first_side(piece, piece.cell_count());
   if (side < of_tetrahedra) return {static_cast<LocalIndex>(side / 4), static_cast<std::int32_t>(side % 4)};
+  const LocalIndex hexahedra = first_cell(piece, CellShape::hexahedron);
+  const std::size_t to_hexahedra = first_side(piece, hexahedra);
+  if (side >= to_hexahedra) {
+    side -= to_hexahedra;
+    return {hexahedra + static_cast<LocalIndex>(side / 6), static_cast<std::int32_t>(side % 6)};
+  }
   side -= of_tetrahedra;
   return {piece.cell_count() + static_cast<LocalIndex>(side / 5), static_cast<std::int32_t>(side % 5)};
 }

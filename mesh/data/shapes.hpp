@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -9,14 +10,16 @@ namespace aeroloom::mesh {
 
 /// Corners in the order that CGNS, Gmsh and Medit share; all have positive volume. Tetrahedron: VTK's order.
 /// Pyramid: base 0, 1, 2, 3 counter-clockwise seen from its apex 4. Prism: triangle 0, 1, 2 counter-clockwise
-/// seen from the triangle 3, 4, 5 opposite, 3 opposite 0 (VTK has it the other way round).
-enum class CellShape : std::uint8_t { tetrahedron, pyramid, prism };
-inline constexpr int cell_shape_count = 3;
-inline constexpr std::array<CellShape, cell_shape_count> cell_shapes = {CellShape::tetrahedron,
-                                                                        CellShape::pyramid, CellShape::prism};
+/// seen from the triangle 3, 4, 5 opposite, 3 opposite 0 (VTK has it the other way round). Hexahedron: 0, 1,
+/// 2, 3 counter-clockwise seen from 4, 5, 6, 7 opposite, 4 opposite 0.
+enum class CellShape : std::uint8_t { tetrahedron, pyramid, prism, hexahedron };
+inline constexpr int cell_shape_count = 4;
+inline constexpr std::array<CellShape, cell_shape_count> cell_shapes = {
+    CellShape::tetrahedron, CellShape::pyramid, CellShape::prism, CellShape::hexahedron};
 inline constexpr int corners_of(CellShape shape) {
-  return static_cast<int>(shape) + 4;
+  return shape == CellShape::hexahedron ? 8 : static_cast<int>(shape) + 4;
 }
+inline constexpr std::size_t most_corners = corners_of(CellShape::hexahedron);
 
 /// Of boundary faces: counter-clockwise seen from outside the fluid (from the front region, of faces between
 /// two), what a normal out of the fluid sees.
@@ -36,12 +39,15 @@ inline constexpr std::array<CellFace, 5> faces_of_pyramids = {
     {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}};
 inline constexpr std::array<CellFace, 5> faces_of_prisms = {
     {{0, 2, 1, -1}, {3, 4, 5, -1}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}}};
+inline constexpr std::array<CellFace, 6> faces_of_hexahedra = {
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
 
-/// The faces of a cell: 4, 5 and 5.
+/// The faces of a cell: 4, 5, 5 and 6.
 inline constexpr std::span<const CellFace> faces_of(CellShape shape) {
   if (shape == CellShape::tetrahedron) return faces_of_tetrahedra;
   if (shape == CellShape::pyramid) return faces_of_pyramids;
-  return faces_of_prisms;
+  if (shape == CellShape::prism) return faces_of_prisms;
+  return faces_of_hexahedra;
 }
 
 }  // namespace aeroloom::mesh

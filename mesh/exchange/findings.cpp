@@ -22,7 +22,7 @@ const char* rule_of(std::size_t violation) {
       "shared vertices whose coordinates differ between pieces",
       "orphan vertices, which no cell of their piece uses",
       "tetrahedra without positive volume",
-      "pyramids and prisms with a corner that is turned inside out",
+      "pyramids, prisms and hexahedra with a corner that is turned inside out",
       "degenerate triangles",
       "faces of more than two tetrahedra",
       "faces of one tetrahedron without a boundary triangle",
@@ -65,7 +65,16 @@ geometry::Vec3 mean_point(const Piece& piece, std::span<const LocalIndex> vertic
 /// What a sentence says of an offender: a vertex, cell or boundary face, its number among those of its shape,
 /// and the place of the vertex itself, or the mean of the corners of the cell, face or edge.
 struct OffenderPlace {
-  enum class Noun : std::int32_t { vertex, triangle, tetrahedron, pyramid, prism, boundary_triangle, quad };
+  enum class Noun : std::int32_t {
+    vertex,
+    triangle,
+    tetrahedron,
+    pyramid,
+    prism,
+    hexahedron,
+    boundary_triangle,
+    quad
+  };
   std::int32_t violation;
   Noun noun;
   std::int64_t number;
@@ -73,8 +82,9 @@ struct OffenderPlace {
 };
 
 const char* word_of(OffenderPlace::Noun noun) {
-  static constexpr const char* words[] = {"vertex", "triangle",          "tetrahedron",           "pyramid",
-                                          "prism",  "boundary triangle", "boundary quadrilateral"};
+  static constexpr const char* words[] = {
+      "vertex", "triangle",   "tetrahedron",       "pyramid",
+      "prism",  "hexahedron", "boundary triangle", "boundary quadrilateral"};
   return words[static_cast<std::size_t>(noun)];
 }
 

@@ -37,7 +37,8 @@ enum class ItemKind : std::uint64_t {
   pyramid,
   prism,
   quad,
-  region_run
+  region_run,
+  hexahedron
 };
 
 /// Hashes one item word by word. The first lane is a bijection of each word given those before it, so a
@@ -83,15 +84,17 @@ void add_cells(const Piece& piece, const std::vector<GlobalIndex>& numbers, Glob
   }
 }
 
-/// Pyramids and prisms.
+/// Pyramids, prisms and hexahedra.
 void add_other_cells(const Piece& piece, const std::vector<GlobalIndex>& numbers, GlobalIndex first,
                      Sum128& sum) {
   first += piece.cell_count();
-  for (const CellShape shape : {CellShape::pyramid, CellShape::prism}) {
+  for (const auto& [shape, kind] :
+       {std::pair(CellShape::pyramid, ItemKind::pyramid), std::pair(CellShape::prism, ItemKind::prism),
+        std::pair(CellShape::hexahedron, ItemKind::hexahedron)}) {
     const std::span<const LocalIndex> corners = connectivity_of(piece, shape);
     const auto n = static_cast<std::size_t>(corners_of(shape));
     for (std::size_t c = 0; c < corners.size(); c += n) {
-      ItemHash item(shape == CellShape::pyramid ? ItemKind::pyramid : ItemKind::prism, first++);
+      ItemHash item(kind, first++);
       for (std::size_t k = 0; k < n; ++k) item.add_signed(numbers[corners[c + k]]);
       sum.add(item.digest());
     }

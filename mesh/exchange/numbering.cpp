@@ -137,9 +137,10 @@ MeshCounts count_mesh(const NumberedMesh& mesh) {
       ++(mesh.sides_of(face).is_inner() ? mine.inner_quads : mine.boundary_quads);
     mine.pyramids += static_cast<GlobalIndex>(piece.pyramids.size() / 5);
     mine.prisms += static_cast<GlobalIndex>(piece.prisms.size() / 6);
+    mine.hexahedra += static_cast<GlobalIndex>(piece.hexahedra.size() / 8);
   }
   for (GlobalIndex* count : {&mine.boundary_triangles, &mine.inner_triangles, &mine.pyramids, &mine.prisms,
-                             &mine.boundary_quads, &mine.inner_quads})
+                             &mine.hexahedra, &mine.boundary_quads, &mine.inner_quads})
     *count = communicator.sum(*count);
   return mine;
 }

@@ -29,11 +29,26 @@ constexpr std::array<Corner, 4> pyramid_corners = {
     {{0, {1, 3, 4}}, {1, {2, 0, 4}}, {2, {3, 1, 4}}, {3, {0, 2, 4}}}};
 constexpr std::array<Corner, 6> prism_corners = {
     {{0, {1, 2, 3}}, {1, {2, 0, 4}}, {2, {0, 1, 5}}, {3, {5, 4, 0}}, {4, {3, 5, 1}}, {5, {4, 3, 2}}}};
+constexpr std::array<Corner, 8> hexahedron_corners = {{{0, {1, 3, 4}},
+                                                       {1, {2, 0, 5}},
+                                                       {2, {3, 1, 6}},
+                                                       {3, {0, 2, 7}},
+                                                       {4, {7, 5, 0}},
+                                                       {5, {4, 6, 1}},
+                                                       {6, {5, 7, 2}},
+                                                       {7, {6, 4, 3}}}};
 
-/// Of pyramids and prisms.
+/// Of pyramids, prisms and hexahedra.
 std::span<const Corner> corners_with_three_edges(CellShape shape) {
+  if (shape == CellShape::hexahedron) return hexahedron_corners;
   if (shape == CellShape::prism) return prism_corners;
   return pyramid_corners;
+}
+
+/// The determinant of the unit vectors along the three edges at a corner, in a cell of equal edges.
+double determinant_of_equal_edges(CellShape shape) {
+  if (shape == CellShape::hexahedron) return 1;
+  return shape == CellShape::prism ? std::numbers::sqrt3 / 2 : 1 / std::numbers::sqrt2;
 }
 
 using Edge = std::array<int, 2>;
@@ -42,6 +57,8 @@ constexpr std::array<Edge, 8> edges_of_pyramids = {
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
 constexpr std::array<Edge, 9> edges_of_prisms = {
     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+constexpr std::array<Edge, 12> edges_of_hexahedra = {
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 
 std::span<const Edge> edges_of(CellShape shape) {
   switch (shape) {
@@ -51,6 +68,8 @@ std::span<const Edge> edges_of(CellShape shape) {
       return edges_of_pyramids;
     case CellShape::prism:
       return edges_of_prisms;
+    case CellShape::hexahedron:
+      return edges_of_hexahedra;
   }
   throw std::logic_error("no such shape of a cell");
 }
@@ -84,8 +103,8 @@ private:
   double _smallest = 360, _largest = 0;
 };
 
-/// Angles and Jacobians of pyramids and prisms. The edges from a pyramid's apex lie between triangles, whose
-/// angle is the same at the other end.
+/// Angles and Jacobians of pyramids, prisms and hexahedra. The edges from a pyramid's apex lie between
+/// triangles, whose angle is the same at the other end.
 void measure_corners(CellShape shape, const Vec3* p, CellValues& values) {
   const std::span<const Corner> corners = corners_with_three_edges(shape);
   AngleRange angles;
@@ -97,10 +116,10 @@ void measure_corners(CellShape shape, const Vec3* p, CellValues& values) {
     const double lengths = norm(edge[0]) * norm(edge[1]) * norm(edge[2]);
     jacobian = std::min(jacobian, lengths > 0 ? determinant(edge[0], edge[1], edge[2]) / lengths : 0);
   }
-  const double of_equal_edges = shape == CellShape::prism ? std::numbers::sqrt3 / 2 : 1 / std::numbers::sqrt2;
   values[static_cast<std::size_t>(Measure::smallest_dihedral)] = angles.smallest();
   values[static_cast<std::size_t>(Measure::largest_dihedral)] = angles.largest();
-  values[static_cast<std::size_t>(Measure::scaled_jacobian)] = std::min(1.0, jacobian / of_equal_edges);
+  values[static_cast<std::size_t>(Measure::scaled_jacobian)] =
+      std::min(1.0, jacobian / determinant_of_equal_edges(shape));
 }
 
 void measure_tetrahedron(const Vec3* p, CellValues& values) {
@@ -138,7 +157,8 @@ std::string_view name_of(Measure measure) {
 }
 
 std::string_view name_of(CellShape shape) {
-  constexpr std::array<std::string_view, cell_shape_count> names = {"tetrahedra", "pyramids", "prisms"};
+  constexpr std::array<std::string_view, cell_shape_count> names = {"tetrahedra", "pyramids", "prisms",
+                                                                    "hexahedra"};
   return names[static_cast<std::size_t>(shape)];
 }
 

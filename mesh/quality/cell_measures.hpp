@@ -1,4 +1,4 @@
-/// Shape measures of tetrahedra, pyramids and prisms, one cell at a time.
+/// Shape measures of tetrahedra, pyramids, prisms and hexahedra, one cell at a time.
 #pragma once
 
 #include "geometry/vec.hpp"
@@ -19,10 +19,11 @@ enum class Measure : std::uint8_t {
   largest_dihedral,
   mean_ratio,    ///< of tetrahedra, mean_ratio()
   radius_ratio,  ///< of tetrahedra, radius_ratio()
-  /// Of pyramids and prisms: the smallest determinant of the three unit vectors along the edges at a corner
+  /// Of the other shapes: the smallest determinant of the three unit vectors along the edges at a corner
   /// (Knupp, Ernst, Thompson, Stimpson and Pebay, The Verdict Geometric Quality Library, SAND2007-1751,
-  /// doi:10.2172/901967), times 2 / sqrt(3) for prisms, sqrt(2) for pyramids, 1 at most: 1 for equal edges,
-  /// 0 flat, negative inside out there. The apex, where four edges meet, does not count.
+  /// doi:10.2172/901967), times 2 / sqrt(3) for prisms, sqrt(2) for pyramids, 1 at most: 1 for equal edges
+  /// (at right angles in hexahedra), 0 flat, negative inside out there. A pyramid's apex, where four edges
+  /// meet, does not count.
   scaled_jacobian,
   edge_ratio,    ///< longest over shortest edge
   volume_ratio,  ///< over all neighbours at faces: the largest ratio of volumes, larger over smaller

@@ -78,8 +78,8 @@ public:
     add_boundary();
     add_cells<faces_of_tetrahedra, 4>(piece.cells, 0);
     add_cells<faces_of_pyramids, 5>(piece.pyramids, piece.cell_count());
-    add_cells<faces_of_prisms, 6>(
-        piece.prisms, piece.total_cell_count() - static_cast<LocalIndex>(piece.prisms.size() / 6));
+    add_cells<faces_of_prisms, 6>(piece.prisms, first_cell(piece, CellShape::prism));
+    add_cells<faces_of_hexahedra, 8>(piece.hexahedra, first_cell(piece, CellShape::hexahedron));
   }
 
   /// `numbers`: of the vertices. Adds to the sides without a neighbour, and to the defects.

@@ -53,7 +53,7 @@ public:
                  std::size_t p) {
     const std::vector<double>&volumes = neighbours.volumes[p], &ratios = neighbours.ratios[p];
     SumsOfShapes sum{};
-    std::array<Vec3, 6> points;
+    std::array<Vec3, most_corners> points;
     for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) {
       const CellOfPiece cell = cell_of(piece, c);
       const int count = points_of(piece, cell, points.data());
@@ -182,8 +182,7 @@ bool layers_are_unknown(const NumberedMesh& mesh, const MeshCounts& counts, cons
   if (mesh.communicator.maximum(std::int64_t{known}) > 0) return false;
   const MeasureDistribution& angles =
       quality.distribution(CellShape::tetrahedron, Measure::smallest_dihedral);
-  return counts.prisms + counts.pyramids > 0 ||
-         (angles.cells > 0 && angles.percentiles[twentieth] < flat_deg);
+  return counts.has_other_shapes() || (angles.cells > 0 && angles.percentiles[twentieth] < flat_deg);
 }
 
 }  // namespace
@@ -213,11 +212,9 @@ MixedQuality measure_quality(const NumberedMesh& mesh, const FaceLinks& links) {
     }
   }
   const MeshCounts counts = count_mesh(mesh);
-  const std::array<GlobalIndex, cell_shape_count> cells = {counts.cells - counts.pyramids - counts.prisms,
-                                                           counts.pyramids, counts.prisms};
   MixedQuality result;
   for (std::size_t s = 0; s < cell_shape_count; ++s) {
-    if (cells[s] == 0) continue;
+    if (counts.of(cell_shapes[s]) == 0) continue;
     for (std::size_t m = 0; m < measure_count; ++m) {
       if (has_measure(cell_shapes[s], all_measures[m]))
         result.of[s][m] = measure_distribution(communicator, local.of[s][m], measure_scales[m], sums[s][m]);

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<double> volumes_of(const Piece& piece) {
   std::vector<double> volumes(static_cast<std::size_t>(piece.total_cell_count()));
-  std::array<geometry::Vec3, 6> points;
+  std::array<geometry::Vec3, most_corners> points;
   for (LocalIndex c = 0; c < piece.total_cell_count(); ++c) {
     const CellOfPiece cell = cell_of(piece, c);
     points_of(piece, cell, points.data());

@@ -91,8 +91,10 @@ constexpr const auto& faces_of_shape() {
     return faces_of_tetrahedra;
   } else if constexpr (shape == CellShape::pyramid) {
     return faces_of_pyramids;
-  } else {
+  } else if constexpr (shape == CellShape::prism) {
     return faces_of_prisms;
+  } else {
+    return faces_of_hexahedra;
   }
 }
 
@@ -141,6 +143,7 @@ public:
   std::vector<Told<CellFacts>> measure_pieces() {
     std::vector<Told<CellFacts>> words;
     for (std::size_t p = 0; p < _mesh.pieces.size(); ++p) {
+      measure_cells<CellShape::hexahedron>(p, words);
       measure_cells<CellShape::prism>(p, words);
       measure_cells<CellShape::pyramid>(p, words);
       measure_cells<CellShape::tetrahedron>(p, words);
@@ -183,9 +186,7 @@ private:
     const Piece& piece = _mesh.pieces[p];
     constexpr auto corners = static_cast<std::size_t>(corners_of(shape));
     const std::span<const LocalIndex> vertices = connectivity_of(piece, shape);
-    LocalIndex first = 0;
-    if (shape != CellShape::tetrahedron) first += piece.cell_count();
-    if (shape == CellShape::prism) first += static_cast<LocalIndex>(piece.pyramids.size() / 5);
+    const LocalIndex first = first_cell(piece, shape);
     for (std::size_t i = vertices.size() / corners; i-- > 0;) {
       const CellAtHand<shape> cell(piece, vertices.data() + corners * i);
       measure_cell_at(cell, {p, first + static_cast<LocalIndex>(i), shape}, words);

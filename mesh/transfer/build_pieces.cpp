@@ -71,7 +71,8 @@ Piece build_piece(PieceId id, const PieceItems& items, const std::vector<GlobalI
   const auto add_corners = [&](const auto& item, std::vector<LocalIndex>& corners) {
     for (const GlobalIndex number : item.corners) corners.push_back(table.place(number));
   };
-  std::vector<LocalIndex>* const cells[cell_shape_count] = {&piece.cells, &piece.pyramids, &piece.prisms};
+  std::vector<LocalIndex>* const cells[cell_shape_count] = {&piece.cells, &piece.pyramids, &piece.prisms,
+                                                            &piece.hexahedra};
   LocalIndex cell = 0;
   for_each_cell_shape([&](auto s) {
     for (const auto& item : items_of(std::get<s>(items.cells), id)) {
@@ -146,7 +147,8 @@ void order_vertices(Piece& piece, std::vector<GlobalIndex>& numbers, std::vector
   for (const LocalIndex v : order)
     piece.coordinates.insert(piece.coordinates.end(), old.begin() + 3 * std::ptrdiff_t{v},
                              old.begin() + 3 * std::ptrdiff_t{v} + 3);
-  for (auto* corners : {&piece.cells, &piece.pyramids, &piece.prisms, &piece.boundary, &piece.quads}) {
+  for (auto* corners :
+       {&piece.cells, &piece.pyramids, &piece.prisms, &piece.hexahedra, &piece.boundary, &piece.quads}) {
     for (LocalIndex& v : *corners) v = place[v];
   }
   std::vector<std::pair<LocalIndex, SharedVertexKey>> shared;

@@ -32,7 +32,9 @@ struct FaceItem {
 
 /// Of all shapes.
 struct PieceItems {
-  std::tuple<std::vector<CellItem<4>>, std::vector<CellItem<5>>, std::vector<CellItem<6>>> cells;
+  std::tuple<std::vector<CellItem<4>>, std::vector<CellItem<5>>, std::vector<CellItem<6>>,
+             std::vector<CellItem<8>>>
+      cells;
   std::tuple<std::vector<FaceItem<3>>, std::vector<FaceItem<4>>> faces;
 };
 
@@ -42,6 +44,7 @@ void for_each_cell_shape(const Visit& visit) {
   visit(std::integral_constant<std::size_t, 0>{});
   visit(std::integral_constant<std::size_t, 1>{});
   visit(std::integral_constant<std::size_t, 2>{});
+  visit(std::integral_constant<std::size_t, 3>{});
 }
 template <class Visit>
 void for_each_face_shape(const Visit& visit) {

@@ -203,11 +203,12 @@ public:
   void add_cells(const std::vector<PieceId>& pieces_of_cells) {
     const PieceId* to = pieces_of_cells.data();
     for_each_cell_shape([&](auto s) {
+      constexpr auto n = static_cast<std::size_t>(corners_of(cell_shapes[s]));
       auto& out = std::get<s>(_items.cells);
       const LocalIndex* corners = connectivity_of(_piece, cell_shapes[s]).data();
       for_each_region_run(_piece, cell_shapes[s], [&](RegionId region, LocalIndex begin, LocalIndex end) {
-        for (LocalIndex i = begin; i < end; ++i, corners += s + 4)
-          out.push_back({by_number<s + 4>(corners), order(i), *to++, region});
+        for (LocalIndex i = begin; i < end; ++i, corners += n)
+          out.push_back({by_number<n>(corners), order(i), *to++, region});
       });
     });
   }

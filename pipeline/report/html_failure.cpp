@@ -101,11 +101,12 @@ std::string tiles(const Json& report) {
   std::string all;
   if (!text(find(report, "/mesh/hash")).empty()) {
     const std::string unit = text(find(report, "/geometry/unit"));
-    const Json &prisms = find(report, "/mesh/prisms"), &pyramids = find(report, "/mesh/pyramids");
     const bool has_layers = !find(report, "/layers").is_null();
     all += tile("tetrahedra", count(find(report, "/mesh/tetrahedra")));
-    if (number(prisms) + number(pyramids) > 0)
-      all += tile("prisms", count(prisms)) + tile("pyramids", count(pyramids));
+    for (const std::string shape : {"prisms", "pyramids", "hexahedra"}) {
+      const Json& cells = find(report, "/mesh/" + shape);
+      if (number(cells) > 0) all += tile(shape, count(cells));
+    }
     all += tiles_of_flaws(report);
     const std::string where = has_layers ? " off layers" : "";
     all += tile("points", count(find(report, "/mesh/points"))) +

@@ -27,10 +27,11 @@ std::int64_t tetrahedra_of_layers(const RunRecord& record) {
 
 Json mesh_json(const RunRecord& record) {
   return {{"points", record.counts.vertices},
-          {"tetrahedra", record.counts.cells - record.counts.prisms - record.counts.pyramids},
+          {"tetrahedra", record.counts.of(mesh::CellShape::tetrahedron)},
           {"layer_tetrahedra", tetrahedra_of_layers(record)},
           {"prisms", record.counts.prisms},
           {"pyramids", record.counts.pyramids},
+          {"hexahedra", record.counts.hexahedra},
           {"boundary_triangles", record.counts.boundary_triangles},
           {"boundary_quadrilaterals", record.counts.boundary_quads},
           {"volume", record.mesh_volume},

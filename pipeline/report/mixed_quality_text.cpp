@@ -29,12 +29,12 @@ std::string_view title_of(Measure measure) {
 }
 
 std::string tables_of_names(const io::FileMesh& mesh, const mesh::MixedQuality& quality) {
-  std::string text = fmt::format("\n{:<32} {:>13} {:>13} {:>13} {:>14}\n", "region", "tetrahedra", "pyramids",
-                                 "prisms", "volume");
+  std::string text = fmt::format("\n{:<32} {:>13} {:>13} {:>13} {:>13} {:>14}\n", "region", "tetrahedra",
+                                 "pyramids", "prisms", "hexahedra", "volume");
   for (std::size_t r = 0; r < mesh.regions.size(); ++r) {
     const auto& cells = mesh.region_cells[r];
-    text += fmt::format("{:<32} {:>13} {:>13} {:>13} {:>14.7g}\n", mesh.regions[r], cells[0], cells[1],
-                        cells[2], quality.region_volumes[r]);
+    text += fmt::format("{:<32} {:>13} {:>13} {:>13} {:>13} {:>14.7g}\n", mesh.regions[r], cells[0], cells[1],
+                        cells[2], cells[3], quality.region_volumes[r]);
   }
   text +=
       fmt::format("\n{:<32} {:>13} {:>13} {:>13} {:>14}\n", "patch", "type", "triangles", "quads", "area");

@@ -5,6 +5,17 @@
 #include <fmt/format.h>
 
 namespace aeroloom::report {
+namespace {
+
+/// Cells that are no tetrahedra, by shape; those of layers are prisms and pyramids always.
+std::string other_cells_text(const mesh::MeshCounts& counts) {
+  if (!counts.has_other_shapes()) return "";
+  std::string text = fmt::format("{} prisms, {} pyramids, ", counts.prisms, counts.pyramids);
+  if (counts.hexahedra > 0) text += fmt::format("{} hexahedra, ", counts.hexahedra);
+  return text;
+}
+
+}  // namespace
 
 std::string report_table(const RunRecord& record, const std::vector<parallel::StageSummary>& stages,
                          int ranks) {
@@ -20,18 +31,15 @@ std::string report_table(const RunRecord& record, const std::vector<parallel::St
   }
   text += fmt::format("{:<10} {:>9.2f}  on {} rank(s)\n", "total", record.wall_seconds, ranks);
   if (!record.quality) return text;
-  const mesh::GlobalIndex layered = record.counts.prisms + record.counts.pyramids;
+  const bool layered = record.counts.has_other_shapes();
   text += fmt::format(
       "mesh: {} tetrahedra, {}{} points, {} boundary triangles, volume {:.10g}\n"
       "quality{}: dihedral angles {:.2f} to {:.2f} degrees, mean ratio {:.3f} at least, {:.3f} on average\n"
       "hash: {}\n",
-      record.counts.cells - layered,
-      layered > 0 ? fmt::format("{} prisms, {} pyramids, ", record.counts.prisms, record.counts.pyramids)
-                  : "",
-      record.counts.vertices, record.counts.boundary_triangles, record.mesh_volume,
-      layered > 0 ? " off the layers" : "", record.quality->min_dihedral.minimum,
-      record.quality->max_dihedral.maximum, record.quality->mean_ratio.minimum,
-      record.quality->mean_ratio.mean, record.hash);
+      record.counts.of(mesh::CellShape::tetrahedron), other_cells_text(record.counts), record.counts.vertices,
+      record.counts.boundary_triangles, record.mesh_volume, layered ? " off the layers" : "",
+      record.quality->min_dihedral.minimum, record.quality->max_dihedral.maximum,
+      record.quality->mean_ratio.minimum, record.quality->mean_ratio.mean, record.hash);
   for (const mesh::FlawedCell& place : worst_flaws(record))
     if (place.flaw != mesh::Flaw::small_angle)
       text += fmt::format("worst: {}, {}\n", text_of_place(place),

@@ -59,6 +59,8 @@ const std::vector<std::vector<int>> tetra_faces = {{1, 3, 2}, {1, 2, 4}, {2, 3, 
 const std::vector<std::vector<int>> pyra_faces = {{1, 4, 3, 2}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 1, 5}};
 const std::vector<std::vector<int>> penta_faces = {
     {1, 2, 5, 4}, {2, 3, 6, 5}, {3, 1, 4, 6}, {1, 3, 2}, {4, 5, 6}};
+const std::vector<std::vector<int>> hexa_faces = {{1, 4, 3, 2}, {1, 2, 6, 5}, {2, 3, 7, 6},
+                                                  {3, 4, 8, 7}, {1, 5, 8, 4}, {5, 6, 7, 8}};
 
 TEST_F(Cgns, CellsHaveThePositiveVolumeThatTheBoundaryEncloses) {
   write_cgns(examples::mixed_mesh(world, 4, 5), folder / "mesh.cgns");
@@ -80,6 +82,7 @@ TEST_F(Cgns, CellsHaveThePositiveVolumeThatTheBoundaryEncloses) {
   add_cells("lower layer_TETRA_4", 4, tetra_faces);
   add_cells("lower layer_PYRA_5", 5, pyra_faces);
   add_cells("lower layer_PENTA_6", 6, penta_faces);
+  add_cells("lower layer_HEXA_8", 8, hexa_faces);
   add_cells("upper", 4, tetra_faces);
   double boundary = 0;
   for (const std::string name : {"wing _ lower side", "symmetry", "far field"}) {

@@ -25,11 +25,12 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
   EXPECT_EQ(mesh.cell_count(CellShape::pyramid), 20);
   EXPECT_EQ(mesh.cell_count(CellShape::tetrahedron), 96 + 8);
   EXPECT_EQ(mesh.region_cells[1][0], 96);
-  EXPECT_EQ(mesh.vertex_count, 25 * 3 + 10 + 4);
+  EXPECT_EQ(mesh.cell_count(CellShape::hexahedron), 4);
+  EXPECT_EQ(mesh.vertex_count, 25 * 3 + 10 + 4 + 10);
   EXPECT_EQ(mesh.patch_faces[examples::MixedMesh::interface][0], 32);
   const ShapeCounts all = mesh.counts(CountedFaces::all), outer = mesh.counts(CountedFaces::boundary);
   EXPECT_EQ(all.vertices, mesh.vertex_count);
-  EXPECT_EQ(all.cells, (std::array<GlobalIndex, 3>{96 + 8, 20, 32}));  // tetrahedra, pyramids, prisms
+  EXPECT_EQ(all.cells, (std::array<GlobalIndex, 4>{96 + 8, 20, 32, 4}));  // in the order of shapes
   EXPECT_EQ(outer.cells, all.cells);
   EXPECT_EQ(outer.faces, (std::array<GlobalIndex, 2>{all.faces[0] - 32, all.faces[1]}));
   GlobalIndex owned = 0;
@@ -46,7 +47,7 @@ TEST(FileMesh, MixedMeshHasItsCountsOnAnyRanks) {
   }
   EXPECT_EQ(world.sum(owned), mesh.vertex_count);
   const double determinant = 2 * 1.5 + 0.25 * 0.125 * 0.0625;
-  EXPECT_NEAR(world.sum(volume), 36 * determinant, 1e-9);
+  EXPECT_NEAR(world.sum(volume), 40 * determinant, 1e-9);
 }
 
 TEST(FileMesh, PiecesBecomePartsWithoutCopies) {

@@ -16,13 +16,14 @@ try:
 except ImportError:
     sys.exit(77)
 
-CELLS = {"tetra": 104, "pyramid": 20, "wedge": 32}
-PATCHES = {"wing / lower side": 36, "symmetry": 13, "far field": 77, "interface": 32}
-REGIONS = {"lower layer": 60, "upper": 96}
+CELLS = {"tetra": 104, "pyramid": 20, "wedge": 32, "hexahedron": 4}
+PATCHES = {"wing / lower side": 40, "symmetry": 13, "far field": 83, "interface": 32}
+REGIONS = {"lower layer": 64, "upper": 96}
 # Faces of a cell in Gmsh's order, outward.
 FACES = {"tetra": [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)],
          "pyramid": [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
-         "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]}
+         "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
+         "hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]}
 
 
 def gmsh(*arguments):
@@ -57,7 +58,7 @@ def check_with_meshio(path):
             boundary += volume(mesh.points, block.data).sum()
     assert {name: counts.get(name) for name in CELLS} == CELLS, counts
     assert groups == PATCHES | REGIONS, groups
-    assert abs(total - 36 * (2 * 1.5 + 0.25 * 0.125 * 0.0625)) < 1e-9, total
+    assert abs(total - 40 * (2 * 1.5 + 0.25 * 0.125 * 0.0625)) < 1e-9, total
     assert abs(boundary - total) < 1e-9, f"boundary faces look inward: {boundary}, {total}"
 
 
@@ -114,8 +115,8 @@ def main(writer, program):
         check_with_meshio(folder / "mixed.msh")
         gmsh("-check", folder / "mixed.msh", "-0", "-o", folder / "checked.msh")
         gmsh(folder / "mixed.msh", "-0", "-o", folder / "mixed2.msh", "-format", "msh2")
-        assert count_in_msh2(folder / "mixed2.msh", "Nodes") == 89
-        assert count_in_msh2(folder / "mixed2.msh", "Elements") == 314
+        assert count_in_msh2(folder / "mixed2.msh", "Nodes") == 99
+        assert count_in_msh2(folder / "mixed2.msh", "Elements") == 328
         # What Gmsh reads and writes again in text is the same mesh.
         gmsh(folder / "mixed.msh", "-0", "-o", folder / "again.msh", "-format", "msh41")
         check_with_meshio(folder / "again.msh")
@@ -123,7 +124,7 @@ def main(writer, program):
         text = gmsh(*[folder / f"mixed_{part}.msh" for part in (1, 2, 3)], "-0", "-o", folder / "merged.msh",
                     "-format", "msh2")
         assert "3 partitions" in text, text
-        assert count_in_msh2(folder / "merged.msh", "Elements") == 314
+        assert count_in_msh2(folder / "merged.msh", "Elements") == 328
         check_reading(program, folder)
     print("Gmsh and meshio agree")
 

@@ -206,7 +206,7 @@ TEST_F(Hdf5LayoutLocal, CgnsSectionsFollowEachOther) {
                        {"unused", mesh::PatchType::wall},
                        {"fluid", mesh::PatchType::slip}},
                       {"fluid", "layer"},
-                      {{50, 0, 0}, {1, 2, 3}},
+                      {{50, 0, 0, 0}, {1, 2, 3, 4}},
                       {{9, 9}, {4, 0}, {5, 6}, {0, 0}, {0, 7}}};
   cgns::Plan plan = cgns::plan_file(totals);
   std::vector<std::string> names;
@@ -217,18 +217,18 @@ TEST_F(Hdf5LayoutLocal, CgnsSectionsFollowEachOther) {
     next += section.count;
   }
   EXPECT_EQ(names, (std::vector<std::string>{"fluid_2", "layer_TETRA_4", "layer_PYRA_5", "layer_PENTA_6",
-                                             "a_b_2", "a_b_TRI_3", "a_b_QUAD_4", "fluid"}));
-  EXPECT_EQ(plan.cells, 56);
+                                             "layer_HEXA_8", "a_b_2", "a_b_TRI_3", "a_b_QUAD_4", "fluid"}));
+  EXPECT_EQ(plan.cells, 60);
   ASSERT_EQ(plan.boundaries.size(), 3U);
   EXPECT_EQ(plan.boundaries[0].name, "a_b_2");
   EXPECT_EQ(plan.boundaries[0].full_name, "a/b");
   EXPECT_EQ(plan.boundaries[0].condition, "BCInflow");
   EXPECT_EQ(plan.boundaries[1].name, "a_b");
-  EXPECT_EQ(plan.boundaries[1].first, 61);
-  EXPECT_EQ(plan.boundaries[1].last, 71);
+  EXPECT_EQ(plan.boundaries[1].first, 65);
+  EXPECT_EQ(plan.boundaries[1].last, 75);
   EXPECT_EQ(plan.boundaries[2].condition, "BCWallInviscid");
   EXPECT_EQ(plan.section_of_patch[0], (std::array<std::int32_t, 2>{-1, -1}));
-  EXPECT_EQ(plan.section_of_patch[4], (std::array<std::int32_t, 2>{-1, 7}));
+  EXPECT_EQ(plan.section_of_patch[4], (std::array<std::int32_t, 2>{-1, 8}));
   EXPECT_NO_THROW(cgns::lay_out(plan));
 }
 

@@ -20,10 +20,11 @@ except ImportError as missing:
     sys.exit(77)
 
 SQUARES, PARTS = 4, 3
-# Of the mixed mesh (mixed_mesh.hpp): two slabs and a row of cubes under an affine map.
-VOLUME = (2 * SQUARES**2 + SQUARES) * np.linalg.det(
+# Of the mixed mesh (mixed_mesh.hpp): two slabs, a row of cubes and one of hexahedra under an affine map.
+VOLUME = (2 * SQUARES**2 + 2 * SQUARES) * np.linalg.det(
     np.array([[2, 0.25, 0], [0, 1.5, 0.125], [0.0625, 0, 1]]))
-CELLS = {vtk.VTK_WEDGE: 2 * SQUARES**2, vtk.VTK_PYRAMID: 5 * SQUARES, vtk.VTK_TETRA: 6 * SQUARES**2 + 2 * SQUARES}
+CELLS = {vtk.VTK_WEDGE: 2 * SQUARES**2, vtk.VTK_PYRAMID: 5 * SQUARES, vtk.VTK_TETRA: 6 * SQUARES**2 + 2 * SQUARES,
+         vtk.VTK_HEXAHEDRON: SQUARES}
 
 
 def write(writer, mpirun, ranks, kind, folder):
@@ -62,7 +63,7 @@ def check_volume(folder):
     assert (volumes > 0).all() and math.isclose(volumes.sum(), VOLUME, rel_tol=1e-12), volumes.sum()
     assert texts(grid, "region_names") == ["lower layer", "upper"]
     region = vtk_to_numpy(grid.GetCellData().GetArray("region"))
-    assert math.isclose(volumes[region == 1].sum() / VOLUME, SQUARES / (2 * SQUARES + 1), rel_tol=1e-12)
+    assert math.isclose(volumes[region == 1].sum() / VOLUME, SQUARES / (2 * SQUARES + 2), rel_tol=1e-12)
     part = vtk_to_numpy(grid.GetCellData().GetArray("part"))
     # Every number from 0 on is one point, whatever the partitions that know it.
     numbers = vtk_to_numpy(grid.GetPointData().GetArray("global_id"))
@@ -139,8 +140,9 @@ def run_cgnscheck(folder):
 
 def check_cgns(folder):
     told = run_cgnscheck(folder)
-    for line in ("Vertex Size=[89]", f"Cell Size=[{sum(CELLS.values())}]", 'Family="far field"',
-                 "[internal,external] Faces=[0,", "Element Set Type=PENTA_6", "Element Set Type=PYRA_5"):
+    for line in ("Vertex Size=[99]", f"Cell Size=[{sum(CELLS.values())}]", 'Family="far field"',
+                 "[internal,external] Faces=[0,", "Element Set Type=PENTA_6", "Element Set Type=PYRA_5",
+                 "Element Set Type=HEXA_8"):
         assert line in told, line
     assert "Faces=[0,0]" not in told, "a boundary section without faces on the outside"
 

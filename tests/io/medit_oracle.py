@@ -13,14 +13,15 @@ except ImportError:
     print("meshio is not installed")
     sys.exit(77)
 
-EXPECTED = {"tetra": 104, "pyramid": 20, "wedge": 32}
+EXPECTED = {"tetra": 104, "pyramid": 20, "wedge": 32, "hexahedron": 4}
 
 
 def corner_volumes(shape, p):
     """Six times the volumes of tetrahedra at corners, positive in the format's order of corners."""
     tets = {"tetra": [(0, 1, 2, 3)],
             "pyramid": [(0, 1, 2, 4), (0, 2, 3, 4), (0, 1, 3, 4), (1, 2, 3, 4)],
-            "wedge": [(0, 1, 2, 3), (0, 1, 2, 4), (0, 1, 2, 5), (0, 4, 5, 3), (1, 5, 3, 4)]}[shape]
+            "wedge": [(0, 1, 2, 3), (0, 1, 2, 4), (0, 1, 2, 5), (0, 4, 5, 3), (1, 5, 3, 4)],
+            "hexahedron": [(0, 1, 3, 4), (1, 2, 0, 5), (2, 3, 1, 6), (3, 0, 2, 7), (4, 7, 5, 0), (6, 5, 7, 2)]}[shape]
     for a, b, c, d in tets:
         yield np.einsum("ij,ij->i", np.cross(p[:, b] - p[:, a], p[:, c] - p[:, a]), p[:, d] - p[:, a])
 
@@ -46,9 +47,9 @@ def check_meshio(path, exact):
         assert counts[shape] == count, (path, counts)
     assert refs["tetra"] == {1, 2} and refs["wedge"] == {1} and refs["pyramid"] == {1}, refs
     assert refs["triangle"] == {1, 2, 3, 4}, refs
-    # Two slabs of 4 x 4 x 1 and a row of 4 cubes, under a map with determinant 3 - 1/64.
+    # Two slabs of 4 x 4 x 1, a row of 4 cubes and one of 4 hexahedra, under a map with determinant 3 - 1/64.
     determinant = 2 * (1.5 * 1 - 0) - 0.25 * (0 * 1 - 0.125 * 0.0625)
-    assert abs(boundary - 36 * determinant) < 1e-9, (path, boundary, 36 * determinant)
+    assert abs(boundary - 40 * determinant) < 1e-9, (path, boundary, 40 * determinant)
     assert exact is None or (exact.points == mesh.points).all(), path
     print(path.name, counts, "volume", boundary)
     return mesh

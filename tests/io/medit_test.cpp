@@ -90,7 +90,7 @@ TEST_F(Medit, BytesDependOnThePartsAlone) {
 TEST_F(Medit, LayoutBeyondThirtyTwoBits) {
   MeditCounts counts;
   counts.vertices = 500'000'000;
-  counts.cells = {3'000'000'000, 0, 1'000};
+  counts.cells = {3'000'000'000, 0, 1'000, 0};
   counts.faces = {20'000'000, 0};
   const MeditLayout wide = medit_layout(counts, MeditEncoding::binary);
   EXPECT_EQ(wide.version, 4);
@@ -194,7 +194,7 @@ TEST_F(Medit, TextWithCommentsAndOtherSections) {
 TEST_F(Medit, NamesOfAllKinds) {
   FileMesh mesh;
   mesh.regions = {" fluid\n", "\\x", "über", ""};
-  mesh.region_cells = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+  mesh.region_cells = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}};
   mesh.patches = {{"wing / lower  side ", mesh::PatchType::farfield}, {"wall", mesh::PatchType::wall}};
   mesh.patch_faces = {{0, 3}, {3, 0}};
   const std::string text = medit_names_text(mesh);
@@ -203,7 +203,7 @@ TEST_F(Medit, NamesOfAllKinds) {
     EXPECT_EQ(names.regions.at(static_cast<std::int64_t>(r) + 1), mesh.regions[r]);
   for (std::size_t p = 0; p < mesh.patches.size(); ++p)
     EXPECT_EQ(names.patches.at(static_cast<std::int64_t>(p) + 1), mesh.patches[p]);
-  for (const char* wrong : {"hexahedra 1 a", "triangles x a wall", "triangles 1 a well", "tetrahedra 1 \\y",
+  for (const char* wrong : {"polyhedra 1 a", "triangles x a wall", "triangles 1 a well", "tetrahedra 1 \\y",
                             "tetrahedra 1 a\ntetrahedra 1 b", "triangles", "tetrahedra 1 a\\x0"}) {
     EXPECT_THROW(parse_medit_names(wrong, "file.names"), std::runtime_error) << wrong;
   }
@@ -214,7 +214,7 @@ TEST_F(Medit, RefusesWithThePlace) {
   const auto expect = [&](const std::string& name, const std::string& bytes, const std::string& text) {
     EXPECT_NE(refusal(name, bytes).find(text), std::string::npos) << refusal(name, bytes);
   };
-  expect("bad.mesh", head + "Hexahedra\n1\n1 2 3 4 5 6 7 8 0\n", "line 4: there are 1 Hexahedra");
+  expect("bad.mesh", head + "Polyhedra\n1\n1 2 3 4 5 6 7 8 0\n", "line 4: there are 1 Polyhedra");
   expect("bad.mesh", head + "Vertices\n4611686018427387904\n",
          "line 4: 4611686018427387904 Vertices do not fit");
   expect("bad.mesh", "MeshVersionFormatted 2\nDimension 2\n", "line 2: the mesh has 2 dimensions");
@@ -223,8 +223,8 @@ TEST_F(Medit, RefusesWithThePlace) {
   expect("bad.mesh", "solid", "no MeshVersionFormatted");
   expect("bad.mesh", "", "");
   std::string bytes = ImportedFile(3, false).bytes;
-  bytes[24 + 0] = 10;
-  expect("bad.meshb", bytes, "byte 24: there are 1 Hexahedra");
+  bytes[24 + 0] = 46;
+  expect("bad.meshb", bytes, "byte 24: there are 1 Polyhedra");
   expect("bad.meshb", bytes.substr(0, 20), "the file ends here");
   bytes = ImportedFile(3, false).bytes;
   bytes[4] = 5;

@@ -58,10 +58,10 @@ def run_as_written(case):
 def check(case, ranks, zone):
     text = call(case, ranks, "checkMesh", "-allTopology")
     assert "Mesh OK." in text and "***" not in text, text
-    for pattern in (r"cells: +156\n", r"prisms: +32\n", r"pyramids: +20\n", r"tetrahedra: +104\n",
-                    r"wing___lower_side +36 ", r"symmetry_patch +13 ", r"far_field +77 ", rf"interface +{zone} ",
-                    r"lower_layer +60 ", r"upper +96 ", r"Upper triangular ordering OK",
-                    r"Total volume = 108.0703125"):
+    for pattern in (r"cells: +160\n", r"hexahedra: +4\n", r"prisms: +32\n", r"pyramids: +20\n", r"tetrahedra: +104\n",
+                    r"wing___lower_side +40 ", r"symmetry_patch +13 ", r"far_field +83 ", rf"interface +{zone} ",
+                    r"lower_layer +64 ", r"upper +96 ", r"Upper triangular ordering OK",
+                    r"Total volume = 120.078125"):
         assert re.search(pattern, text), f"{case}: no '{pattern}' in\n{text}"
 
 

@@ -58,7 +58,7 @@ TEST(FoamFacesLocal, InnerFacesAreUpperTriangularAndPatchesFollow) {
       expected += static_cast<std::size_t>(patch.count);
     EXPECT_EQ(order.faces.size(), expected);
   }
-  const GlobalIndex sides = 4 * 104 + 5 * 20 + 5 * 32, boundary = 36 + 13 + 77;
+  const GlobalIndex sides = 4 * 104 + 5 * 20 + 5 * 32 + 6 * 4, boundary = 40 + 13 + 83;
   EXPECT_EQ(plan.faces, (sides - boundary) / 2 + boundary);
 }
 

@@ -9,18 +9,19 @@ import tempfile
 
 import numpy as np
 
-COUNTS = {"tetra": 104, "pyramid": 20, "wedge": 32}
-POINTS = 25 * 3 + 10 + 4
-VOLUME = 36 * (2 * 1.5 + 0.25 * 0.125 * 0.0625)
-# Triangles and quadrilaterals by patch. The wall below has the prisms' bases and the cubes'; the plane of symmetry
-# two triangles a square above prisms and a cube; far away: sides x = 0 and y = 4, the top of both slabs' parts, the
-# cubes' split sides and the upper slab's side above them.
-PATCHES = [(2 * 16, 4), (2 * 4, 4 + 1), (2 * 4 + 2 * 4 + 2 * 16 + 2 * 4 + 2 * 4, 4 + 4 + 1 + 4)]
+COUNTS = {"tetra": 104, "pyramid": 20, "wedge": 32, "hexahedron": 4}
+POINTS = 25 * 3 + 10 + 4 + 10
+VOLUME = 40 * (2 * 1.5 + 0.25 * 0.125 * 0.0625)
+# Triangles and quadrilaterals by patch. The wall below has the prisms' bases, the cubes' and the hexahedra's; the
+# plane of symmetry two triangles a square above prisms and a cube; far away: sides x = 0 and y = 4, the top of both
+# slabs' parts, the cubes' split sides and the upper slab's side above them, sides, tops and both ends of the hexahedra.
+PATCHES = [(2 * 16, 4 + 4), (2 * 4, 4 + 1), (2 * 4 + 2 * 4 + 2 * 16 + 2 * 4 + 2 * 4, 4 + 1 + 4 + 4 + 4 + 2)]
 # Faces of cells with normals outward, of the convention that CGNS has; and where corner k of it stands in VTK's.
 FACES = {
     "tetra": [(1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1)],
     "pyramid": [(0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)],
     "wedge": [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
+    "hexahedron": [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
 }
 VTK_WEDGE = [0, 2, 1, 3, 5, 4]
 

@@ -9,7 +9,7 @@ import numpy as np
 import solver_oracle
 
 NAMES = ["wing___lower_side", "symmetry", "far_field"]
-SHAPES = {10: ("tetra", 4), 14: ("pyramid", 5), 13: ("wedge", 6)}
+SHAPES = {10: ("tetra", 4), 14: ("pyramid", 5), 13: ("wedge", 6), 12: ("hexahedron", 8)}
 
 
 def by_meshio(folder):

@@ -30,12 +30,12 @@ def by_specification(folder):
             points = np.fromfile(file, real, 3 * counts[0]).reshape(-1, 3)
             faces = [np.fromfile(file, integer, n * k).reshape(-1, k) - 1 for n, k in ((counts[1], 3), (counts[2], 4))]
             ids = [np.fromfile(file, integer, n) for n in counts[1:3]]
-            tets, pyramids, prisms = (
-                np.fromfile(file, integer, n * k).reshape(-1, k) - 1 for n, k in zip(counts[3:6], (4, 5, 6)))
-            assert counts[6] == 0 and not file.read(1), suffix
+            tets, pyramids, prisms, hexahedra = (
+                np.fromfile(file, integer, n * k).reshape(-1, k) - 1 for n, k in zip(counts[3:7], (4, 5, 6, 8)))
+            assert not file.read(1), suffix
         for of_shape in ids:
             assert (np.diff(of_shape) >= 0).all(), "faces are sorted by patch"
-        cells = {"tetra": tets, "pyramid": pyramids[:, BASE_AND_APEX], "wedge": prisms}
+        cells = {"tetra": tets, "pyramid": pyramids[:, BASE_AND_APEX], "wedge": prisms, "hexahedron": hexahedra}
         solver_oracle.check(f"specification {suffix}", points, cells, split(faces, ids))
 
 
@@ -60,7 +60,7 @@ def by_aflr3_to_cgns(folder):
     subprocess.run(["aflr3_to_cgns", folder / "mixed.b8.ugrid", cgns], check=True, stdout=subprocess.PIPE)
     found = subprocess.run(["cgnscheck", "-v", cgns], check=True, stdout=subprocess.PIPE, text=True).stdout
     assert "ERROR" not in found, found
-    assert "Vertex Size=[89]" in found and "Cell Size=[156]" in found, found
+    assert "Vertex Size=[99]" in found and "Cell Size=[160]" in found, found
     faces = re.findall(r"\[internal,external\] Faces=\[(\d+),(\d+)\]", found)
     wanted = [("0", str(patch[shape])) for shape in range(2) for patch in solver_oracle.PATCHES]
     assert faces == wanted, faces  # all of them are faces of one cell

@@ -28,8 +28,9 @@ void read(const parallel::Communicator& world, const std::string& file) {
               static_cast<long long>(read.turned_cells), static_cast<long long>(read.unnamed_faces));
   for (std::size_t r = 0; r < read.mesh.regions.size(); ++r) {
     const auto& cells = read.mesh.region_cells[r];
-    std::printf("region %s: %lld %lld %lld\n", read.mesh.regions[r].c_str(), static_cast<long long>(cells[0]),
-                static_cast<long long>(cells[1]), static_cast<long long>(cells[2]));
+    std::printf("region %s: %lld %lld %lld %lld\n", read.mesh.regions[r].c_str(),
+                static_cast<long long>(cells[0]), static_cast<long long>(cells[1]),
+                static_cast<long long>(cells[2]), static_cast<long long>(cells[3]));
   }
   for (std::size_t p = 0; p < read.mesh.patches.size(); ++p) {
     const auto& faces = read.mesh.patch_faces[p];

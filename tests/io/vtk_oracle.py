@@ -21,10 +21,11 @@ SQUARES = 4
 PRISMS = 2 * SQUARES**2
 PYRAMIDS = 5 * SQUARES
 TETRAHEDRA = 3 * 2 * SQUARES**2 + 2 * SQUARES
-# A slab of two layers and a row of cubes, under an affine map of this determinant.
+HEXAHEDRA = SQUARES
+# A slab of two layers, a row of cubes and one of hexahedra, under an affine map of this determinant.
 DETERMINANT = numpy.linalg.det([[2, 0.25, 0], [0, 1.5, 0.125], [0.0625, 0, 1]])
 VOLUMES = {10: (SQUARES**2 + SQUARES / 6) * DETERMINANT, 13: SQUARES**2 * DETERMINANT,
-           14: SQUARES * 5 / 6 * DETERMINANT}
+           14: SQUARES * 5 / 6 * DETERMINANT, 12: SQUARES * DETERMINANT}
 
 
 def require(condition, what):
@@ -53,7 +54,7 @@ def check_volume(path):
     sizes.Update()
     volume = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))
     kinds = vtk_to_numpy(grid.GetCellTypesArray())
-    for kind, count in ((10, TETRAHEDRA), (13, PRISMS), (14, PYRAMIDS)):
+    for kind, count in ((10, TETRAHEDRA), (13, PRISMS), (14, PYRAMIDS), (12, HEXAHEDRA)):
         require((kinds == kind).sum() == count, f"{path}: {count} cells of type {kind}")
         require(volume[kinds == kind].min() > 0, f"{path}: cells of type {kind} have positive volume")
         require(abs(volume[kinds == kind].sum() - VOLUMES[kind]) < 1e-10, f"{path}: volume of type {kind}")
@@ -111,14 +112,14 @@ def check_meshio(folder, grid):
     """The cells of our file, as meshio writes them: binary and text, with a physical group per kind."""
     points = vtk_to_numpy(grid.GetPoints().GetData())
     cells, groups = {}, {}
-    for name, kind, group in (("tetra", 10, 7), ("wedge", 13, 3), ("pyramid", 14, 3)):
+    for name, kind, group in (("tetra", 10, 7), ("wedge", 13, 3), ("pyramid", 14, 3), ("hexahedron", 12, 3)):
         cells[name] = numpy.array([[grid.GetCell(i).GetPointId(k) for k in range(grid.GetCell(i).GetNumberOfPoints())]
                                    for i in range(grid.GetNumberOfCells()) if grid.GetCellType(i) == kind])
         if name == "wedge":  # meshio has Gmsh's order and turns it on writing
             cells[name] = cells[name][:, [0, 2, 1, 3, 5, 4]]
         groups[name] = numpy.full(len(cells[name]), group)
     mesh = meshio.Mesh(points, list(cells.items()), cell_data={"gmsh:physical": list(groups.values())})
-    expected = [f"region volume_3: 0 {PYRAMIDS} {PRISMS}", f"region volume_7: {TETRAHEDRA} 0 0"]
+    expected = [f"region volume_3: 0 {PYRAMIDS} {PRISMS} {HEXAHEDRA}", f"region volume_7: {TETRAHEDRA} 0 0 0"]
     for name, options in (("a.vtu", {"binary": True}), ("b.vtu", {"binary": False}),
                           ("c.vtu", {"compression": "lzma"}), ("d.vtk", {"binary": True}),
                           ("e.vtk", {"binary": False})):

@@ -67,8 +67,8 @@ void expect_whole(const Assembled& read, const examples::MixedMesh& whole) {
   EXPECT_EQ(read.turned_cells, 0);
   EXPECT_EQ(read.dropped_points, 0);
   ASSERT_EQ(read.mesh.regions.size(), 2U);
-  EXPECT_EQ(read.mesh.region_cells[0], (std::array<GlobalIndex, 3>{8, 20, 32}));
-  EXPECT_EQ(read.mesh.region_cells[1], (std::array<GlobalIndex, 3>{96, 0, 0}));
+  EXPECT_EQ(read.mesh.region_cells[0], (std::array<GlobalIndex, 4>{8, 20, 32, 4}));
+  EXPECT_EQ(read.mesh.region_cells[1], (std::array<GlobalIndex, 4>{96, 0, 0, 0}));
 }
 
 void expect_patches(const Assembled& read) {
@@ -76,7 +76,7 @@ void expect_patches(const Assembled& read) {
   EXPECT_EQ(read.mesh.patches[0].name, "patch_100");
   EXPECT_EQ(read.mesh.patches[2].name, "patch_102");
   EXPECT_EQ(read.mesh.patches[3].type, mesh::PatchType::interior) << "found, not in the file";
-  EXPECT_EQ(read.mesh.patch_faces[0], (std::array<GlobalIndex, 2>{32, 4}));
+  EXPECT_EQ(read.mesh.patch_faces[0], (std::array<GlobalIndex, 2>{32, 8}));
   EXPECT_EQ(read.unnamed_faces, read.mesh.patch_faces[3][0]);
 }
 
@@ -124,7 +124,7 @@ TEST_F(VtkReader, APartWithoutPointsHasFacesOfOthers) {
   expect_whole(result, whole);
   ASSERT_EQ(result.mesh.patches.size(), 4U);
   EXPECT_EQ(result.mesh.patches[0].name, "shell_0");
-  EXPECT_EQ(result.mesh.patch_faces[0], (std::array<GlobalIndex, 2>{32, 4}));
+  EXPECT_EQ(result.mesh.patch_faces[0], (std::array<GlobalIndex, 2>{32, 8}));
   EXPECT_EQ(result.left_out_faces, 0);
 }
 
@@ -173,7 +173,7 @@ TEST_F(VtkReader, LeavesOutGhostsPointsAndLines) {
 }
 
 TEST_F(VtkReader, SaysWhichKindOfCellItCannotTake) {
-  const std::vector<std::pair<int, int>> others = {{VTK_HEXAHEDRON, 8},
+  const std::vector<std::pair<int, int>> others = {{VTK_PENTAGONAL_PRISM, 10},
                                                    {VTK_VOXEL, 8},
                                                    {VTK_QUADRATIC_TETRA, 10},
                                                    {VTK_POLYGON, 5},

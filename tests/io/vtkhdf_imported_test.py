@@ -212,7 +212,7 @@ def cells_of_other_kinds(t):
         corners = cell + corners
         offsets = [0] + [o + len(cell) for o in offsets]
     t.expect(t.make("lines", t.single(grid["Points"], corners, offsets, types)), t.has_sizes)
-    for kind, count, word in ((12, 8, "a hexahedron"), (24, 10, "higher order"), (42, 4, "a polyhedron")):
+    for kind, count, word in ((11, 8, "a voxel"), (24, 10, "higher order"), (42, 4, "a polyhedron")):
         other = t.single(grid["Points"], corners + list(range(count)), offsets + [offsets[-1] + count], types + [kind])
         t.refused(t.make(f"kind_{kind}", other), f"cell {len(types)} is", word)
     short = t.single(grid["Points"], corners + [0, 1, 2], offsets + [offsets[-1] + 3], types + [10])

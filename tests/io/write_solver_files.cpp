@@ -1,4 +1,4 @@
-/// Writes a hand-made mesh of tetrahedra, pyramids and prisms to a folder in the formats of solvers, for
+/// Writes a hand-made mesh of cells of all shapes to a folder in the formats of solvers, for
 /// programs of others to read. usage: write_solver_files FOLDER
 #include "io/su2/su2_writer.hpp"
 #include "io/ugrid/ugrid_writer.hpp"

@@ -1,9 +1,10 @@
-/// A hand-made mesh of tetrahedra, pyramids and prisms, for all that takes such: the same for any number of
-/// ranks, piece p on rank p % size.
+/// A hand-made mesh of tetrahedra, pyramids, prisms and hexahedra, for all that takes such: the same for any
+/// number of ranks, piece p on rank p % size.
 ///
 /// A slab of n by n squares, one high, is cut into prisms (region "lower layer"); on it lies another one, of
 /// tetrahedra (region "upper"). Beside the first one stands a row of n cubes, each of five pyramids around
-/// its middle and, on the far side, two tetrahedra. An affine map makes all of it oblique.
+/// its middle and, on the far side, two tetrahedra; on another side a row of n hexahedra. An affine map makes
+/// all of it oblique.
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
@@ -88,6 +89,7 @@ private:
 
   void add_slabs(SquareColumns columns) {
     for (int i = columns.first; i < std::min(columns.last, _n); ++i) {
+      add_hexahedron(i);
       for (int j = 0; j < _n; ++j) {
         for (const bool upper : {false, true}) {
           // The two ways round a square, along its diagonal.
@@ -110,6 +112,15 @@ private:
         }
       }
     }
+  }
+
+  void add_hexahedron(int i) {
+    std::vector<int> corners;
+    for (const int k : {0, 1}) {
+      for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+        corners.push_back(corner(i + x, _n + y, k));
+    }
+    add(CellShape::hexahedron, corners, 0, i);
   }
 
   /// Three tetrahedra; diagonals rise from the point of the lower id, so that neighbours agree whatever other
@@ -244,7 +255,7 @@ public:
     const auto add = [&](const std::vector<int>& corners, std::vector<LocalIndex>& to) {
       for (const int v : corners) to.push_back(local.at(v));
     };
-    std::vector<LocalIndex>* const cells[] = {&piece.cells, &piece.pyramids, &piece.prisms};
+    std::vector<LocalIndex>* const cells[] = {&piece.cells, &piece.pyramids, &piece.prisms, &piece.hexahedra};
     LocalIndex count = 0;
     for (const CellShape shape : cell_shapes) {
       for (std::int32_t region = 0; region < static_cast<std::int32_t>(_whole.regions.size()); ++region) {

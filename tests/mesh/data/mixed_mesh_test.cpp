@@ -1,4 +1,4 @@
-// All that the distributed mesh does, on a mesh of tetrahedra, pyramids and prisms.
+// All that the distributed mesh does, on a mesh of all shapes of cells.
 #include "tests/meshes/mixed_mesh.hpp"
 
 #include "mesh/checks/validity.hpp"
@@ -39,9 +39,11 @@ TEST(MixedMesh, IsNumberedByPieceThenShape) {
     EXPECT_EQ(numbered.numbering.first_cell[i], before);
   }
   const MeshCounts counts = count_mesh(numbered);
-  EXPECT_EQ(counts.cells, 32 + 20 + 104);
+  EXPECT_EQ(counts.cells, 4 + 32 + 20 + 104);
   EXPECT_EQ(counts.pyramids, 20);
   EXPECT_EQ(counts.prisms, 32);
+  EXPECT_EQ(counts.hexahedra, 4);
+  EXPECT_EQ(counts.of(CellShape::tetrahedron), 104);
   EXPECT_EQ(counts.inner_triangles, 32);
   EXPECT_EQ(counts.inner_quads, 0);
   GlobalIndex triangles = 0, quads = 0;
@@ -98,6 +100,7 @@ TEST(MixedMeshLocal, EveryPartOfThePiecesCountsInTheHash) {
   };
   expect_other("pyramids", [](Piece& piece) { std::swap(piece.pyramids[0], piece.pyramids[1]); });
   expect_other("prisms", [](Piece& piece) { std::swap(piece.prisms[3], piece.prisms[4]); });
+  expect_other("hexahedra", [](Piece& piece) { std::swap(piece.hexahedra[0], piece.hexahedra[7]); });
   expect_other("quads", [](Piece& piece) { std::swap(piece.quads[0], piece.quads[1]); });
   expect_other("quad_face", [](Piece& piece) { piece.quad_face[0] ^= 1; });
   expect_other("quad_patch", [](Piece& piece) { piece.quad_patch[0] ^= 1; });
@@ -106,6 +109,10 @@ TEST(MixedMeshLocal, EveryPartOfThePiecesCountsInTheHash) {
                [](Piece& piece) { piece.vertex_dimension = {}, piece.vertex_entity = {}; });
   expect_other("a prism less", [](Piece& piece) {
     piece.prisms.resize(piece.prisms.size() - 6);
+    piece.runs.back().end -= 1;
+  });
+  expect_other("a hexahedron less", [](Piece& piece) {
+    piece.hexahedra.resize(piece.hexahedra.size() - 8);
     piece.runs.back().end -= 1;
   });
 }
@@ -122,9 +129,9 @@ TEST(MixedMesh, MigratesAndPacksBitForBit) {
       EXPECT_EQ(owner[piece.id], world.rank());
       EXPECT_EQ(parallel::to_wire(parallel::from_wire<Piece>(parallel::to_wire(piece))),
                 parallel::to_wire(piece));
-      EXPECT_GE(
-          bytes_at_rest(piece),
-          static_cast<std::int64_t>(4 * (piece.pyramids.size() + piece.prisms.size() + piece.quads.size())));
+      EXPECT_GE(bytes_at_rest(piece),
+                static_cast<std::int64_t>(4 * (piece.pyramids.size() + piece.prisms.size() +
+                                               piece.hexahedra.size() + piece.quads.size())));
     }
     EXPECT_EQ(hash_of(mesh), hash);
   }
@@ -139,6 +146,8 @@ TEST(MixedMeshLocal, ArraysThatDoNotFitAreRefused) {
   };
   expect_refused("incomplete pyramid", [](Piece& piece) { piece.pyramids.pop_back(); });
   expect_refused("incomplete prism", [](Piece& piece) { piece.prisms.push_back(0); });
+  expect_refused("incomplete hexahedron", [](Piece& piece) { piece.hexahedra.pop_back(); });
+  expect_refused("vertex of a hexahedron", [](Piece& piece) { piece.hexahedra[7] = piece.vertex_count(); });
   expect_refused("vertex of a prism", [](Piece& piece) { piece.prisms[0] = piece.vertex_count(); });
   expect_refused("vertex of a pyramid", [](Piece& piece) { piece.pyramids[0] = -1; });
   expect_refused("vertex of a quadrilateral", [](Piece& piece) { piece.quads[0] = piece.vertex_count(); });
@@ -162,8 +171,8 @@ TEST(MixedMesh, IsValidOnAnyRanksHoweverCut) {
   for (const int pieces : {1, 3, 5}) {
     const ValidityReport report = check(examples::mixed_mesh(world, 4, pieces));
     EXPECT_TRUE(report.valid()) << report.violations.front();
-    EXPECT_NEAR(report.volume, 36 * determinant, 1e-10);
-    EXPECT_NEAR(report.surface_volume, 36 * determinant, 1e-10);
+    EXPECT_NEAR(report.volume, 40 * determinant, 1e-10);
+    EXPECT_NEAR(report.surface_volume, 40 * determinant, 1e-10);
     EXPECT_NEAR(report.region_volumes.at(1), 16 * determinant, 1e-10);
   }
 }
@@ -257,6 +266,15 @@ TEST(MixedMeshLocal, AFoldedPrismOfPositiveVolumeIsFoundOut) {
       << report.violations[0];
 }
 
+TEST(MixedMeshLocal, AFoldedHexahedronOfPositiveVolumeIsFoundOut) {
+  std::array<geometry::Vec3, 8> hexahedron = {
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+  EXPECT_TRUE(has_positive_corners(CellShape::hexahedron, hexahedron.data()));
+  hexahedron[6] = {1, 1, -0.1};
+  EXPECT_GT(cell_volume(CellShape::hexahedron, hexahedron.data()), 0);
+  EXPECT_FALSE(has_positive_corners(CellShape::hexahedron, hexahedron.data()));
+}
+
 TEST(MixedMesh, VolumesOfWarpedQuadrilateralsAddUp) {
   // Lower prisms and pyramids beside each other, all inner vertices moved: quadrilaterals warp.
   const Communicator world = Communicator::world();
@@ -302,6 +320,7 @@ TEST(MixedMesh, IsTheSameMeshInOtherPieces) {
     const MeshCounts now = count_mesh(cut);
     EXPECT_EQ(now.vertices, counts.vertices);
     EXPECT_EQ(now.pyramids, counts.pyramids);
+    EXPECT_EQ(now.hexahedra, counts.hexahedra);
     EXPECT_EQ(now.boundary_quads, counts.boundary_quads);
     EXPECT_EQ(now.inner_triangles, counts.inner_triangles);
     const ValidityReport report = check_volume_mesh(cut, nullptr);
