@@ -18,9 +18,9 @@ struct ValidityReport {
   bool valid() const { return violations.empty(); }
 };
 
-/// Checks a volume mesh of any cells: positive volumes (tetrahedra exactly; pyramids, prisms and hexahedra by their
-/// bilinear volume, and exactly at their corners), every face in one cell plus one boundary face of an outer
-/// CAD face or in two cells, and there with one boundary face of an inner CAD face wherever the cells'
+/// Checks a volume mesh of any cells: positive volumes (tetrahedra exactly; pyramids, prisms and hexahedra by
+/// their bilinear volume, and exactly at their corners), every face in one cell plus one boundary face of an
+/// outer CAD face or in two cells, and there with one boundary face of an inner CAD face wherever the cells'
 /// regions differ and on baffles alone where not, boundary faces between the regions of their CAD face, a
 /// closed boundary around each region, no orphan vertices, identical coordinates of shared vertices, equal
 /// volumes of each region (1e-10), a patch and a CAD face for every boundary face, and, when `surface` is
