@@ -5,8 +5,8 @@ usage: layers.py FOLDER [--program PROGRAM] [--arbiter CHECKER] [--classes AB] [
                  [--page FILE [--section HEADING]]
 
 FOLDER is as in real_cad.py. First height 1e-5 of the longest side of the file's box, growth 1.2, until the last layer is about
-isotropic, N tetrahedra aimed at (default 40,000). Area: percent of the walls whose columns have all layers, none, and the limit that
-keeps most of the rest. CHECKER is an independent checker of mixed meshes, called as `CHECKER mesh.pvtu --surface surface.pvtp --walls
+isotropic, N tetrahedra aimed at (default 300,000), those of layers included. Area: percent of the walls whose columns have all layers, a
+last layer of at least 0.35 of the mean edge, no layers, and the limit that keeps most of the rest. CHECKER is an independent checker of mixed meshes, called as `CHECKER mesh.pvtu --surface surface.pvtp --walls
 WALLS`, WALLS the surface of a run without layers and without improvement.
 """
 import argparse
@@ -56,8 +56,13 @@ def main_limit(layers):
     return max(areas, key=areas.get) if areas and max(areas.values()) > 0 else "–"
 
 
+def isotropic_part(layers):
+    area = sum(patch["area"] for patch in layers["patches"])
+    return sum(patch["isotropic"] * patch["area"] for patch in layers["patches"]) / area if area > 0 else 0
+
+
 def cells_of(options, file, folder):
-    """The part of the walls with all layers, None where there is no mesh, and the cells of the table."""
+    """The parts of the walls with all layers and with a high last one, None where there is no mesh; the cells of the table."""
     case = folder / "case.yaml"
     case.write_text(f"geometry: {{file: '{file.resolve()}'}}\nsizing: {{target_tetrahedra: {options.target}}}\n")
     start = time.monotonic()
@@ -65,13 +70,14 @@ def cells_of(options, file, folder):
     seconds = time.monotonic() - start
     if done.returncode != 0:
         message = next((line for line in done.stderr.splitlines() if "error" in line), "").split("error", 1)[-1]
-        return None, (file.name, *"––––––", f"{seconds:.0f}", f"{done.returncode}: {message[2:100]}")
+        return None, (file.name, *"–––––––", f"{seconds:.0f}", f"{done.returncode}: {message[2:100]}")
     report = json.loads((folder / "out" / "report.json").read_text())
     layers, mesh = report["layers"], report["mesh"]
     valid = verdict(options, folder, case) if options.arbiter else "–"
-    return layers["full"], (file.name, f"{mesh['prisms']:,}", f"{mesh['tetrahedra']:,}", f"{100 * layers['full']:.1f}",
-                            f"{100 * layers['empty']:.1f}", f"{report['quality']['min_dihedral_deg']:.1f}", valid, f"{seconds:.0f}",
-                            main_limit(layers))
+    isotropic = isotropic_part(layers)
+    areas = [f"{100 * part:.1f}" for part in (layers["full"], isotropic, layers["empty"])]
+    return (layers["full"], isotropic), (file.name, f"{mesh['prisms']:,}", f"{mesh['tetrahedra']:,}", *areas,
+                                         f"{report['quality']['min_dihedral_deg']:.1f}", valid, f"{seconds:.0f}", main_limit(layers))
 
 
 def main():
@@ -80,26 +86,27 @@ def main():
     parser.add_argument("--program", default="build/release/bin/aeroloom")
     parser.add_argument("--arbiter")
     parser.add_argument("--classes", default="AB")
-    parser.add_argument("--target", type=int, default=40_000)
+    parser.add_argument("--target", type=int, default=300_000)
     parser.add_argument("--scratch")
     add_page_option(parser)
     parser.add_argument("--section", default="CAD", help="heading of the table on the page")
     options = parser.parse_args()
     classes = read_classes(options.folder)
     files = sorted(f for f in options.folder.rglob("*") if f.suffix.lower() in SUFFIXES and classes.get(f.name, "A") in options.classes)
-    table = PrintedTable(options.section, ("file", "prisms", "tetrahedra", "all layers, %", "none, %", "least angle", "valid", "s",
-                                           "mostly limited by"))
+    table = PrintedTable(options.section, ("file", "prisms", "tetrahedra", "all layers, %", "high last layer, %", "none, %",
+                                           "least angle", "valid", "s", "mostly limited by"))
     covered = []
     for file in files:
         with tempfile.TemporaryDirectory(dir=options.scratch) as folder:
             try:
-                full, cells = cells_of(options, file, pathlib.Path(folder))
+                parts, cells = cells_of(options, file, pathlib.Path(folder))
             except (subprocess.TimeoutExpired, subprocess.CalledProcessError, KeyError) as error:
-                full, cells = None, (file.name, *"–––––––", type(error).__name__)
-        covered += [] if full is None else [full]
+                parts, cells = None, (file.name, *"––––––––", type(error).__name__)
+        covered += [] if parts is None else [parts]
         table.add(*cells)
-    median = f"{100 * statistics.median(covered):.1f} %" if covered else "unknown"
-    note = f"{len(covered)} of {len(files)} files have a mesh; median of the area with all layers: {median}."
+    medians = [f"{100 * statistics.median(values):.1f} %" for values in zip(*covered)] or ["unknown", "unknown"]
+    note = (f"{len(covered)} of {len(files)} files have a mesh; median of the area with all layers: {medians[0]}, "
+            f"with a high last layer: {medians[1]}.")
     print(f"\n{note}")
     table.save(options.page, note)
 

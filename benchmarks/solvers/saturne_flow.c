@@ -49,7 +49,8 @@ static void change_options(cs_field_t* field, cs_real_t upwind) {
   const int key = cs_field_key_id("var_cal_opt");
   cs_var_cal_opt_t options;
   cs_field_get_key_struct(field, key, &options);
-  options.epsilo = 1e-5; /* 1e-8 by default; 1e-3 leaves pressure as it was */
+  options.epsilo = 1e-5;                       /* 1e-8 by default; 1e-3 leaves pressure as it was */
+  if (field == CS_F_(p)) options.relaxv = 0.3; /* 1 less that of the others by default */
   if (field != CS_F_(p)) {
     options.imligr =
         1; /* gradients limited by those of neighbours: without, second order dies within ten iterations */
@@ -62,8 +63,9 @@ static void change_options(cs_field_t* field, cs_real_t upwind) {
 
 void cs_user_parameters(cs_domain_t* domain) {
   cs_time_step_options_t* options = cs_get_glob_time_step_options();
-  options->idtvar = -1; /* steady */
-  options->relxst = 0.7;
+  options->idtvar = -1;   /* steady */
+  options->relxst = 0.85; /* with 0.7, the default, lift about NACA 0012 is 7 % below that of OpenFOAM after
+                             300 iterations, and still rises */
   domain->time_step->nt_max = ITERATIONS;
   cs_fluid_properties_t* fluid = cs_get_glob_fluid_properties();
   fluid->ro0 = 1;
