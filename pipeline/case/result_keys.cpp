@@ -33,9 +33,9 @@ void declare_gate(KeyTable& keys, QualityGate& gate) {
                "none", "20"});
   keys.number("largest_edge_ratio", gate.largest_edge_ratio, Range::between(1, mesh::largest_ratio),
               {"Largest ratio of the longest to the shortest edge of a cell.", "none", "20"});
-  keys.number(
-      "min_scaled_jacobian", gate.min_scaled_jacobian, Range::between(-1, 1),
-      {"Least scaled Jacobian of pyramids, prisms and hexahedra; it holds for meshes that have them.", "none", "0.1"});
+  keys.number("min_scaled_jacobian", gate.min_scaled_jacobian, Range::between(-1, 1),
+              {"Least scaled Jacobian of pyramids, prisms and hexahedra; it holds for meshes that have them.",
+               "none", "0.1"});
   keys.number(
       "largest_non_orthogonality", gate.largest_non_orthogonality, Range::between(0, 180, "degrees"),
       {"Largest angle between the normal of a face and the line of the centres of its cells, as "
