@@ -5,9 +5,10 @@ usage: layers.py FOLDER [--program PROGRAM] [--arbiter CHECKER] [--classes AB] [
                  [--page FILE [--section HEADING]]
 
 FOLDER is as in real_cad.py. First height 1e-5 of the longest side of the file's box, growth 1.2, until the last layer is about
-isotropic, N tetrahedra aimed at (default 300,000), those of layers included. Area: percent of the walls whose columns have all layers, a
-last layer of at least 0.35 of the mean edge, no layers, and the limit that keeps most of the rest. CHECKER is an independent checker of mixed meshes, called as `CHECKER mesh.pvtu --surface surface.pvtp --walls
-WALLS`, WALLS the surface of a run without layers and without improvement.
+isotropic, N cells aimed at (default 300,000), those of layers included. Area: percent of the walls whose columns have all layers, a last
+layer of at least 0.35 of the mean edge, no layers, and the limit that keeps most of the rest. CHECKER is an independent checker of mixed
+meshes, called as `CHECKER mesh.pvtu --surface surface.pvtp --walls WALLS`, WALLS the surface of a run without layers and without
+improvement.
 """
 import argparse
 import json
