@@ -153,7 +153,8 @@ inline LocalIndex first_cell(const Piece& piece, CellShape shape) {
 /// of a cell, for the number of cells that of all sides.
 inline std::size_t first_side(const Piece& piece, LocalIndex cell) {
   if (cell <= piece.cell_count()) return 4 * static_cast<std::size_t>(cell);
-  const LocalIndex beyond = std::max(0, cell - first_cell(piece, CellShape::hexahedron));
+  const LocalIndex beyond =
+      piece.hexahedra.empty() ? 0 : std::max(0, cell - first_cell(piece, CellShape::hexahedron));
   return 5 * static_cast<std::size_t>(cell) - static_cast<std::size_t>(piece.cell_count() - beyond);
 }
 /// A cell and one of its faces.
