@@ -1,7 +1,9 @@
 // What the cells of boundary layers are like, measured from columns alone, for benchmarks.
 #pragma once
 
+#include "layers/cap_layout.hpp"
 #include "layers/columns.hpp"
+#include "layers/layer_shapes.hpp"
 #include "mesh/quality/cell_measures.hpp"
 
 #include <algorithm>
@@ -23,12 +25,15 @@ struct LayerFigures {
                const layers::LayerOptions& options) {
     for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
       const mesh::Piece& piece = wall.pieces[p];
+      const layers::PieceColumns& columns = made.columns.pieces[p];
+      const mesh::Piece& cap = made.cap.pieces[p];
       for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-        const mesh::LocalIndex* v = piece.cell(t);
-        add_triangle(piece, made.columns.pieces[p], {v[0], v[2], v[1]},
-                     options.patches[piece.triangle_patch[t]].first);
-        between += enclosed(piece, v) - enclosed(made.cap.pieces[p], v);
+        const auto& [a, b, c] = columns.corner_columns[t];
+        add_triangle(piece, columns, {a, c, b}, options.patches[piece.triangle_patch[t]].first);
+        between += enclosed(piece, piece.cell(t));
       }
+      for (mesh::LocalIndex t = 0; t < cap.cell_count(); ++t) between -= enclosed(cap, cap.cell(t));
+      add_fans(piece, cap, columns);
     }
   }
   /// The value that a share of all are not above.
@@ -51,13 +56,37 @@ private:
       jacobians.push_back(
           mesh::measure_cell(shape, corners)[static_cast<std::size_t>(mesh::Measure::scaled_jacobian)]);
   }
+  void add_fans(const mesh::Piece& piece, const mesh::Piece& cap, const layers::PieceColumns& columns) {
+    const layers::CapLayout layout = layers::lay_out_cap(piece, columns);
+    for (std::size_t f = 0; f < columns.fan_faces.size(); ++f) {
+      const layers::FanFace& face = columns.fan_faces[f];
+      const int other = face.is_sector() ? 2 : 0;
+      const layers::LayersOverFan over{face.is_sector(),
+                                       {columns.counts[columns.vertex_of(face.columns[0])],
+                                        columns.counts[columns.vertex_of(face.columns[other])]}};
+      const auto at = [&](int i, std::int32_t k) { return layers::node(piece, columns, face.columns[i], k); };
+      for (std::int32_t k = 1; k <= std::max(over.counts[0], over.counts[1]); ++k) {
+        layers::visit_layer(over, k, [&](mesh::CellShape shape, const auto& nodes) {
+          std::array<geometry::Vec3, 8> corners;
+          for (std::size_t i = 0; i < nodes.size(); ++i) corners[i] = at(nodes[i].corner, nodes[i].level);
+          add_cell(shape, corners.data());
+        });
+      }
+      if (layout.apex_of_face[f] < 0) continue;
+      std::array<geometry::Vec3, 5> pyramid;
+      for (int i = 0; i < 4; ++i) pyramid[i] = at(i, over.counts[i / 2]);
+      pyramid[4] = cap.point(layout.apex_of_face[f]);
+      add_cell(mesh::CellShape::pyramid, pyramid.data());
+    }
+  }
+  /// Columns counter-clockwise seen from the fluid.
   void add_triangle(const mesh::Piece& piece, const layers::PieceColumns& columns,
-                    std::array<mesh::LocalIndex, 3> v, double first) {
+                    const std::array<std::int32_t, 3>& corners, double first) {
+    std::array<std::int32_t, 3> counts;
+    for (int i = 0; i < 3; ++i) counts[i] = columns.counts[columns.vertex_of(corners[i])];
     const auto at = [&](int i, std::int32_t k) {
-      return layers::node(piece, columns, v[i], std::min(k, columns.counts[v[i]]));
+      return layers::node(piece, columns, corners[i], std::min(k, counts[i]));
     };
-    const std::array<std::int32_t, 3> counts{columns.counts[v[0]], columns.counts[v[1]],
-                                             columns.counts[v[2]]};
     const std::int32_t most = *std::max_element(counts.begin(), counts.end());
     for (std::int32_t k = 1; k <= most; ++k) {
       const std::array<geometry::Vec3, 6> p{at(0, k - 1), at(1, k - 1), at(2, k - 1),

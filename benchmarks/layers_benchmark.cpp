@@ -62,6 +62,7 @@ layers::PatchLayers sum_of(const layers::LayerReport& report) {
     for (std::size_t i = 0; i < layers::layer_limit_count; ++i) sum.limited_area[i] += patch.limited_area[i];
     sum.triangles += patch.triangles, sum.prisms += patch.prisms;
     sum.pyramids += patch.pyramids, sum.tetrahedra += patch.tetrahedra;
+    sum.hexahedra += patch.hexahedra;
     sum.most_layers = std::max(sum.most_layers, patch.most_layers);
   }
   return sum;
@@ -103,21 +104,23 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   print_figures(communicator, {wall, layers, options});
   if (!communicator.is_root()) return;
   const layers::PatchLayers sum = sum_of(layers.report);
-  const auto cells = static_cast<double>(sum.prisms + sum.pyramids + sum.tetrahedra);
+  const auto cells = static_cast<double>(sum.prisms + sum.hexahedra + sum.pyramids + sum.tetrahedra);
   const auto percent = [&](double area) { return 100 * area / std::max(sum.area, 1e-300); };
   std::printf(
-      "RESULT ranks=%d triangles=%lld prisms=%lld pyramids=%lld tetrahedra=%lld cpu=%.3f cpu_max=%.3f "
+      "RESULT ranks=%d triangles=%lld prisms=%lld hexahedra=%lld pyramids=%lld tetrahedra=%lld cpu=%.3f "
+      "cpu_max=%.3f "
       "wall=%.3f "
       "cells_per_cpu_second=%.0f full=%.2f isotropic=%.2f partial=%.2f empty=%.2f "
       "layers_mean=%.1f "
       "layers_max=%lld validity_rounds=%d crossing_rounds=%d crossings=%lld zeroed=%lld hash=%s\n",
       communicator.size(), static_cast<long long>(sum.triangles), static_cast<long long>(sum.prisms),
-      static_cast<long long>(sum.pyramids), static_cast<long long>(sum.tetrahedra), cpu_used,
-      stage.cpu_seconds_max, stage.wall_seconds, cells / cpu_used, percent(sum.full_area),
-      percent(sum.isotropic_area), percent(sum.partial_area), percent(sum.empty_area),
-      sum.sums.layers / sum.area, static_cast<long long>(sum.most_layers), layers.report.validity_rounds,
-      layers.report.crossing_rounds, static_cast<long long>(layers.report.crossings),
-      static_cast<long long>(layers.report.zeroed_by_force), hash.c_str());
+      static_cast<long long>(sum.hexahedra), static_cast<long long>(sum.pyramids),
+      static_cast<long long>(sum.tetrahedra), cpu_used, stage.cpu_seconds_max, stage.wall_seconds,
+      cells / cpu_used, percent(sum.full_area), percent(sum.isotropic_area), percent(sum.partial_area),
+      percent(sum.empty_area), sum.sums.layers / sum.area, static_cast<long long>(sum.most_layers),
+      layers.report.validity_rounds, layers.report.crossing_rounds,
+      static_cast<long long>(layers.report.crossings), static_cast<long long>(layers.report.zeroed_by_force),
+      hash.c_str());
   std::printf("       limited, %% of the area:");
   for (const layers::LayerLimit limit : layers::all_layer_limits)
     std::printf(" %s=%.2f", std::string(layers::name_of(limit)).c_str(),

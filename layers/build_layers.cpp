@@ -3,9 +3,11 @@
 #include "layers/good_columns.hpp"
 #include "layers/layer_cap.hpp"
 #include "layers/layer_report.hpp"
+#include "layers/sectors.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -18,20 +20,25 @@ double ample_gap_of(const ColumnLimits& limits, std::int32_t v) {
   return ample_gap(limits.total(v), limits.mean_edge(v));
 }
 
-/// The balls that measure the gaps of columns. Only the lowest piece with a vertex needs one.
-std::vector<TouchingBall> balls_on(const LocalWall& wall, const Directions& directions,
+/// The balls that measure the gaps of columns. Only the lowest piece with a vertex needs them.
+std::vector<TouchingBall> balls_on(const LocalWall& wall, const Fans& fans, const Directions& directions,
                                    const ColumnLimits& limits) {
-  std::vector<TouchingBall> balls(wall.points.size());
+  std::vector<TouchingBall> balls(fans.column_count());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
     if (limits.count(v) == 0 || wall.owned[v] == 0) continue;
-    balls[v] = {wall.points[v], directions.most_normal[v], ample_gap_of(limits, v)};
+    for (std::int32_t c = fans.first[v]; c < fans.first[v + 1]; ++c)
+      balls[c] = {wall.points[v], directions.most_normal[c], ample_gap_of(limits, v)};
   }
   return balls;
 }
 
 /// Limits totals to the room in the gaps.
-void limit_by_gaps(const LocalWall& wall, const Directions& directions, ColumnLimits& limits) {
-  std::vector<double> gaps = find_gaps(wall, balls_on(wall, directions, limits));
+void limit_by_gaps(const LocalWall& wall, const Fans& fans, const Directions& directions,
+                   ColumnLimits& limits) {
+  const std::vector<double> of_columns = find_gaps(wall, balls_on(wall, fans, directions, limits));
+  std::vector<double> gaps(wall.points.size());
+  for (std::int32_t v = 0; v < wall.vertex_count(); ++v)
+    gaps[v] = *std::min_element(of_columns.begin() + fans.first[v], of_columns.begin() + fans.first[v + 1]);
   wall.spread(gaps);
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
   for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
@@ -39,6 +46,60 @@ void limit_by_gaps(const LocalWall& wall, const Directions& directions, ColumnLi
     totals[v] = room_in_gap(gaps[v], limits.mean_edge(v), directions.visibility[v]);
   }
   limits.limit_totals(std::move(totals), LayerLimit::gap);
+}
+
+/// Columns as limits leave them.
+struct LimitedColumns {
+  Fans fans;
+  Directions directions;
+  ColumnLimits limits;
+  int rounds = 0;  ///< until all cells were good
+};
+
+/// What columns follow from.
+struct LayerInput {
+  const LocalWall& wall;
+  const VertexStars& stars;
+  const std::vector<VertexLayers>& wanted;
+  const std::vector<double>& edges;
+  LayerElements elements;
+};
+
+LimitedColumns limit_columns(const LayerInput& in, const std::vector<double>& reached) {
+  Fans fans = in.elements == LayerElements::tets ? without_fans(in.wall)
+                                                 : find_fans(in.wall, in.stars, in.wanted, in.edges, reached);
+  Directions directions = find_directions(in.wall, in.stars, fans);
+  ColumnLimits limits(in.wall, in.wanted, in.edges, in.stars, directions);
+  limits.converge();
+  limit_by_gaps(in.wall, fans, directions, limits);
+  limits.converge();
+  const int rounds = shrink_to_good(in.wall, fans, directions, limits);
+  return {std::move(fans), std::move(directions), std::move(limits), rounds};
+}
+
+/// Notes the heights of fans that are much lower than those their sectors were counted for. Returns whether
+/// there are any on any rank. Collective.
+bool find_low_fans(const LayerInput& in, const LimitedColumns& columns, std::vector<double>& reached) {
+  constexpr double low = 0.6;
+  std::int64_t found = 0;
+  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
+    if (columns.fans.count_at(v) == 1) continue;
+    const double height = columns.limits.total(v);
+    if (height >= low * std::min(reached[v], wanted_height(in.wanted[v], in.edges[v]))) continue;
+    reached[v] = height;
+    ++found;
+  }
+  return in.wall.mesh.communicator.sum(found) > 0;
+}
+
+/// Columns with fans whose sectors fit the heights that are reached.
+LimitedColumns fit_columns(const LayerInput& in) {
+  constexpr int most_attempts = 4;
+  std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
+  for (int attempt = 1;; ++attempt) {
+    LimitedColumns columns = limit_columns(in, reached);
+    if (attempt == most_attempts || !find_low_fans(in, columns, reached)) return columns;
+  }
 }
 
 }  // namespace
@@ -49,16 +110,17 @@ Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
   parallel::add_pieces(static_cast<std::int64_t>(wall.pieces.size()));
   const LocalWall walls(wall, options);
   const VertexStars stars = gather_stars(walls);
-  const Directions directions = find_directions(walls, stars);
-  ColumnLimits limits(walls, options, stars, directions);
-  limits.converge();
-  limit_by_gaps(walls, directions, limits);
-  limits.converge();
+  const std::vector<VertexLayers> wanted = gather_wanted_layers(walls, options);
+  const std::vector<double> edges = smooth_mean_edges(walls, wanted);
+  LimitedColumns found = fit_columns({walls, stars, wanted, edges, options.elements});
+  const Fans& fans = found.fans;
+  const Directions& directions = found.directions;
+  ColumnLimits& limits = found.limits;
   Layers layers;
-  layers.report.validity_rounds = shrink_to_good(walls, directions, limits);
-  layers.cap = CapClearing(walls, directions, remesh_planes).run(limits, layers.report);
-  layers.columns = make_columns(walls, directions, limits);
-  layers.report.patches = report_patches(walls, directions, limits, options);
+  layers.report.validity_rounds = found.rounds;
+  layers.cap = CapClearing(walls, fans, directions, remesh_planes).run(limits, layers.report);
+  layers.columns = make_columns(walls, fans, directions, limits);
+  layers.report.patches = report_patches(walls, fans, directions, limits, options);
   return layers;
 }
 

@@ -1,7 +1,5 @@
 #include "layers/column_limits.hpp"
 
-#include "layers/wanted_layers.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -25,11 +23,10 @@ constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 }  // namespace
 
-ColumnLimits::ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
+ColumnLimits::ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers>& all_wanted,
+                           const std::vector<double>& edges, const VertexStars& stars,
                            const Directions& directions)
     : _wall(wall) {
-  const std::vector<VertexLayers> all_wanted = gather_wanted_layers(wall, options);
-  const std::vector<double> edges = smooth_mean_edges(wall, all_wanted);
   const std::size_t n = all_wanted.size();
   _first.assign(n, 0), _growth.assign(n, 1), _mean_edges.assign(n, 0), _slopes.assign(n, 1),
       _limits.assign(n, 0), _wanted_lasts.assign(n, 0);

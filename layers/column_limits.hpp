@@ -4,7 +4,7 @@
 
 #include "layers/column_heights.hpp"
 #include "layers/directions.hpp"
-#include "layers/local_wall.hpp"
+#include "layers/wanted_layers.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -17,8 +17,9 @@ namespace aeroloom::layers {
 class ColumnLimits {
 public:
   /// Starts with the columns that the patches ask for. Keeps a reference to the wall. Collective.
-  ColumnLimits(const LocalWall& wall, const LayerOptions& options, const VertexStars& stars,
-               const Directions& directions);
+  /// `edges`: smooth_mean_edges().
+  ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers>& all_wanted,
+               const std::vector<double>& edges, const VertexStars& stars, const Directions& directions);
 
   Heights heights(std::int32_t v) const {
     return {_first[v], _growth[v], _constant[v], _fitted[v].regular, _fitted[v].stretch};

@@ -2,6 +2,8 @@
 
 #include "layers/column_heights.hpp"
 
+#include <algorithm>
+
 namespace aeroloom::layers {
 
 Heights heights(const PieceColumns& columns, mesh::LocalIndex vertex) {
@@ -13,9 +15,17 @@ double height(const PieceColumns& columns, mesh::LocalIndex vertex, std::int32_t
   return heights(columns, vertex).total(k);
 }
 
-geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, mesh::LocalIndex vertex,
+mesh::LocalIndex PieceColumns::vertex_of(std::int32_t column) const {
+  if (first_column.back() + 1 == static_cast<std::int32_t>(first_column.size())) return column;
+  return static_cast<mesh::LocalIndex>(std::upper_bound(first_column.begin(), first_column.end(), column) -
+                                       first_column.begin()) -
+         1;
+}
+
+geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::int32_t column,
                     std::int32_t k) {
-  return wall.point(vertex) + height(columns, vertex, k) * columns.directions[vertex];
+  const mesh::LocalIndex vertex = columns.vertex_of(column);
+  return wall.point(vertex) + height(columns, vertex, k) * columns.directions[column];
 }
 
 std::string_view name_of(LayerLimit limit) {

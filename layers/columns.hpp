@@ -31,20 +31,59 @@ struct WallLayers {
 /// The cells made from layers: prisms, with pyramids and tetrahedra where counts differ; or tetrahedra only.
 enum class LayerElements : std::uint8_t { prisms, tets };
 
+/// How the CAD surface turns over an edge.
+enum class EdgeTurn : std::uint8_t {
+  unknown,  ///< a ridge where the mesh turns sharply
+  smooth,   ///< no ridge, however coarse its mesh is
+  sharp     ///< a ridge all along it, where the mesh turns at all
+};
+
 struct LayerOptions {
   std::vector<WallLayers> patches;  ///< by patch index of the mesh; missing ones have no layers
   /// Whether layers may end on planes of symmetry, slip, inlet and outlet. Columns at their rims then lie in
   /// the plane, and the plane is meshed again. Otherwise counts fall to zero before such a plane.
   bool ends_on_planes = false;
-  LayerElements elements = LayerElements::prisms;  ///< counted in the report; columns do not depend on it
+  LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
+  std::vector<EdgeTurn> edges;                     ///< by CAD edge; missing ones are unknown
 };
 
-/// The columns of a piece, by vertex. Node k stands at the height of the first k layers (Heights).
+/// What closes a wall mesh between the columns of one vertex: a face without area. Its corners are columns,
+/// counter-clockwise seen from the fluid: two of one vertex and two of the other over an edge of a ridge (a
+/// sector), or three of one vertex, -1 the last.
+struct FanFace {
+  std::array<std::int32_t, 4> columns;
+  std::int32_t triangle;  ///< the layered triangle that it lies beside
+  /// CAD face and patch of the plane that the sector ends on at the vertex of the first two columns, and at
+  /// that of the others; -1: none.
+  std::array<std::int32_t, 2> end_faces{-1, -1}, end_patches{-1, -1};
+
+  bool is_sector() const { return columns[3] >= 0; }
+};
+
+/// A triangle without area that closes the mesh of a plane at the end of a fan.
+struct RimTriangle {
+  std::array<std::int32_t, 3> columns;
+  std::int32_t triangle;  ///< of the plane, that it lies beside
+};
+
+/// The columns of a piece. Most vertices have one, those of sharp edges several, all of the same heights.
+/// Node k stands at the height of the first k layers (Heights); node 0 is the vertex.
 struct PieceColumns {
-  std::vector<geometry::Vec3> directions;       ///< unit, into the fluid; zero: no column
-  std::vector<std::int32_t> counts;             ///< numbers of layers; 0: empty column
-  std::vector<std::int32_t> constant, regular;  ///< as Heights has them
-  std::vector<double> first, growth, stretch;
+  std::vector<geometry::Vec3> directions;       ///< by column: unit, into the fluid; zero: no column
+  std::vector<std::int32_t> counts;             ///< by vertex: numbers of layers; 0: empty columns
+  std::vector<std::int32_t> constant, regular;  ///< by vertex, as Heights has them
+  std::vector<double> first, growth, stretch;   ///< by vertex
+  std::vector<std::int32_t> first_column;       ///< (vertices + 1)
+  std::vector<std::array<std::int32_t, 3>>
+      corner_columns;              ///< by triangle, of its corners as the piece has them
+  std::vector<FanFace> fan_faces;  ///< by triangle
+  std::vector<RimTriangle> rims;   ///< by triangle
+
+  std::int32_t column_count() const { return first_column.back(); }
+  std::int32_t columns_at(mesh::LocalIndex vertex) const {
+    return first_column[vertex + 1] - first_column[vertex];
+  }
+  mesh::LocalIndex vertex_of(std::int32_t column) const;
 };
 
 struct Columns {
@@ -54,8 +93,9 @@ struct Columns {
 /// Height of node k over the wall vertex. Heights are summed from the wall, so sums built layer by layer have
 /// the same bits.
 double height(const PieceColumns& columns, mesh::LocalIndex vertex, std::int32_t k);
-/// Position of node k, 0 <= k <= count: 0 is the wall vertex, the last one is the vertex of the cap.
-geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, mesh::LocalIndex vertex,
+/// Position of node k of a column, 0 <= k <= count: 0 is the wall vertex, the last one is the vertex of the
+/// cap.
+geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::int32_t column,
                     std::int32_t k);
 
 /// Why a column has fewer or lower layers than requested.
@@ -94,8 +134,8 @@ struct PatchLayers {
   struct Sums {
     double layers = 0, wanted = 0, heights = 0, edges = 0, last = 0;
   } sums;
-  std::int64_t triangles = 0, prisms = 0, pyramids = 0,
-               tetrahedra = 0;  ///< wall triangles; cells
+  std::int64_t triangles = 0;                                            ///< of the wall
+  std::int64_t prisms = 0, pyramids = 0, tetrahedra = 0, hexahedra = 0;  ///< cells
   std::int64_t most_layers = 0;
 };
 

@@ -32,17 +32,18 @@ Vec3 move_towards(Vec3 mean, Vec3 present, double least, const VertexStars& star
 
 }  // namespace
 
-Directions find_directions(const LocalWall& wall, const VertexStars& stars) {
+Directions find_directions(const LocalWall& wall, const VertexStars& stars, const Fans& fans) {
   const std::int32_t count = wall.vertex_count();
   Directions directions;
-  directions.most_normal.assign(count, Vec3{});
-  directions.visibility.assign(count, 0);
+  directions.most_normal = fans.directions;
+  directions.visibility = fans.visibility;
+  const auto is_single = [&](std::int32_t v) { return fans.count_at(v) == 1; };
   for (std::int32_t v = 0; v < count; ++v) {
-    if (stars.kinds[v] != StarKind::plain) continue;
+    if (stars.kinds[v] != StarKind::plain || !is_single(v)) continue;
     const Vec3 axis = normalized(along_planes(smallest_cone(stars.normals_at(v)).axis, stars.planes_at(v)));
     const double visibility = visibility_of(axis, stars.normals_at(v));
     if (!(visibility >= least_visibility)) continue;
-    directions.most_normal[v] = axis;
+    directions.most_normal[fans.first[v]] = axis;
     directions.visibility[v] = visibility;
   }
   directions.smoothed = directions.most_normal;
@@ -50,19 +51,29 @@ Directions find_directions(const LocalWall& wall, const VertexStars& stars) {
   for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
     for (std::int32_t v = 0; v < count; ++v) {
       sums[v] = {};
-      wall.for_each_neighbour(v, [&](std::int32_t u) { sums[v] += directions.smoothed[u]; });
+      for (const std::int32_t t : wall.triangles_around(v)) {
+        if (wall.roles[t] != WallRole::layered) continue;
+        for (int i = 0; i < 3; ++i) {
+          if (wall.triangles[t][i] != v) sums[v] += directions.smoothed[fans.columns[t][i]];
+        }
+      }
     }
     wall.combine(sums, std::plus<>());
     for (std::int32_t v = 0; v < count; ++v) {
-      if (directions.visibility[v] == 0) continue;
+      if (directions.visibility[v] == 0 || !is_single(v)) continue;
       const double least = std::max(least_visibility, kept_visibility * directions.visibility[v]);
-      directions.smoothed[v] = move_towards(normalized(sums[v]), directions.smoothed[v], least, stars, v);
+      Vec3& direction = directions.smoothed[fans.first[v]];
+      direction = move_towards(normalized(sums[v]), direction, least, stars, v);
     }
   }
   directions.slants.assign(count, 1);
   for (std::int32_t v = 0; v < count; ++v) {
     if (directions.visibility[v] == 0) continue;
-    const Vec3 direction = directions.smoothed[v];
+    if (!is_single(v)) {
+      directions.slants[v] = fans.leans[v];
+      continue;
+    }
+    const Vec3 direction = directions.smoothed[fans.first[v]];
     double largest = -1;
     for (const Vec3 normal : stars.normals_at(v)) largest = std::max(largest, dot(direction, normal));
     directions.visibility[v] = visibility_of(direction, stars.normals_at(v));

@@ -80,30 +80,38 @@ bool layers_hold(std::array<Vec3, 3> foot, std::array<Vec3, 3> end, Vec3 point) 
 
 }  // namespace
 
-std::vector<std::int32_t> find_enclosing_triangles(const LocalWall& wall, const std::vector<Vec3>& ends) {
+std::vector<std::int32_t> find_enclosing_triangles(const LocalWall& wall, const Fans& fans,
+                                                   const std::vector<Vec3>& ends) {
   const std::vector<FacePoint> points = points_of_faces(wall);
   std::vector<Box> boxes;
   boxes.reserve(points.size());
   for (const FacePoint& each : points) boxes.push_back({each.point, each.point});
   const geometry::BoxTree tree(boxes, boxes_per_leaf_of_points);
-  std::vector<std::int32_t> triangles;
-  for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
-    if (wall.roles[t] != WallRole::layered) continue;
+  const auto encloses = [&](const std::array<std::int32_t, 3>& columns) {
     std::array<Vec3, 3> foot, end;
     Box box;
     for (int i = 0; i < 3; ++i) {
-      foot[i] = wall.points[wall.triangles[t][i]];
-      end[i] = ends[wall.triangles[t][i]];
+      foot[i] = wall.points[fans.vertex_of(columns[i])];
+      end[i] = ends[columns[i]];
       box.add(foot[i]);
       box.add(end[i]);
     }
-    bool encloses = false;
+    bool found = false;
     geometry::for_each_overlap(tree, boxes, box, [&](std::int32_t i) {
       const Vec3 point = points[i].point;
-      if (encloses || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
-      encloses = layers_hold(foot, end, point);
+      if (found || std::find(foot.begin(), foot.end(), point) != foot.end()) return;
+      found = layers_hold(foot, end, point);
     });
-    if (encloses) triangles.push_back(t);
+    return found;
+  };
+  std::vector<std::int32_t> triangles;
+  for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
+    if (wall.roles[t] == WallRole::layered && encloses(fans.columns[t])) triangles.push_back(t);
+  }
+  for (const FanFace& face : fans.faces) {
+    const auto& c = face.columns;
+    if (encloses({c[0], c[1], c[2]}) || (face.is_sector() && encloses({c[0], c[2], c[3]})))
+      triangles.push_back(face.triangle);
   }
   return triangles;
 }

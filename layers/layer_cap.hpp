@@ -8,9 +8,10 @@
 namespace aeroloom::layers {
 
 /// The columns of all pieces of this rank.
-Columns make_columns(const LocalWall& wall, const Directions& directions, const ColumnLimits& limits);
+Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& directions,
+                     const ColumnLimits& limits);
 
-/// The wall mesh with its vertices moved to the ends of their columns.
+/// The wall mesh with its vertices moved to the ends of their columns, as CapLayout has it.
 mesh::DistributedMesh make_cap(const mesh::DistributedMesh& wall, const Columns& columns);
 
 /// Shrinks columns until the cap has no intersections.
@@ -18,7 +19,8 @@ class CapClearing {
 public:
   /// Arguments must outlive the object. `remesh_planes` must not be empty if layers end on planes.
   /// Collective.
-  CapClearing(const LocalWall& wall, const Directions& directions, const PlaneRemesher& remesh_planes);
+  CapClearing(const LocalWall& wall, const Fans& fans, const Directions& directions,
+              const PlaneRemesher& remesh_planes);
 
   /// Repeats until no triangles of the cap intersect, no part is enclosed, and all planes can be meshed
   /// again. In each round the counts of the columns concerned fall by a third. After ten rounds they fall to
@@ -31,11 +33,13 @@ private:
   /// Lowers the columns of these vertices. If none of them has layers, lowers all columns on planes.
   void lower_on_planes(const std::vector<mesh::SharedVertexKey>& at_fault, LoweredCounts& lower) const;
   /// Lowers the columns whose layers enclose a part of the boundary.
-  void lower_around_parts(const mesh::DistributedMesh& cap, LoweredCounts& lower, LayerReport& report) const;
+  void lower_around_parts(const Columns& columns, LoweredCounts& lower, LayerReport& report) const;
   /// Lowers the columns that make the cap invalid. Returns whether there were none.
-  bool is_clear(mesh::DistributedMesh& cap, LoweredCounts& lower, LayerReport& report) const;
+  bool is_clear(const Columns& columns, mesh::DistributedMesh& cap, LoweredCounts& lower,
+                LayerReport& report) const;
 
   const LocalWall& _wall;
+  const Fans& _fans;
   const Directions& _directions;
   const PlaneRemesher& _remesh_planes;
   std::vector<mesh::PieceId> _kept;  ///< wall pieces off the planes, in the order of the cap

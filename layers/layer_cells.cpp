@@ -1,6 +1,7 @@
 #include "layers/layer_cells.hpp"
 
 #include "geometry/sort_unique.hpp"
+#include "layers/cap_layout.hpp"
 #include "layers/layer_piece.hpp"
 #include "mesh/data/piece_faces.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
@@ -32,27 +33,38 @@ std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMes
   std::vector<std::optional<std::size_t>> places(wall.pieces.size());
   std::size_t next = 0;
   for (std::size_t p = 0; p < places.size() && next < cap.pieces.size(); ++p) {
-    const Piece &of_wall = wall.pieces[p], &of_cap = cap.pieces[next];
-    if (of_wall.triangle_face == of_cap.triangle_face && of_wall.cells == of_cap.cells) places[p] = next++;
+    const std::vector<std::int32_t>&of_wall = wall.pieces[p].triangle_face,
+          &of_cap = cap.pieces[next].triangle_face;
+    if (of_wall.size() <= of_cap.size() && std::equal(of_wall.begin(), of_wall.end(), of_cap.begin()))
+      places[p] = next++;
   }
   return places;
+}
+
+/// By vertex of the cap over a piece; 1 under apexes.
+std::vector<std::int32_t> counts_under(const CapLayout& layout, const PieceColumns& columns) {
+  std::vector<std::int32_t> counts;
+  for (const std::int32_t column : layout.column_of_vertex)
+    counts.push_back(column < 0 ? 1 : columns.counts[columns.vertex_of(column)]);
+  return counts;
 }
 
 /// The number of layers under each cap vertex.
 using CountTable = mesh::DistributedTable<std::int32_t>;
 
-CountTable make_table(const Columns& columns, const mesh::NumberedMesh& cap,
-                      const std::vector<std::optional<std::size_t>>& places) {
-  std::vector<const PieceColumns*> columns_of(cap.pieces.size(), nullptr);
+CountTable make_table(const mesh::DistributedMesh& wall, const Columns& columns,
+                      const mesh::NumberedMesh& cap, const std::vector<std::optional<std::size_t>>& places) {
+  std::vector<std::vector<std::int32_t>> counts(cap.pieces.size());
   for (std::size_t p = 0; p < places.size(); ++p) {
-    if (places[p]) columns_of[*places[p]] = &columns.pieces[p];
+    if (places[p])
+      counts[*places[p]] = counts_under(lay_out_cap(wall.pieces[p], columns.pieces[p]), columns.pieces[p]);
   }
   std::vector<CountTable::KeyedValue> rows;
   for (std::size_t p = 0; p < cap.pieces.size(); ++p) {
     const Piece& piece = cap.pieces[p];
     for (LocalIndex v = 0; v < piece.vertex_count(); ++v) {
       if (!cap.numbering.owned[p][v]) continue;
-      rows.push_back({cap.numbering.vertices[p][v], columns_of[p] != nullptr ? columns_of[p]->counts[v] : 0});
+      rows.push_back({cap.numbering.vertices[p][v], counts[p].empty() ? 0 : counts[p][v]});
     }
   }
   return {cap.communicator, mesh::even_ranges(cap.communicator.size(), cap.numbering.vertex_count),
@@ -149,9 +161,12 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
         std::equal_range(laterals.begin(), laterals.end(), LateralEdge{piece.id, 0, 0, 0},
                          [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
     const std::vector<std::uint8_t> bears = bearing_triangles(wall, piece);
+    const CapLayout layout = lay_out_cap(piece, columns.pieces[p]);
     const LayeredPiece source{piece,
                               cap.pieces[*places[p]],
                               columns.pieces[p],
+                              layout,
+                              wall.numbering.vertices[p],
                               cap.numbering.vertices[*places[p]],
                               bears,
                               {first, last},
@@ -199,7 +214,7 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
   const std::vector<std::optional<std::size_t>> places = places_in_cap(wall, cap);
-  BeyondCap(wall, make_table(columns, cap, places), volume).join(volume);
+  BeyondCap(wall, make_table(wall, columns, cap, places), volume).join(volume);
   const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
   std::vector<std::vector<Piece>> made;
   parallel::agree(wall.communicator,

@@ -17,6 +17,9 @@ namespace {
 
 using Triangle = std::array<LocalIndex, 3>;
 
+/// In the key of a vertex with several columns, which are not numbered by its own number.
+constexpr std::int32_t no_node = (1 << 20) - 1;
+
 Triangle corners_of(const Piece& wall, LocalIndex t) {
   const LocalIndex* v = wall.cell(t);
   return {v[0], v[1], v[2]};
@@ -25,7 +28,10 @@ Triangle corners_of(const Piece& wall, LocalIndex t) {
 class LayerPieceMaker {
 public:
   LayerPieceMaker(const LayeredPiece& source, const std::vector<std::uint8_t>& shared)
-      : _source(source), _shared(shared), _first(source.wall.vertex_count(), -1) {
+      : _source(source),
+        _shared(shared),
+        _foot(source.wall.vertex_count(), -1),
+        _first(source.columns.column_count(), -1) {
     _piece.region = source.region;
   }
 
@@ -33,94 +39,160 @@ public:
     auto lateral = std::lower_bound(
         _source.laterals.begin(), _source.laterals.end(), 3 * range.begin,
         [](const LateralEdge& edge, std::int32_t half_edge) { return edge.half_edge < half_edge; });
+    const std::vector<FanFace>& fans = _source.columns.fan_faces;
+    std::size_t fan = 0;
     for (LocalIndex t = range.begin; t < range.end; ++t) {
       const std::int32_t layers = _source.layers_over(t);
       if (layers > 0) add_triangle(t, layers);
+      for (; fan < fans.size() && fans[fan].triangle <= t; ++fan) {
+        if (fans[fan].triangle == t && _source.layers_over(fans[fan]) > 0)
+          add_fan(static_cast<std::int32_t>(fan));
+      }
       for (; lateral != _source.laterals.end() && lateral->half_edge < 3 * (t + 1); ++lateral)
         add_lateral(*lateral);
     }
     _piece.layers = std::move(_of_tetrahedra);
     _piece.layers.insert(_piece.layers.end(), _of_pyramids.begin(), _of_pyramids.end());
     _piece.layers.insert(_piece.layers.end(), _of_prisms.begin(), _of_prisms.end());
+    _piece.layers.insert(_piece.layers.end(), _of_hexahedra.begin(), _of_hexahedra.end());
     return std::move(_piece);
   }
 
 private:
-  std::int32_t count(LocalIndex v) const { return _source.columns.counts[v]; }
+  std::int32_t count(std::int32_t column) const {
+    return _source.columns.counts[_source.columns.vertex_of(column)];
+  }
   /// Node k of a column, or its last.
-  LocalIndex at(LocalIndex v, std::int32_t k) const { return _first[v] + std::min(k, count(v)); }
+  LocalIndex at(std::int32_t column, std::int32_t k) const {
+    const std::int32_t level = std::min(k, count(column));
+    return level == 0 ? _foot[_source.columns.vertex_of(column)] : _first[column] + level - 1;
+  }
 
   void add_triangle(LocalIndex t, std::int32_t layers) {
-    const Triangle v = corners_of(_source.wall, t);
-    for (const LocalIndex each : v) {
-      if (_first[each] < 0) add_column(each);
-    }
-    for (const LocalIndex each : v) _piece.boundary.push_back(at(each, 0));
+    const std::array<std::int32_t, 3>& columns = _source.columns.corner_columns[t];
+    for (const std::int32_t each : columns) add_column(each);
+    for (const std::int32_t each : columns) _piece.boundary.push_back(at(each, 0));
     _piece.triangle_face.push_back(_source.wall.triangle_face[t]);
     _piece.triangle_patch.push_back(_source.wall.triangle_patch[t]);
-    if (_source.elements == LayerElements::tets) return add_tetrahedra(v, layers);
-    for (std::int32_t k = 1; k <= layers; ++k) add_cell(v, k);
+    if (_source.elements == LayerElements::tets) return add_tetrahedra(columns, layers);
+    const std::array<std::int32_t, 3> turned{columns[0], columns[2], columns[1]};  // seen from the fluid
+    const LayersOverTriangle over = _source.layers_of(turned);
+    for (std::int32_t k = 1; k <= layers; ++k) {
+      visit_layer(over, k, [&](mesh::CellShape shape, const auto& nodes) {
+        add_cell(shape, k, nodes, [&](int corner) { return turned[static_cast<std::size_t>(corner)]; });
+      });
+    }
   }
 
-  void add_column(LocalIndex v) {
-    _first[v] = _piece.vertex_count();
-    for (std::int32_t k = 0; k <= count(v); ++k) add_node(v, k);
+  /// The cells over a face of a fan, with the apex on top of a sector.
+  void add_fan(std::int32_t f) {
+    const FanFace& face = _source.columns.fan_faces[f];
+    for (const std::int32_t column : face.columns) {
+      if (column >= 0) add_column(column);
+    }
+    const LayersOverFan over = _source.layers_of(face);
+    const auto column_at = [&](int corner) { return face.columns[static_cast<std::size_t>(corner)]; };
+    const std::int32_t most = std::max(over.counts[0], over.counts[1]);
+    for (std::int32_t k = 1; k <= most; ++k) {
+      visit_layer(over, k,
+                  [&](mesh::CellShape shape, const auto& nodes) { add_cell(shape, k, nodes, column_at); });
+    }
+    if (const LocalIndex apex = _source.layout.apex_of_face[f]; apex >= 0) {
+      for (const std::int32_t column : face.columns) _piece.pyramids.push_back(at(column, most));
+      _piece.pyramids.push_back(
+          add_vertex(_source.cap.point(apex), mesh::CadDimension::region, _source.region));
+      share(_piece.pyramids.back(), mesh::running_key(_source.numbers[apex]));
+      _of_pyramids.push_back(static_cast<std::int16_t>(most));
+    }
+    for (const int end : {0, 1}) {
+      if (face.end_faces[end] >= 0) add_end(face, end);
+    }
   }
 
-  void add_node(LocalIndex v, std::int32_t k) {
-    const bool on_wall = k == 0, on_cap = k == count(v);
-    const LocalIndex here = _piece.vertex_count();
-    const Vec3 p = on_wall  ? _source.wall.point(v)
-                   : on_cap ? _source.cap.point(v)
-                            : node(_source.wall, _source.columns, v, k);
+  /// The faces of a sector's cells on the plane that it ends on.
+  void add_end(const FanFace& face, int end) {
+    const std::int32_t a = face.columns[2 * end], b = face.columns[2 * end + 1];
+    for (std::int32_t k = 1; k <= count(a); ++k) {
+      if (k == 1) {
+        _piece.boundary.insert(_piece.boundary.end(), {at(a, 0), at(b, 1), at(a, 1)});
+        _piece.triangle_face.push_back(face.end_faces[end]);
+        _piece.triangle_patch.push_back(face.end_patches[end]);
+        continue;
+      }
+      _piece.quads.insert(_piece.quads.end(), {at(a, k - 1), at(b, k - 1), at(b, k), at(a, k)});
+      _piece.quad_face.push_back(face.end_faces[end]);
+      _piece.quad_patch.push_back(face.end_patches[end]);
+    }
+  }
+
+  LocalIndex add_vertex(Vec3 p, mesh::CadDimension dimension, std::int32_t entity) {
     _piece.coordinates.insert(_piece.coordinates.end(), {p.x, p.y, p.z});
-    _piece.vertex_dimension.push_back(on_wall ? _source.wall.vertex_dimension[v]
-                                              : mesh::CadDimension::region);
-    _piece.vertex_entity.push_back(on_wall ? _source.wall.vertex_entity[v] : _source.region);
-    if (!on_cap && !_shared[v]) return;
-    _piece.shared_vertices.push_back(here);
-    _piece.shared_keys.push_back(on_cap ? mesh::running_key(_source.numbers[v])
-                                        : mesh::layer_key(_source.numbers[v], k));
+    _piece.vertex_dimension.push_back(dimension);
+    _piece.vertex_entity.push_back(entity);
+    return _piece.vertex_count() - 1;
+  }
+  void share(LocalIndex vertex, mesh::SharedVertexKey key) {
+    _piece.shared_vertices.push_back(vertex);
+    _piece.shared_keys.push_back(key);
   }
 
-  /// Wall triangles are counter-clockwise seen from outside. Cells start with the triangle as seen from
-  /// inside.
-  void add_cell(const Triangle& v, std::int32_t k) {
-    const auto live = std::count_if(v.begin(), v.end(), [&](LocalIndex each) { return count(each) >= k; });
-    const auto layer = static_cast<std::int16_t>(k);
-    if (live == 3) {
-      _piece.prisms.insert(_piece.prisms.end(), {at(v[0], k - 1), at(v[2], k - 1), at(v[1], k - 1),
-                                                 at(v[0], k), at(v[2], k), at(v[1], k)});
-      _of_prisms.push_back(layer);
-      return;
+  /// The nodes of a column, and its vertex, where they are not there yet.
+  void add_column(std::int32_t column) {
+    const LocalIndex v = _source.columns.vertex_of(column);
+    const std::int32_t top = _source.columns.counts[v];
+    const LocalIndex end = _source.layout.vertex_of_column[column];
+    if (_foot[v] < 0) {
+      _foot[v] = add_vertex(top == 0 ? _source.cap.point(end) : _source.wall.point(v),
+                            _source.wall.vertex_dimension[v], _source.wall.vertex_entity[v]);
+      if (top == 0) {
+        share(_foot[v], mesh::running_key(_source.numbers[end]));
+      } else if (_shared[v] != 0) {
+        const bool several = _source.columns.columns_at(v) > 1;
+        share(_foot[v], several ? mesh::layer_key(_source.wall_numbers[v], no_node)
+                                : mesh::layer_key(_source.numbers[end], 0));
+      }
     }
-    // Rotated until the columns that continue come first.
-    Triangle w = v;
-    while (count(w[0]) < k || (live == 2 && count(w[1]) < k)) std::rotate(w.begin(), w.begin() + 1, w.end());
-    const LocalIndex last = at(w[2], k);
-    if (live == 2) {
-      _piece.pyramids.insert(_piece.pyramids.end(),
-                             {at(w[1], k - 1), at(w[1], k), at(w[0], k), at(w[0], k - 1), last});
-      _of_pyramids.push_back(layer);
-    } else {
-      _piece.cells.insert(_piece.cells.end(), {at(w[0], k - 1), last, at(w[1], k), at(w[0], k)});
-      _of_tetrahedra.push_back(layer);
+    if (top == 0 || _first[column] >= 0) return;
+    _first[column] = _piece.vertex_count();
+    for (std::int32_t k = 1; k <= top; ++k) {
+      const Vec3 p = k == top ? _source.cap.point(end) : node(_source.wall, _source.columns, column, k);
+      const LocalIndex here = add_vertex(p, mesh::CadDimension::region, _source.region);
+      if (k < top && !_shared[v]) continue;
+      share(here,
+            k == top ? mesh::running_key(_source.numbers[end]) : mesh::layer_key(_source.numbers[end], k));
     }
+  }
+
+  /// `column_at(corner)` tells columns.
+  template <class Nodes, class ColumnAt>
+  void add_cell(mesh::CellShape shape, std::int32_t k, const Nodes& nodes, const ColumnAt& column_at) {
+    std::vector<LocalIndex>& to = shape == mesh::CellShape::tetrahedron ? _piece.cells
+                                  : shape == mesh::CellShape::pyramid   ? _piece.pyramids
+                                  : shape == mesh::CellShape::prism     ? _piece.prisms
+                                                                        : _piece.hexahedra;
+    for (const ColumnNode& each : nodes) to.push_back(at(column_at(each.corner), each.level));
+    std::vector<std::int16_t>& layers = shape == mesh::CellShape::tetrahedron ? _of_tetrahedra
+                                        : shape == mesh::CellShape::pyramid   ? _of_pyramids
+                                        : shape == mesh::CellShape::prism     ? _of_prisms
+                                                                              : _of_hexahedra;
+    layers.push_back(static_cast<std::int16_t>(k));
   }
 
   /// Corners by the numbers of their columns, the largest first: in this order columns rise.
   template <std::size_t Count>
-  std::array<int, Count> order_of_rise(const std::array<LocalIndex, Count>& v) const {
+  std::array<int, Count> order_of_rise(const std::array<std::int32_t, Count>& columns) const {
+    const auto number = [&](int i) {
+      return _source.numbers[_source.layout.vertex_of_column[columns[static_cast<std::size_t>(i)]]];
+    };
     std::array<int, Count> order{};
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-              [&](int a, int b) { return _source.numbers[v[a]] > _source.numbers[v[b]]; });
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return number(a) > number(b); });
     return order;
   }
 
-  void add_tetrahedra(const Triangle& v, std::int32_t layers) {
+  void add_tetrahedra(const std::array<std::int32_t, 3>& v, std::int32_t layers) {
     const std::array<int, 3> order = order_of_rise(v);
-    Triangle below{at(v[0], 0), at(v[1], 0), at(v[2], 0)};
+    std::array<LocalIndex, 3> below{at(v[0], 0), at(v[1], 0), at(v[2], 0)};
     for (std::int32_t k = 1; k <= layers; ++k) {
       for (const int i : order) {
         if (count(v[i]) < k) continue;
@@ -133,8 +205,8 @@ private:
   }
 
   /// The same over an edge from p to q.
-  void add_lateral_triangles(const LateralEdge& edge, LocalIndex p, LocalIndex q) {
-    const std::array<LocalIndex, 2> ends{q, p};
+  void add_lateral_triangles(const LateralEdge& edge, std::int32_t p, std::int32_t q) {
+    const std::array<std::int32_t, 2> ends{q, p};
     const std::array<int, 2> order = order_of_rise(ends);
     std::array<LocalIndex, 2> below{at(q, 0), at(p, 0)};
     for (std::int32_t k = 1; k <= std::max(count(p), count(q)); ++k) {
@@ -152,8 +224,8 @@ private:
   /// The lateral faces over an edge, seen from outside the cells: quadrilaterals if both columns continue,
   /// triangles if one does.
   void add_lateral(const LateralEdge& edge) {
-    const Triangle v = corners_of(_source.wall, edge.half_edge / 3);
-    const LocalIndex p = v[edge.half_edge % 3], q = v[(edge.half_edge + 1) % 3];
+    const std::array<std::int32_t, 3>& columns = _source.columns.corner_columns[edge.half_edge / 3];
+    const std::int32_t p = columns[edge.half_edge % 3], q = columns[(edge.half_edge + 1) % 3];
     if (_source.elements == LayerElements::tets) return add_lateral_triangles(edge, p, q);
     for (std::int32_t k = 1; k <= std::max(count(p), count(q)); ++k) {
       if (count(p) >= k && count(q) >= k) {
@@ -172,8 +244,9 @@ private:
 
   const LayeredPiece& _source;
   const std::vector<std::uint8_t>& _shared;
-  std::vector<LocalIndex> _first;  // node 0 of each column, in the piece; -1: not there
-  std::vector<std::int16_t> _of_tetrahedra, _of_pyramids, _of_prisms;
+  std::vector<LocalIndex> _foot;   // by vertex of the wall: in the piece; -1: not there
+  std::vector<LocalIndex> _first;  // node 1 of each column, in the piece; -1: not there
+  std::vector<std::int16_t> _of_tetrahedra, _of_pyramids, _of_prisms, _of_hexahedra;
   Piece _piece;
 };
 
@@ -184,6 +257,24 @@ std::int32_t LayeredPiece::layers_over(LocalIndex triangle) const {
   std::int32_t most = 0;
   for (const LocalIndex v : corners_of(wall, triangle)) most = std::max(most, columns.counts[v]);
   return most;
+}
+
+std::int32_t LayeredPiece::layers_over(const FanFace& face) const {
+  return std::max(columns.counts[columns.vertex_of(face.columns[0])],
+                  columns.counts[columns.vertex_of(face.columns[2])]);
+}
+
+LayersOverTriangle LayeredPiece::layers_of(const std::array<std::int32_t, 3>& corners) const {
+  LayersOverTriangle counts;
+  for (std::size_t i = 0; i < 3; ++i) counts[i] = columns.counts[columns.vertex_of(corners[i])];
+  return counts;
+}
+
+LayersOverFan LayeredPiece::layers_of(const FanFace& face) const {
+  const int other = face.is_sector() ? 2 : 0;
+  return {face.is_sector(),
+          {columns.counts[columns.vertex_of(face.columns[0])],
+           columns.counts[columns.vertex_of(face.columns[other])]}};
 }
 
 std::int32_t LayeredPiece::cells_over(LocalIndex triangle) const {

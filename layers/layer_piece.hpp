@@ -1,8 +1,10 @@
 /// Makes the layer cells over some triangles of a wall piece.
 #pragma once
 
+#include "layers/cap_layout.hpp"
 #include "layers/columns.hpp"
 #include "layers/lateral_faces.hpp"
+#include "layers/layer_shapes.hpp"
 
 #include <cstdint>
 #include <span>
@@ -15,15 +17,21 @@ struct LayeredPiece {
   const mesh::Piece& wall;
   const mesh::Piece& cap;
   const PieceColumns& columns;
-  const std::vector<mesh::GlobalIndex>& numbers;  ///< of the cap's vertices
-  const std::vector<std::uint8_t>& bears;         ///< by triangle: whether it gets layer cells
-  std::span<const LateralEdge> laterals;          ///< by half-edge
+  const CapLayout& layout;
+  const std::vector<mesh::GlobalIndex>& wall_numbers;  ///< of the wall's vertices
+  const std::vector<mesh::GlobalIndex>& numbers;       ///< of the cap's vertices
+  const std::vector<std::uint8_t>& bears;              ///< by triangle: whether it gets layer cells
+  std::span<const LateralEdge> laterals;               ///< by half-edge
   mesh::RegionId region = 0;
   LayerElements elements = LayerElements::prisms;
 
   /// Number of layers over a triangle; 0: it stays boundary of the tetrahedra.
   std::int32_t layers_over(mesh::LocalIndex triangle) const;
   std::int32_t cells_over(mesh::LocalIndex triangle) const;
+  std::int32_t layers_over(const FanFace& face) const;
+  /// Of columns, counter-clockwise seen from the fluid.
+  LayersOverTriangle layers_of(const std::array<std::int32_t, 3>& corners) const;
+  LayersOverFan layers_of(const FanFace& face) const;
 };
 
 /// Consecutive triangles of a wall piece.

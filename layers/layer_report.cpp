@@ -1,5 +1,7 @@
 #include "layers/layer_report.hpp"
 
+#include "layers/layer_shapes.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,8 +42,33 @@ void add_cells(const std::array<std::int32_t, 3>& counts, LayerElements elements
   patch.tetrahedra += counts[2] - counts[1];
 }
 
-void add_triangle(const LocalWall& wall, const Directions& directions, const ColumnLimits& limits,
-                  const LayerOptions& options, std::int32_t t, PatchLayers& patch) {
+void add_cell(mesh::CellShape shape, PatchLayers& patch) {
+  ++(shape == mesh::CellShape::tetrahedron ? patch.tetrahedra
+     : shape == mesh::CellShape::pyramid   ? patch.pyramids
+     : shape == mesh::CellShape::prism     ? patch.prisms
+                                           : patch.hexahedra);
+}
+
+/// The cells over the faces of fans, and the apexes of sectors.
+void add_fan(const Fans& fans, const ColumnLimits& limits, const FanFace& face, PatchLayers& patch) {
+  const std::array<std::int32_t, 2> ends{fans.vertex_of(face.columns[0]), fans.vertex_of(face.columns[2])};
+  const LayersOverFan over{face.is_sector(), {limits.count(ends[0]), limits.count(ends[1])}};
+  for (std::int32_t k = 1; k <= std::max(over.counts[0], over.counts[1]); ++k)
+    visit_layer(over, k, [&](mesh::CellShape shape, const auto&) { add_cell(shape, patch); });
+  if (over.is_sector && over.counts[0] > 0 && over.counts[1] > 0) ++patch.pyramids;
+}
+
+/// What is reported of.
+struct Reported {
+  const LocalWall& wall;
+  const Fans& fans;
+  const Directions& directions;
+  const ColumnLimits& limits;
+  const LayerOptions& options;
+};
+
+void add_triangle(const Reported& of, std::int32_t t, PatchLayers& patch) {
+  const auto& [wall, fans, directions, limits, options] = of;
   const auto& [a, b, c] = wall.triangles[t];
   const geometry::Vec3 twice = cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]);
   const double area = 0.5 * norm(twice), asked = options.patches[wall.patches[t]].first;
@@ -50,10 +77,11 @@ void add_triangle(const LocalWall& wall, const Directions& directions, const Col
   ++patch.triangles;
   patch.area += area;
   add_cells(counts, options.elements, patch);
-  for (const std::int32_t v : {a, b, c}) {
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t v = wall.triangles[t][i];
     add_column(limits, v, area / 3, patch);
     if (limits.count(v) == 0) continue;
-    const double lean = std::abs(dot(directions.smoothed[v], normalized(twice)));
+    const double lean = std::abs(dot(directions.smoothed[fans.columns[t][i]], normalized(twice)));
     if (lean * limits.heights(v).first < PatchLayers::low * asked) patch.low_first_area += area / 3;
   }
 }
@@ -65,7 +93,8 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
     sum.*member += row.*member;
   for (std::size_t i = 0; i < layer_limit_count; ++i) sum.limited_area[i] += row.limited_area[i];
   for (std::int64_t PatchLayers::*member :
-       {&PatchLayers::triangles, &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra})
+       {&PatchLayers::triangles, &PatchLayers::prisms, &PatchLayers::pyramids, &PatchLayers::tetrahedra,
+        &PatchLayers::hexahedra})
     sum.*member += row.*member;
   using Sums = PatchLayers::Sums;
   for (double Sums::*member : {&Sums::layers, &Sums::wanted, &Sums::heights, &Sums::edges, &Sums::last})
@@ -75,14 +104,17 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
 
 }  // namespace
 
-std::vector<PatchLayers> report_patches(const LocalWall& wall, const Directions& directions,
+std::vector<PatchLayers> report_patches(const LocalWall& wall, const Fans& fans, const Directions& directions,
                                         const ColumnLimits& limits, const LayerOptions& options) {
   std::vector<PieceRow> rows;
+  auto face = fans.faces.begin();
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     std::vector<PatchLayers> patches(wall.mesh.patches.size());
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
       if (wall.roles[t] == WallRole::layered)
-        add_triangle(wall, directions, limits, options, t, patches[wall.patches[t]]);
+        add_triangle({wall, fans, directions, limits, options}, t, patches[wall.patches[t]]);
+      for (; face != fans.faces.end() && face->triangle == t; ++face)
+        add_fan(fans, limits, *face, patches[wall.patches[t]]);
     }
     for (std::size_t i = 0; i < patches.size(); ++i) {
       if (patches[i].triangles > 0)

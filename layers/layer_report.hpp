@@ -9,7 +9,7 @@ namespace aeroloom::layers {
 
 /// By patch index of the mesh. Cells are counted for the kind of elements in `options`. Sums run in the order
 /// of pieces. Collective; equal on all ranks and for any number of ranks.
-std::vector<PatchLayers> report_patches(const LocalWall& wall, const Directions& directions,
+std::vector<PatchLayers> report_patches(const LocalWall& wall, const Fans& fans, const Directions& directions,
                                         const ColumnLimits& limits, const LayerOptions& options);
 
 }  // namespace aeroloom::layers

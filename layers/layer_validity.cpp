@@ -1,6 +1,7 @@
 #include "layers/layer_validity.hpp"
 
 #include "geometry/predicates.hpp"
+#include "mesh/quality/cell_measures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -221,6 +222,65 @@ double fitting_height(const TriangleColumns& columns) {
   }
   if (all) return std::numeric_limits<double>::infinity();
   return std::clamp(below, stretched && !equal ? floor : 0, step * highest);
+}
+
+Vec3 sector_apex(const std::array<Vec3, 4>& top, const std::array<Vec3, 4>& directions) {
+  constexpr double height = 0.4;  // over the root of the quadrilateral's area; chosen, not measured
+  Vec3 middle, up;
+  for (int i = 0; i < 4; ++i) middle += 0.25 * top[i], up += directions[i];
+  const double area = 0.5 * norm(cross(top[2] - top[0], top[3] - top[1]));
+  return middle + height * std::sqrt(area) * normalized(up);
+}
+
+namespace {
+
+Vec3 node_of(const CornerColumn& column, std::int32_t level) {
+  return column.point + column.heights.total(level) * column.direction;
+}
+
+bool is_good_layer(const FanColumns& fan, std::int32_t k) {
+  bool good = true;
+  visit_layer(fan.over, k, [&](mesh::CellShape shape, const auto& nodes) {
+    std::array<Vec3, 8> points;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      points[i] = node_of(fan.columns[static_cast<std::size_t>(nodes[i].corner)], nodes[i].level);
+    if (shape == mesh::CellShape::prism) {
+      const Level lower{points[0], points[1], points[2]}, upper{points[3], points[4], points[5]};
+      good = good && is_good_prism(lower, upper, doubled_area(lower), doubled_area(upper));
+    } else {
+      good = good && mesh::has_positive_corners(shape, points.data());
+    }
+  });
+  return good;
+}
+
+bool has_good_apex(const FanColumns& fan) {
+  if (!fan.over.is_sector || fan.over.counts[0] == 0 || fan.over.counts[1] == 0) return true;
+  std::array<Vec3, 4> top, directions;
+  std::array<Vec3, 5> pyramid;
+  for (int i = 0; i < 4; ++i) {
+    top[i] = pyramid[i] = node_of(fan.columns[i], fan.over.counts[i / 2]);
+    directions[i] = fan.columns[i].direction;
+  }
+  pyramid[4] = sector_apex(top, directions);
+  return mesh::has_positive_corners(mesh::CellShape::pyramid, pyramid.data());
+}
+
+}  // namespace
+
+double fitting_height(const FanColumns& fan) {
+  constexpr double step = 0.95;
+  const std::int32_t most = std::max(fan.over.counts[0], fan.over.counts[1]);
+  std::int32_t good = 0;
+  while (good < most && is_good_layer(fan, good + 1)) ++good;
+  if (good == most && has_good_apex(fan)) return std::numeric_limits<double>::infinity();
+  double below = 0, highest = 0;
+  for (const int i : {0, 2}) {
+    const CornerColumn& column = fan.columns[i];
+    below = std::max(below, column.heights.total(std::min(good, column.count)));
+    highest = std::max(highest, column.heights.total(column.count));
+  }
+  return std::min(below, step * highest);
 }
 
 }  // namespace aeroloom::layers

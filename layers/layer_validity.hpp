@@ -2,6 +2,7 @@
 #pragma once
 
 #include "layers/column_heights.hpp"
+#include "layers/layer_shapes.hpp"
 
 #include <array>
 #include <cstdint>
@@ -31,5 +32,18 @@ bool has_good_cap(const TriangleColumns& columns);
 /// less, for columns are then fitted again. Infinite if all is good. If a bound does not suffice, the next
 /// call returns a lower one.
 double fitting_height(const TriangleColumns& columns);
+
+/// The columns over a face of a fan.
+struct FanColumns {
+  LayersOverFan over;
+  std::array<CornerColumn, 4> columns;
+};
+
+/// The apex of the pyramid on the uppermost cell of a sector, whose top is a quadrilateral.
+geometry::Vec3 sector_apex(const std::array<geometry::Vec3, 4>& top,
+                           const std::array<geometry::Vec3, 4>& directions);
+
+/// The same for the cells over a face of a fan, whose corners must all span a positive volume.
+double fitting_height(const FanColumns& fan);
 
 }  // namespace aeroloom::layers

@@ -3,6 +3,7 @@
 #include "layers/end_planes.hpp"
 #include "parallel/communication/collective_error.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace aeroloom::layers {
@@ -43,6 +44,7 @@ std::vector<WallRole> roles_of_patches(const mesh::DistributedMesh& mesh, const 
 
 LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& options)
     : mesh((require_fitting(surface, options), surface)),
+      edges(options.edges),
       end_planes(find_end_planes(surface, options)),
       shared(surface) {
   const std::vector<WallRole> of_patches = roles_of_patches(mesh, options);
@@ -83,6 +85,20 @@ LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& o
     vertex_of_copy[copy] = first_vertex[p] + v;
     if (!shared.is_owned(copy)) owned[vertex_of_copy[copy]] = 0;
   });
+}
+
+EdgeTurn LocalWall::turn_at(std::size_t position, mesh::LocalIndex vertex) const {
+  const mesh::Piece& piece = mesh.pieces[position];
+  if (piece.vertex_dimension[vertex] == mesh::CadDimension::vertex) return EdgeTurn::unknown;
+  if (piece.vertex_dimension[vertex] != mesh::CadDimension::edge) return EdgeTurn::smooth;
+  const auto edge = static_cast<std::size_t>(piece.vertex_entity[vertex]);
+  return edge < edges.size() ? edges[edge] : EdgeTurn::unknown;
+}
+
+TrianglePlace LocalWall::place_of(std::int32_t triangle) const {
+  const auto p =
+      std::upper_bound(first_triangle.begin(), first_triangle.end(), triangle) - first_triangle.begin() - 1;
+  return {mesh.pieces[p].id, triangle - first_triangle[p]};
 }
 
 }  // namespace aeroloom::layers

@@ -12,6 +12,13 @@
 
 namespace aeroloom::layers {
 
+/// A triangle by piece and number in it.
+struct TrianglePlace {
+  mesh::PieceId piece = -1;
+  mesh::LocalIndex cell = -1;
+  friend auto operator<=>(const TrianglePlace&, const TrianglePlace&) = default;
+};
+
 /// What a triangle means for the columns at its corners.
 enum class WallRole : std::int8_t {
   layered,  ///< layers are requested
@@ -32,6 +39,10 @@ struct LocalWall {
   std::span<const std::int32_t> triangles_around(std::int32_t vertex) const {
     return std::span(around).subspan(first_around[vertex], first_around[vertex + 1] - first_around[vertex]);
   }
+  /// The piece and the number in it of a triangle.
+  TrianglePlace place_of(std::int32_t triangle) const;
+  /// How the surface turns over the CAD edge of a vertex of a piece at a position; smooth within faces.
+  EdgeTurn turn_at(std::size_t position, mesh::LocalIndex vertex) const;
   /// Calls visit(neighbour) for the other corners of the layered triangles around a vertex; most come twice.
   template <class Visit>
   void for_each_neighbour(std::int32_t vertex, const Visit& visit) const {
@@ -64,6 +75,7 @@ struct LocalWall {
   std::vector<Corners> triangles;            ///< counter-clockwise seen from the fluid, opposite to the mesh
   std::vector<std::int32_t> patches, faces;  ///< by triangle; CAD faces
   std::vector<WallRole> roles;
+  std::vector<EdgeTurn> edges;             ///< LayerOptions::edges
   std::vector<geometry::Vec3> end_planes;  ///< by CAD face: normals of planes that layers end on, else zero
   std::vector<std::int32_t> first_around,
       around;  ///< triangles by vertex, ascending; each list ends where the next begins

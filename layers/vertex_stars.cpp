@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 namespace aeroloom::layers {
@@ -12,13 +13,6 @@ namespace {
 
 using geometry::Vec3;
 using mesh::VertexName;
-
-/// A triangle seen from one of its corners: the other two corners in order, and where it comes from.
-struct StarTriangle {
-  Vec3 normal;
-  VertexName next, previous;
-  std::int32_t piece, cell, role, face;
-};
 
 /// A triangle sent to the rank that collects the star of its vertex. `vertex` is its number here.
 struct SentTriangle {
@@ -50,12 +44,15 @@ public:
     const int at = corners[0] == vertex ? 0 : corners[1] == vertex ? 1 : 2;
     const std::int32_t base = _wall.first_vertex[_position];
     return {normal_of(_wall, t),
+            _wall.points[corners[(at + 1) % 3]],
             _names[corners[(at + 1) % 3] - base],
             _names[corners[(at + 2) % 3] - base],
             _wall.mesh.pieces[_position].id,
             t - _wall.first_triangle[_position],
             static_cast<std::int32_t>(_wall.roles[t]),
-            _wall.faces[t]};
+            _wall.faces[t],
+            _wall.patches[t],
+            static_cast<std::int32_t>(_wall.turn_at(_position, corners[(at + 1) % 3] - base))};
   }
 
 private:
@@ -64,32 +61,31 @@ private:
   std::vector<VertexName> _names;
 };
 
-/// Whether the triangles form one closed fan: each one's last edge is the first of another, and one turn
-/// passes all.
-bool is_closed_star(std::span<const StarTriangle> star) {
-  std::size_t at = 0;
-  for (std::size_t step = 0; step < star.size(); ++step) {
+/// The triangles in order, each one's last edge the first of the next; empty unless they form one closed fan.
+std::vector<StarTriangle> in_order(std::span<const StarTriangle> star) {
+  std::vector<StarTriangle> ordered;
+  for (std::size_t at = 0; ordered.empty() || at != 0;) {
+    ordered.push_back(star[at]);
     std::size_t following = star.size();
     for (std::size_t i = 0; i < star.size(); ++i) {
       if (!(star[i].next == star[at].previous)) continue;
-      if (following != star.size()) return false;
+      if (following != star.size()) return {};
       following = i;
     }
-    if (following == star.size()) return false;
+    if (following == star.size() || ordered.size() > star.size()) return {};
     at = following;
-    if (at == 0) return step + 1 == star.size();
   }
-  return false;
+  return ordered.size() == star.size() ? ordered : std::vector<StarTriangle>();
 }
 
-StarKind kind_of(std::span<const StarTriangle> star) {
+StarKind kind_of(std::span<const StarTriangle> star, bool is_closed) {
   const auto has = [&](WallRole role) {
     return std::any_of(star.begin(), star.end(),
                        [&](const StarTriangle& t) { return static_cast<WallRole>(t.role) == role; });
   };
   if (!has(WallRole::layered)) return StarKind::off_wall;
   if (has(WallRole::other)) return StarKind::ending;
-  return is_closed_star(star) ? StarKind::plain : StarKind::broken;
+  return is_closed ? StarKind::plain : StarKind::broken;
 }
 
 /// Normals of the different planes around a vertex that layers end on.
@@ -145,6 +141,27 @@ std::vector<StarAnswer> meet_at_shared_vertices(const LocalWall& wall) {
   return answers;
 }
 
+/// Adds the ridge of a plain star, if it has one.
+void add_ridge(const StarCentre& centre, std::int32_t v, std::span<const StarTriangle> ordered,
+               const LocalWall& wall, VertexStars& stars) {
+  std::vector<RidgeSide> sides;
+  std::optional<Ridge> ridge = find_ridge(centre, ordered, sides);
+  if (!ridge && !sides.empty()) ++stars.lost_ridges;
+  if (!ridge) return;
+  stars.ridge_of[v] = static_cast<std::int32_t>(stars.ridges.size());
+  stars.ridges.push_back(*ridge);
+  for (const std::int32_t t : wall.triangles_around(v)) {
+    const TrianglePlace place = wall.place_of(t);
+    const auto at = std::find_if(ordered.begin(), ordered.end(), [&](const StarTriangle& other) {
+      return other.piece == place.piece && other.cell == place.cell;
+    });
+    const LocalWall::Corners& corners = wall.triangles[t];
+    const auto corner = std::find(corners.begin(), corners.end(), v) - corners.begin();
+    stars.sides[3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(corner)] =
+        sides[static_cast<std::size_t>(at - ordered.begin())];
+  }
+}
+
 }  // namespace
 
 VertexStars gather_stars(const LocalWall& wall) {
@@ -153,6 +170,8 @@ VertexStars gather_stars(const LocalWall& wall) {
   stars.first.reserve(wall.points.size() + 1);
   stars.first.push_back(0);
   stars.first_plane.push_back(0);
+  stars.ridge_of.assign(wall.points.size(), -1);
+  stars.sides.assign(3 * wall.triangles.size(), 0);
   std::vector<StarTriangle> star;
   std::size_t next = 0;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
@@ -163,10 +182,14 @@ VertexStars gather_stars(const LocalWall& wall) {
       if (star.empty()) {
         for (const std::int32_t t : wall.triangles_around(v)) star.push_back(of_piece.triangle(t, v));
       }
-      stars.kinds.push_back(kind_of(star));
+      const std::vector<StarTriangle> ordered = in_order(star);
+      stars.kinds.push_back(kind_of(star, !ordered.empty()));
       std::vector<Vec3> planes = planes_around(wall, star);
       if (stars.kinds.back() != StarKind::plain) planes.clear();
       if (planes.size() > 2) stars.kinds.back() = StarKind::ending, planes.clear();
+      const EdgeTurn turn = wall.turn_at(p, v - wall.first_vertex[p]);
+      if (stars.kinds.back() == StarKind::plain && planes.size() < 2 && turn != EdgeTurn::smooth)
+        add_ridge({wall.points[v], turn, planes.empty() ? Vec3{} : planes[0]}, v, ordered, wall, stars);
       append_normals(star, planes, stars.normals);
       stars.plane_normals.insert(stars.plane_normals.end(), planes.begin(), planes.end());
       stars.first.push_back(static_cast<std::int64_t>(stars.normals.size()));

@@ -1,7 +1,7 @@
 /// The star of each wall vertex: all triangles around it, those of other pieces included.
 #pragma once
 
-#include "layers/local_wall.hpp"
+#include "layers/ridges.hpp"
 
 #include <cstdint>
 #include <span>
@@ -28,6 +28,14 @@ struct VertexStars {
   std::vector<geometry::Vec3>
       plane_normals;  ///< normals of the planes at a vertex that layers end on; at most two
 
+  std::vector<Ridge> ridges;
+  std::int64_t lost_ridges = 0;        ///< vertices of this rank that sharp edges meet and that have no ridge
+  std::vector<std::int32_t> ridge_of;  ///< by vertex: its ridge, or -1
+  std::vector<RidgeSide> sides;        ///< by triangle and corner: the side of the ridge there
+
+  const Ridge* ridge_at(std::int32_t vertex) const {
+    return ridge_of[vertex] < 0 ? nullptr : &ridges[ridge_of[vertex]];
+  }
   std::span<const geometry::Vec3> normals_at(std::int32_t vertex) const {
     return std::span(normals).subspan(first[vertex], first[vertex + 1] - first[vertex]);
   }

@@ -1,9 +1,11 @@
 #include "pipeline/layer_stage.hpp"
 
+#include "layers/cap_layout.hpp"
 #include "layers/column_heights.hpp"
 #include "layers/end_planes.hpp"
 #include "mesh/transfer/split_pieces.hpp"
 #include "parallel/observation/log.hpp"
+#include "pipeline/edge_turns.hpp"
 #include "pipeline/stage_log.hpp"
 #include "sizing/field/sources.hpp"
 #include "surface/plane_remesher.hpp"
@@ -54,14 +56,32 @@ double size_above(double edge, double last_height) {
 }
 
 std::vector<ColumnEnd> ends_of_columns(const mesh::Piece& wall, const layers::PieceColumns& columns) {
-  mesh::Piece moved = wall;
-  for (LocalIndex v = 0; v < moved.vertex_count(); ++v)
-    moved.set_point(v, layers::node(wall, columns, v, columns.counts[v]));
+  const layers::CapLayout layout = layers::lay_out_cap(wall, columns);
+  mesh::Piece moved;
+  moved.kind = mesh::CellKind::triangle;
+  for (const auto& corners : layout.triangles)
+    moved.cells.insert(moved.cells.end(), corners.begin(), corners.end());
+  moved.coordinates.resize(3 * layout.column_of_vertex.size());
+  for (LocalIndex v = 0; v < layout.vertex_count; ++v) {
+    const std::int32_t column = layout.column_of_vertex[v];
+    if (column < 0) continue;
+    moved.set_point(v, layers::node(wall, columns, column, columns.counts[columns.vertex_of(column)]));
+  }
+  for (std::size_t f = 0; f < columns.fan_faces.size(); ++f) {
+    if (layout.apex_of_face[f] < 0) continue;
+    Vec3 sum;
+    for (const std::int32_t column : columns.fan_faces[f].columns)
+      sum += moved.point(layout.vertex_of_column[column]);
+    moved.set_point(layout.apex_of_face[f], sum / 4);
+  }
   const std::vector<double> edges = mean_edges(moved);
   std::vector<ColumnEnd> ends;
-  for (LocalIndex v = 0; v < moved.vertex_count(); ++v) {
-    if (columns.counts[v] == 0) continue;
-    const double last = layers::heights(columns, v).last(columns.counts[v]);
+  for (LocalIndex v = 0; v < layout.vertex_count; ++v) {
+    const std::int32_t column = layout.column_of_vertex[v];
+    if (column < 0) continue;
+    const LocalIndex of = columns.vertex_of(column);
+    if (columns.counts[of] == 0) continue;
+    const double last = layers::heights(columns, of).last(columns.counts[of]);
     ends.push_back({moved.point(v), size_above(edges[v], last)});
   }
   return ends;
@@ -159,6 +179,7 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
       cases::layer_options(cases::without_missing_patches(input.layers, surface.patches), input.sizing,
                            surface.patches, surface.types);
   fit_layers(input.layers, surface, options);
+  options.edges = find_edge_turns(surface.model);
   const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
   surface.bounds_volume = planes.faces.empty();
   static_cast<mesh::NumberedMesh&>(surface) =

@@ -187,12 +187,14 @@ void log_layers(const report::LayerRecord& record) {
     all.low_first_area += patch.low_first_area, all.sums.heights += patch.sums.heights;
     all.sums.layers += patch.sums.layers, all.sums.wanted += patch.sums.wanted;
     all.prisms += patch.prisms, all.pyramids += patch.pyramids, all.tetrahedra += patch.tetrahedra;
+    all.hexahedra += patch.hexahedra;
   }
   const double area = std::max(all.area, std::numeric_limits<double>::min());
   log_info(fmt::format(
-      "layers: {} prisms, {} pyramids and {} tetrahedra; {:.1f} % of the walls have all layers asked for, "
+      "layers: {} prisms, {}{} pyramids and {} tetrahedra; {:.1f} % of the walls have all layers asked for, "
       "{:.1f} % none; on {:.1f} % the first is lower than {:g} of what is asked for",
-      all.prisms, all.pyramids, all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area,
+      all.prisms, all.hexahedra > 0 ? fmt::format("{} hexahedra, ", all.hexahedra) : "", all.pyramids,
+      all.tetrahedra, 100 * all.full_area / area, 100 * all.empty_area / area,
       100 * all.low_first_area / area, layers::PatchLayers::low));
   const std::string plate =
       record.boundary_layer

@@ -230,8 +230,8 @@ void retire_meshes(const FoamCase& foam_case) {
   warn_of_fields(foam_case);
 }
 
-bool write_settings(const FoamCase& foam_case, const FlowReference& flow, bool is_external) {
-  for (const FoamSetting& setting : foam_dictionaries())
+bool write_settings(const FoamCase& foam_case, const FoamFlow& flow) {
+  for (const FoamSetting& setting : foam_dictionaries(flow.has_fans))
     write_once(foam_case.folder / setting.path, setting.text);
   write_decomposition(foam_case);
   write_script(foam_case);
@@ -243,7 +243,7 @@ bool write_settings(const FoamCase& foam_case, const FlowReference& flow, bool i
         "'{}' holds fields: they are not given to the parts, decomposePar -fields does that", own.string()));
     return false;
   }
-  const FoamSetting conditions = foam_conditions(flow, is_external);
+  const FoamSetting conditions = foam_conditions(flow.reference, flow.is_external);
   write_once(foam_case.folder / conditions.path, conditions.text);
   for (const FoamField& field : foam_fields(way_up(foam_case)))
     write_once(foam_case.folder / "0.orig" / field.name, field.text);

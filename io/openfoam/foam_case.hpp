@@ -29,11 +29,18 @@ void prepare_case(const FoamCase& foam_case);
 /// Removes meshes of earlier runs, and unchanged files of write_fields(). One rank calls it.
 void retire_meshes(const FoamCase& foam_case);
 
+/// What settings depend on.
+struct FoamFlow {
+  FlowReference reference;
+  bool is_external = false;  ///< there is a far field
+  bool has_fans = false;     ///< as foam_dictionaries() has it
+};
+
 /// Writes the missing settings of foam_settings.hpp: dictionaries in system/ and constant/, fields in
 /// 0.orig/, and the script run.sh. A decomposeParDict or script for another number of parts is replaced where
 /// it is unchanged; otherwise a warning follows. Returns false where the case has fields in 0/ that are not
 /// decomposed: the parts then get no fields. One rank calls it.
-bool write_settings(const FoamCase& foam_case, const FlowReference& flow, bool is_external);
+bool write_settings(const FoamCase& foam_case, const FoamFlow& flow);
 /// Makes the missing fields in the time folder 0 of a part, each of which includes the one in 0.orig/.
 void write_fields(const FoamCase& foam_case, std::int32_t part);
 

@@ -244,18 +244,20 @@ constexpr std::array<Field, 6> fields = {
 
 }  // namespace
 
-std::vector<FoamSetting> foam_dictionaries() {
+std::vector<FoamSetting> foam_dictionaries(bool has_fans) {
   std::vector<FoamSetting> all;
   const auto add = [&all](const char* folder, const char* name, std::string_view content) {
     all.push_back({std::filesystem::path(folder) / name, with_header("dictionary", folder, name, content)});
   };
   add("system", "controlDict", control);
   const std::string first = fmt::format(schemes, "default cellLimited Gauss linear 1;", "upwind"),
-                    second = fmt::format(schemes,
-                                         "default cellLimited Gauss linear 1;\n"
-                                         "                  grad(p) cellLimited Gauss pointLinear 0.5;\n"
-                                         "                  convected cellLimited Gauss pointLinear 0.5;",
-                                         "linearUpwind convected");
+                    gradients = fmt::format(
+                        "default cellLimited Gauss linear 1;\n"
+                        "                  grad(p) cellLimited {} 0.5;\n"
+                        "                  convected cellLimited {} 0.5;",
+                        has_fans ? "leastSquares" : "Gauss pointLinear",
+                        has_fans ? "Gauss linear" : "Gauss pointLinear"),
+                    second = fmt::format(schemes, gradients, "linearUpwind convected");
   add("system", "fvSchemes", first);
   add("system", "fvSchemes.first", first);
   add("system", "fvSchemes.second", second);

@@ -20,8 +20,10 @@ struct FoamSetting {
   std::string text;
 };
 
-/// All dictionaries but decomposeParDict.
-std::vector<FoamSetting> foam_dictionaries();
+/// All dictionaries but decomposeParDict. `has_fans`: several columns of layers stand on a wall's vertices.
+/// The value at such a corner is then a mean over the wall on both sides, and that above it of one side:
+/// gradients at second order come from cells, not from corners.
+std::vector<FoamSetting> foam_dictionaries(bool has_fans);
 /// The values that the fields use. The viscosity follows from the Reynolds number; without one it is that of
 /// air in the unit of the mesh. `is_external`: with a far field, the flow starts with its state; otherwise at
 /// rest.

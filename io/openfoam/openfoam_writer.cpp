@@ -291,9 +291,13 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   const FoamMesh whole{
       mesh, plan, {foam_patches(mesh.patches), foam_words(mesh.regions)}, format_of(mesh, plan, options)};
   const FoamCase foam_case{folder, mesh.part_count};
-  const bool is_external =
-      std::any_of(mesh.patches.begin(), mesh.patches.end(),
-                  [](const mesh::Patch& patch) { return patch.type == mesh::PatchType::farfield; });
+  FoamFlow flow{mesh.flow};
+  flow.is_external = std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const mesh::Patch& patch) {
+    return patch.type == mesh::PatchType::farfield;
+  });
+  const bool has_fans_here = std::any_of(mesh.pieces->pieces.begin(), mesh.pieces->pieces.end(),
+                                         [](const mesh::Piece& piece) { return !piece.hexahedra.empty(); });
+  flow.has_fans = communicator.maximum(std::int64_t{has_fans_here}) > 0;
   parallel::on_root(communicator, [&] { prepare_case(foam_case); });
   bool has_fields = true;
   try {
@@ -303,7 +307,7 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(whole, part, order, foam_case.unfinished(part.id)).write();
       }
-      if (communicator.is_root()) has_fields = write_settings(foam_case, mesh.flow, is_external);
+      if (communicator.is_root()) has_fields = write_settings(foam_case, flow);
     });
   } catch (const parallel::CollectiveError&) {
     std::error_code ignored;

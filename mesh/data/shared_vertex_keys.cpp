@@ -10,6 +10,9 @@ namespace {
 constexpr SharedVertexKey cut_bit = SharedVertexKey{1} << 63, split_bit = SharedVertexKey{1} << 62;
 constexpr int face_bits = 22, group_bits = 16, index_bits = 24;
 constexpr int edge_shift = 32;
+// Columns over such a vertex: the uppermost eight bits of its index.
+constexpr SharedVertexKey last_column = 0xff;
+constexpr int column_of_index = 24, column_of_split = 23, column_of_cut = 16;
 
 // Volumes: bits 63 and 62 for rounds, 8 for the round, 54 for piece and vertex or for a running number.
 constexpr SharedVertexKey late_bit = SharedVertexKey{1} << 63, placed_bit = SharedVertexKey{1} << 62,
@@ -44,12 +47,32 @@ SharedVertexKey split_vertex_key(PieceId piece, LocalIndex vertex) {
   return cut_bit | split_bit | wide(piece) << piece_shift | wide(vertex);
 }
 
+namespace {
+
+int column_shift(SharedVertexKey vertex) {
+  if ((vertex & cut_bit) == 0) return column_of_index;
+  return (vertex & split_bit) != 0 ? column_of_split : column_of_cut;
+}
+
+}  // namespace
+
+bool can_name_columns(SharedVertexKey vertex) {
+  return (vertex >> column_shift(vertex) & last_column) == 0;
+}
+
+SharedVertexKey fan_vertex_key(SharedVertexKey vertex, std::int32_t column) {
+  if (!can_name_columns(vertex) || wide(column) > last_column)
+    throw std::runtime_error("boundary layers: a column over a vertex has no name");
+  return vertex | wide(column) << column_shift(vertex);
+}
+
 bool is_cut_vertex_key(SharedVertexKey vertex_key) {
   return (vertex_key & cut_bit) != 0;
 }
 
 std::int32_t edge_of_vertex_key(SharedVertexKey vertex_key) {
-  return is_cut_vertex_key(vertex_key) ? -1 : static_cast<std::int32_t>(vertex_key >> edge_shift) - 1;
+  if (is_cut_vertex_key(vertex_key)) return -1;
+  return static_cast<std::int32_t>(vertex_key >> edge_shift) - 1;
 }
 
 std::int32_t index_of_vertex_key(SharedVertexKey vertex_key) {

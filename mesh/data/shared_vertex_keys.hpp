@@ -25,6 +25,12 @@ SharedVertexKey cut_vertex_key(std::int32_t face, std::int32_t group, std::int32
 /// A vertex of a piece that is shared since the piece was split (split_pieces.hpp); it counts as one on cuts.
 SharedVertexKey split_vertex_key(PieceId piece, LocalIndex vertex);
 
+/// Column `column`, 1 to 255, of boundary layers over a vertex: the first one's end has the vertex's own key.
+/// Throws std::runtime_error if the vertex cannot name columns: its index is 2^24 or more, on cuts 2^16, of a
+/// split piece 2^23.
+SharedVertexKey fan_vertex_key(SharedVertexKey vertex, std::int32_t column);
+bool can_name_columns(SharedVertexKey vertex);
+
 bool is_cut_vertex_key(SharedVertexKey vertex_key);
 /// The CAD edge in the name of a vertex of a curve, -1 for CAD vertices and vertices on cuts.
 std::int32_t edge_of_vertex_key(SharedVertexKey vertex_key);

@@ -40,6 +40,7 @@ Json patch_json(const std::string& name, const layers::WallLayers& asked, const 
                {"height_mean", fraction(patch.sums.heights, patch.area)},
                {"last_mean", fraction(patch.sums.last, patch.area)},
                {"prisms", patch.prisms},
+               {"hexahedra", patch.hexahedra},
                {"pyramids", patch.pyramids},
                {"tetrahedra", patch.tetrahedra}};
   json["limited"] = limits_json(patch);

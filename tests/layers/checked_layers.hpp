@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/predicates.hpp"
+#include "layers/cap_layout.hpp"
 #include "layers/columns.hpp"
 #include "mesh/checks/intersection.hpp"
 #include "mesh/quality/cell_measures.hpp"
@@ -68,39 +69,81 @@ inline void expect_good_prism(const std::array<Vec3, 6>& p) {
   }
 }
 
-/// Volume of the cells over a triangle whose corners are counter-clockwise seen from the fluid; expects all
+/// Volume of a cell that has to be valid.
+template <std::size_t Corners>
+double check_cell(mesh::CellShape shape, const std::array<Vec3, Corners>& p) {
+  if constexpr (Corners == 6) expect_good_prism(p);
+  EXPECT_TRUE(mesh::has_positive_corners(shape, p.data()));
+  return mesh::cell_volume(shape, p.data());
+}
+
+/// Volume of the cells over a triangle whose columns are counter-clockwise seen from the fluid; expects all
 /// to be valid.
 inline double check_cells(const mesh::Piece& piece, const PieceColumns& columns,
-                          std::array<mesh::LocalIndex, 3> v) {
+                          const std::array<std::int32_t, 3>& corners) {
+  std::array<std::int32_t, 3> counts;
+  for (int i = 0; i < 3; ++i) counts[i] = columns.counts[columns.vertex_of(corners[i])];
   const auto at = [&](int i, std::int32_t k) {
-    return node(piece, columns, v[i], std::min(k, columns.counts[v[i]]));
+    return node(piece, columns, corners[i], std::min(k, counts[i]));
   };
-  const std::int32_t most = std::max({columns.counts[v[0]], columns.counts[v[1]], columns.counts[v[2]]});
   double volume = 0;
-  for (std::int32_t k = 1; k <= most; ++k) {
+  for (std::int32_t k = 1; k <= *std::max_element(counts.begin(), counts.end()); ++k) {
     const std::array<Vec3, 6> p{at(0, k - 1), at(1, k - 1), at(2, k - 1), at(0, k), at(1, k), at(2, k)};
     std::array<int, 3> live{};
     int count = 0, dead = 0;
     for (int i = 0; i < 3; ++i) {
-      if (columns.counts[v[i]] >= k)
+      if (counts[i] >= k)
         live[count++] = i;
       else
         dead = i;
     }
     if (count == 3) {
-      expect_good_prism(p);
-      volume += mesh::cell_volume(mesh::CellShape::prism, p.data());
+      volume += check_cell(mesh::CellShape::prism, p);
     } else if (count == 2) {
       const int i = (dead + 1) % 3, j = (dead + 2) % 3;
-      const std::array<Vec3, 5> pyramid{p[i], p[i + 3], p[j + 3], p[j], p[dead]};
-      EXPECT_TRUE(mesh::has_positive_corners(mesh::CellShape::pyramid, pyramid.data()));
-      volume += mesh::cell_volume(mesh::CellShape::pyramid, pyramid.data());
+      volume += check_cell(mesh::CellShape::pyramid, std::array{p[i], p[i + 3], p[j + 3], p[j], p[dead]});
     } else {
-      const std::array<Vec3, 4> tetrahedron{p[0], p[1], p[2], p[live[0] + 3]};
-      EXPECT_TRUE(mesh::has_positive_corners(mesh::CellShape::tetrahedron, tetrahedron.data()));
-      volume += mesh::cell_volume(mesh::CellShape::tetrahedron, tetrahedron.data());
+      volume += check_cell(mesh::CellShape::tetrahedron, std::array{p[0], p[1], p[2], p[live[0] + 3]});
     }
   }
+  return volume;
+}
+
+/// The same for the cells of a fan, and the pyramid on top of a sector; all columns have layers.
+inline double check_fan(const mesh::Piece& piece, const PieceColumns& columns, const FanFace& face,
+                        const Vec3& apex) {
+  const std::array<std::int32_t, 2> ends{columns.vertex_of(face.columns[0]),
+                                         columns.vertex_of(face.columns[2])};
+  const std::array<std::int32_t, 2> counts{columns.counts[ends[0]], columns.counts[ends[1]]};
+  double volume = 0;
+  const auto at = [&](int i, std::int32_t k) {
+    return node(piece, columns, face.columns[i], std::min(k, counts[i / 2]));
+  };
+  const std::int32_t most = std::max(counts[0], counts[1]);
+  for (std::int32_t k = 1; k <= most; ++k) {
+    const auto low = [&](int i) { return at(i, k - 1); };
+    const auto high = [&](int i) { return at(i, k); };
+    if (!face.is_sector()) {
+      if (k == 1)
+        volume += check_cell(mesh::CellShape::tetrahedron, std::array{low(0), high(0), high(1), high(2)});
+      if (k > 1)
+        volume +=
+            check_cell(mesh::CellShape::prism, std::array{low(0), low(1), low(2), high(0), high(1), high(2)});
+    } else if (counts[0] < k || counts[1] < k) {
+      const int a = counts[0] >= k ? 0 : 2, c = 2 - a;
+      volume += check_cell(mesh::CellShape::prism,
+                           std::array{low(a), high(c + 1), high(a), low(a + 1), high(c), high(a + 1)});
+    } else if (k == 1) {
+      volume +=
+          check_cell(mesh::CellShape::prism, std::array{low(0), high(0), high(1), low(2), high(3), high(2)});
+    } else {
+      volume += check_cell(mesh::CellShape::hexahedron,
+                           std::array{low(0), low(1), low(2), low(3), high(0), high(1), high(2), high(3)});
+    }
+  }
+  if (face.is_sector())
+    volume += check_cell(mesh::CellShape::pyramid,
+                         std::array{at(0, most), at(1, most), at(2, most), at(3, most), apex});
   return volume;
 }
 
@@ -112,12 +155,22 @@ inline void expect_valid(const mesh::DistributedMesh& wall, const Layers& layers
   for (std::size_t p = 0; p < wall.pieces.size(); ++p) {
     const mesh::Piece& piece = wall.pieces[p];
     const PieceColumns& columns = layers.columns.pieces[p];
-    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const mesh::LocalIndex* v = piece.cell(t);
-      volume += check_cells(piece, columns, {v[0], v[2], v[1]});
+    const CapLayout layout = lay_out_cap(piece, columns);
+    const mesh::Piece& cap = layers.cap.pieces[p];
+    for (const auto& [a, b, c] : columns.corner_columns) volume += check_cells(piece, columns, {a, c, b});
+    for (std::size_t f = 0; f < columns.fan_faces.size(); ++f) {
+      const FanFace& face = columns.fan_faces[f];
+      const bool empty = columns.counts[columns.vertex_of(face.columns[0])] == 0 ||
+                         columns.counts[columns.vertex_of(face.columns[2])] == 0;
+      ASSERT_FALSE(empty);
+      volume +=
+          check_fan(piece, columns, face, face.is_sector() ? cap.point(layout.apex_of_face[f]) : Vec3{});
     }
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
-      EXPECT_EQ(layers.cap.pieces[p].point(v), node(piece, columns, v, columns.counts[v]));
+    for (std::int32_t c = 0; c < columns.column_count(); ++c) {
+      if (layout.vertex_of_column[c] < 0) continue;
+      EXPECT_EQ(cap.point(layout.vertex_of_column[c]),
+                node(piece, columns, c, columns.counts[columns.vertex_of(c)]));
+    }
   }
   const double between = enclosed_volume(wall) - enclosed_volume(layers.cap);
   EXPECT_NEAR(communicator.sum(volume), communicator.sum(between),

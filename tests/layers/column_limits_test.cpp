@@ -27,7 +27,7 @@ struct Limited {
       : communicator(ranks),
         mesh(cube_in_a_box().distribute(ranks, pieces)),
         base(mesh, options),
-        columns(base.wall, options, base.stars, base.directions) {}
+        columns(examples::limits_of(base, options)) {}
 
   template <class T>
   std::vector<T> at_corner(T there, T elsewhere) const {

@@ -1,11 +1,13 @@
 /// A wall with what is known of its vertices before columns grow.
 #pragma once
 
+#include "layers/column_limits.hpp"
 #include "layers/directions.hpp"
 #include "layers/vertex_stars.hpp"
 #include "tests/meshes/wall_meshes.hpp"
 
 #include <cstddef>
+#include <vector>
 
 namespace aeroloom::layers::examples {
 
@@ -17,15 +19,25 @@ inline LayerOptions layers_on(std::size_t patches) {
   return options;
 }
 
-/// A wall with its stars and directions. Refers to the mesh.
+/// A wall with its stars and directions, one column on each vertex. Refers to the mesh.
 struct DirectedWall {
   DirectedWall(const mesh::DistributedMesh& mesh, const LayerOptions& options)
-      : wall(mesh, options), stars(gather_stars(wall)), directions(find_directions(wall, stars)) {}
+      : wall(mesh, options),
+        stars(gather_stars(wall)),
+        fans(without_fans(wall)),
+        directions(find_directions(wall, stars, fans)) {}
 
   LocalWall wall;
   VertexStars stars;
+  Fans fans;
   Directions directions;
 };
+
+/// The columns that patches ask for. Refers to the wall.
+inline ColumnLimits limits_of(const DirectedWall& base, const LayerOptions& options) {
+  const std::vector<VertexLayers> wanted = gather_wanted_layers(base.wall, options);
+  return {base.wall, wanted, smooth_mean_edges(base.wall, wanted), base.stars, base.directions};
+}
 
 /// A cube of edge 1 in a box.
 inline Shapes cube_in_a_box() {

@@ -128,13 +128,13 @@ TEST(EndPlanes, HoldTheEndsOfLayers) {
       }
       EXPECT_EQ(columns.counts[v] == 0, from.x == 1 || from.y == 1) << "the far field ends them at zero";
       if (columns.counts[v] == 0) continue;
-      const Vec3 to = node(piece, columns, v, columns.counts[v]);
+      const Vec3 to = node(piece, columns, columns.first_column[v], columns.counts[v]);
       EXPECT_GT(to.z, 0);
       EXPECT_TRUE(from.x != 0 || same_bits(to.x, from.x));
       EXPECT_TRUE(from.y != 0 || same_bits(to.y, from.y));
       on_planes += from.x == 0 || from.y == 0;
       if (from.x == 0 && from.y == 0) {
-        EXPECT_EQ(columns.directions[v], (Vec3{0, 0, 1}));
+        EXPECT_EQ(columns.directions[columns.first_column[v]], (Vec3{0, 0, 1}));
         EXPECT_GE(columns.counts[v], 20) << "as many as elsewhere: planes are not in the way";
       }
     }

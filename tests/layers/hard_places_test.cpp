@@ -2,6 +2,7 @@
 /// of symmetry, trailing edges on a fuselage.
 #include "tests/layers/checked_layers.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -120,11 +121,11 @@ TEST(HardPlaces, LayersOfACylinderEndOnPlanesOfSymmetry) {
     const PieceColumns& columns = layers.columns.pieces[p];
     if (piece.common_face() != body_face) continue;
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      const mesh::LocalIndex* v = piece.cell(t);
-      check_cells(piece, columns, {v[0], v[2], v[1]});
+      const auto& [a, b, c] = columns.corner_columns[t];
+      check_cells(piece, columns, {a, c, b});
     }
     for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      const Vec3 from = piece.point(v), to = node(piece, columns, v, columns.counts[v]);
+      const Vec3 from = piece.point(v), to = node(piece, columns, columns.first_column[v], columns.counts[v]);
       EXPECT_NEAR(columns.first[v], 1e-3, 2e-5);
       if (from.z != 0 && from.z != 1) continue;
       EXPECT_EQ(std::bit_cast<std::uint64_t>(to.z), std::bit_cast<std::uint64_t>(from.z));
@@ -132,6 +133,55 @@ TEST(HardPlaces, LayersOfACylinderEndOnPlanesOfSymmetry) {
     }
   }
   EXPECT_GE(world.sum(on_planes), 2 * around);
+}
+
+TEST(HardPlaces, FansOfASharpEdgeEndOnPlanesOfSymmetry) {
+  const auto world = Communicator::world();
+  mesh::DistributedMesh mesh = around_a_body(sharp_section).distribute_faces(world, 2);
+  mesh.patch_types = {mesh::PatchType::wall, mesh::PatchType::farfield, mesh::PatchType::symmetry,
+                      mesh::PatchType::symmetry};
+  for (mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (piece.point(v).x == 1) piece.vertex_dimension[v] = mesh::CadDimension::vertex;
+    }
+  }
+  LayerOptions options = options_for({1e-3});
+  options.ends_on_planes = true;
+  const Layers layers = build(mesh, options, take_planes_away);
+  std::int64_t at_edge = 0, ends = 0, rims = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const mesh::Piece& piece = mesh.pieces[p];
+    const PieceColumns& columns = layers.columns.pieces[p];
+    rims += static_cast<std::int64_t>(columns.rims.size());
+    if (piece.common_face() != body_face) continue;
+    const CapLayout layout = lay_out_cap(piece, columns);
+    for (std::size_t f = 0; f < columns.fan_faces.size(); ++f) {
+      const FanFace& face = columns.fan_faces[f];
+      ASSERT_TRUE(face.is_sector());
+      check_fan(piece, columns, face, layers.cap.pieces[p].point(layout.apex_of_face[f]));
+      for (int end = 0; end < 2; ++end) {
+        const double z = piece.point(columns.vertex_of(face.columns[2 * end])).z;
+        const std::int32_t plane = z == 0 ? floor_face : z == 1 ? ceiling_face : -1;
+        EXPECT_EQ(face.end_faces[end], plane);
+        ends += plane >= 0;
+      }
+    }
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const Vec3 from = piece.point(v);
+      if (from.x != 1) continue;
+      ++at_edge;
+      EXPECT_GE(columns.columns_at(v), 6);
+      for (std::int32_t c = columns.first_column[v]; c < columns.first_column[v + 1]; ++c) {
+        const Vec3 to = node(piece, columns, c, columns.counts[v]);
+        EXPECT_NEAR(to.z, from.z, 1e-12) << "at right angles to the edge";
+        if (from.z != 0 && from.z != 1) continue;
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(to.z), std::bit_cast<std::uint64_t>(from.z));
+      }
+    }
+  }
+  EXPECT_GE(world.sum(at_edge), 9);
+  EXPECT_GE(world.sum(ends), 2 * 5);
+  EXPECT_EQ(world.sum(rims), world.sum(ends));
 }
 
 /// Layers on a wing and on the fuselages at both its ends; what is empty is at most so much of the wing.

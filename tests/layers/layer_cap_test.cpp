@@ -2,7 +2,7 @@
 
 #include "layers/good_columns.hpp"
 #include "mesh/checks/intersection.hpp"
-#include "tests/meshes/wall_meshes.hpp"
+#include "tests/layers/directed_wall.hpp"
 #include "tests/several_ranks.hpp"
 
 #include <gtest/gtest.h>
@@ -29,40 +29,39 @@ LayerOptions layers_on_plates() {
 
 /// Columns of a wall that nobody has told of gaps.
 struct Unaware {
-  Unaware(const mesh::DistributedMesh& mesh)
-      : wall(mesh, layers_on_plates()),
-        stars(gather_stars(wall)),
-        directions(find_directions(wall, stars)),
-        limits(wall, layers_on_plates(), stars, directions) {
-    limits.converge();
-    shrink_to_good(wall, directions, limits);
-  }
-  mesh::DistributedMesh cap() const { return make_cap(wall.mesh, make_columns(wall, directions, limits)); }
+  Unaware(const mesh::DistributedMesh& mesh, const LayerOptions& options)
+      : base(mesh, options), limits(examples::limits_of(base, options)) {}
 
-  LocalWall wall;
-  VertexStars stars;
-  Directions directions;
+  void shrink() {
+    limits.converge();
+    shrink_to_good(base.wall, base.fans, base.directions, limits);
+  }
+  mesh::DistributedMesh cap() const {
+    return make_cap(base.wall.mesh, make_columns(base.wall, base.fans, base.directions, limits));
+  }
+  mesh::DistributedMesh clear(LayerReport& report) {
+    const PlaneRemesher none;
+    return CapClearing(base.wall, base.fans, base.directions, none).run(limits, report);
+  }
+
+  examples::DirectedWall base;
   ColumnLimits limits;
 };
-
-mesh::DistributedMesh clear(Unaware& columns, LayerReport& report) {
-  const PlaneRemesher none;
-  return CapClearing(columns.wall, columns.directions, none).run(columns.limits, report);
-}
 
 TEST(LayerCap, ShrinksUntilNoTrianglesMeet) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = narrow_slit().distribute(world, 5);
-  Unaware columns(mesh);
+  Unaware columns(mesh, layers_on_plates());
+  columns.shrink();
   EXPECT_FALSE(mesh::find_intersections(columns.cap()).empty());
   LayerReport report;
-  clear(columns, report);
+  columns.clear(report);
   EXPECT_TRUE(mesh::find_intersections(columns.cap()).empty());
   EXPECT_GE(report.crossing_rounds, 1);
   EXPECT_GT(report.crossings, 0);
   EXPECT_EQ(report.zeroed_by_force, 0);
   std::int64_t crossing = 0, live = 0;
-  for (std::int32_t v = 0; v < columns.wall.vertex_count(); ++v) {
+  for (std::int32_t v = 0; v < columns.base.wall.vertex_count(); ++v) {
     crossing += columns.limits.cause(v) == LayerLimit::crossing;
     live += columns.limits.count(v) > 0;
   }
@@ -75,9 +74,10 @@ TEST(LayerCap, IsTheSameAfterCrossingsOnAnyNumberOfRanks) {
   const auto world = Communicator::world(), self = Communicator::self();
   const auto cleared = [](const Communicator& communicator) {
     const mesh::DistributedMesh mesh = narrow_slit().distribute(communicator, 5);
-    Unaware columns(mesh);
+    Unaware columns(mesh, layers_on_plates());
+    columns.shrink();
     LayerReport report;
-    const mesh::DistributedMesh cap = clear(columns, report);
+    const mesh::DistributedMesh cap = columns.clear(report);
     return mesh::hash_mesh(mesh::number_mesh(cap));
   };
   EXPECT_EQ(cleared(world), cleared(self));
@@ -97,23 +97,18 @@ TEST(LayerCap, DoesNotCloseAroundAPart) {
   LayerOptions options;
   options.patches.resize(3);
   options.patches[1].first = 1e-2;
-  LocalWall wall(mesh, options);
-  const VertexStars stars = gather_stars(wall);
-  const Directions directions = find_directions(wall, stars);
-  ColumnLimits limits(wall, options, stars, directions);
-  limits.converge();
-  shrink_to_good(wall, directions, limits);
+  Unaware columns(mesh, options);
+  columns.shrink();
   LayerReport report;
-  const PlaneRemesher none;
-  const mesh::DistributedMesh before = make_cap(wall.mesh, make_columns(wall, directions, limits));
-  EXPECT_TRUE(mesh::find_intersections(before).empty());
-  CapClearing(wall, directions, none).run(limits, report);
+  EXPECT_TRUE(mesh::find_intersections(columns.cap()).empty());
+  columns.clear(report);
   EXPECT_GT(report.enclosing, 0);
   double least = 1;
   std::int64_t live = 0;
-  for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
-    if (distance(wall.points[v], {0.5, 0.5, 0.5}) < 0.1) least = std::min(least, limits.total(v));
-    live += limits.count(v) > 0;
+  for (std::int32_t v = 0; v < columns.base.wall.vertex_count(); ++v) {
+    if (distance(columns.base.wall.points[v], {0.5, 0.5, 0.5}) < 0.1)
+      least = std::min(least, columns.limits.total(v));
+    live += columns.limits.count(v) > 0;
   }
   EXPECT_LT(world.minimum(least), 0.05);
   EXPECT_GT(world.sum(live), 10);
@@ -126,13 +121,9 @@ TEST(LayerCap, LeavesCrossingsOfTheWallItself) {
           .add_box({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, examples::Fluid::outside)
           .add_box({0.5, 0.3, 0.2}, {1.6, 1.5, 1.4}, {2, 2, 2}, examples::Fluid::outside)
           .distribute(world, 3);
-  LocalWall wall(mesh, {});
-  const VertexStars stars = gather_stars(wall);
-  const Directions directions = find_directions(wall, stars);
-  ColumnLimits limits(wall, {}, stars, directions);
+  Unaware columns(mesh, {});
   LayerReport report;
-  const PlaneRemesher none;
-  CapClearing(wall, directions, none).run(limits, report);
+  columns.clear(report);
   EXPECT_EQ(report.crossing_rounds, 0);
 }
 

@@ -67,8 +67,13 @@ struct Layered {
         of_piece.growth.push_back(1.5);
         of_piece.regular.push_back(most_layers);
         of_piece.stretch.push_back(1);
-        end.set_point(v, node(piece, of_piece, v, column.count));
+        of_piece.first_column.push_back(v);
       }
+      of_piece.first_column.push_back(piece.vertex_count());
+      for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t)
+        of_piece.corner_columns.push_back({piece.cell(t)[0], piece.cell(t)[1], piece.cell(t)[2]});
+      for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v)
+        end.set_point(v, node(piece, of_piece, v, of_piece.counts[v]));
     }
     cap = mesh::number_mesh(std::move(moved));
   }

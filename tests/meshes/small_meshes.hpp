@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mesh/data/distributed_mesh.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
 
 #include <algorithm>
 #include <array>
@@ -58,7 +59,9 @@ inline Piece cut_piece(const WholeMesh& whole, PieceId id, const std::set<int>& 
     piece.vertex_entity.push_back(whole.entities[v]);
     if (shared.count(v)) {
       piece.shared_vertices.push_back(found->second);
-      piece.shared_keys.push_back(0x9e3779b97f4a7c15ULL * static_cast<SharedVertexKey>(v + 1));
+      const std::uint32_t anywhere =
+          0x9e3779b9U * static_cast<std::uint32_t>(v + 1);  // keys in another order than vertices
+      piece.shared_keys.push_back(curve_vertex_key(static_cast<std::int32_t>(anywhere >> 2), v));
     }
     return found->second;
   };

@@ -33,6 +33,22 @@ TEST(SharedVertexKeysLocal, TellWhatTheyWereMadeOf) {
   EXPECT_TRUE(is_cut_vertex_key(split_vertex_key(7, 5)));
 }
 
+TEST(SharedVertexKeysLocal, NameColumnsOverAVertex) {
+  for (const SharedVertexKey key :
+       {cad_vertex_key(12), curve_vertex_key(7, 5), cut_vertex_key(7, 5, 3), split_vertex_key(7, 5)}) {
+    ASSERT_TRUE(can_name_columns(key));
+    EXPECT_NE(fan_vertex_key(key, 1), key);
+    EXPECT_NE(fan_vertex_key(key, 255), fan_vertex_key(key, 254));
+    EXPECT_EQ(is_cut_vertex_key(fan_vertex_key(key, 255)), is_cut_vertex_key(key));
+    EXPECT_EQ(edge_of_vertex_key(fan_vertex_key(key, 255)), edge_of_vertex_key(key));
+    EXPECT_THROW(fan_vertex_key(key, 256), std::runtime_error);
+    EXPECT_THROW(fan_vertex_key(fan_vertex_key(key, 1), 1), std::runtime_error);
+  }
+  EXPECT_FALSE(can_name_columns(curve_vertex_key(7, 1 << 24)));
+  EXPECT_FALSE(can_name_columns(cut_vertex_key(7, 5, 1 << 16)));
+  EXPECT_FALSE(can_name_columns(split_vertex_key(7, 1 << 23)));
+}
+
 TEST(SharedVertexKeysLocal, CutsBeyondWhatCanBeNamedAreRefused) {
   EXPECT_NO_THROW(cut_vertex_key((1 << 22) - 1, (1 << 16) - 1, (1 << 24) - 1));
   EXPECT_THROW(cut_vertex_key(1 << 22, 0, 0), std::runtime_error);

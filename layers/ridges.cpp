@@ -1,0 +1,170 @@
+#include "layers/ridges.hpp"
+
+#include "layers/cone.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+
+/// Sides whose normals differ by more have no direction of their own.
+constexpr double least_cone = 0.1;
+constexpr double most_turn = 1.15 * std::numbers::pi;
+constexpr std::size_t most_edges = 8;
+/// Height over the edge of the triangles beside it, in edges: what is flatter and reaches another CAD edge is
+/// of a strip that the mesh does not resolve, as a blunt edge one triangle wide. Its faces stay as oblique
+/// all the way up between two fans.
+constexpr double least_height = 0.2;
+
+class RidgeFinder {
+public:
+  RidgeFinder(const StarCentre& centre, std::span<const StarTriangle> star)
+      : _centre(centre), _vertex(centre.point), _star(star), _plane(centre.plane) {}
+
+  std::optional<Ridge> find(std::vector<RidgeSide>& sides) {
+    for (std::size_t i = 0; i < _star.size(); ++i) {
+      if (is_sharp(i)) _edges.push_back(i);
+    }
+    _ridge.on_plane = !(_plane == Vec3{});
+    sides.assign(_edges.empty() ? 0 : _star.size(), 0);
+    if (_edges.empty() || _edges.size() > most_edges) return std::nullopt;
+    if (_ridge.on_plane && _edges.size() > 1) return std::nullopt;
+    if (!_ridge.on_plane && _edges.size() < 2) return std::nullopt;
+    _ridge.lowest = {_star[0].piece, _star[0].cell};
+    for (const StarTriangle& t : _star)
+      _ridge.lowest = std::min(_ridge.lowest, TrianglePlace{t.piece, t.cell});
+    if (std::any_of(_edges.begin(), _edges.end(), [&](std::size_t edge) { return is_beside_strip(edge); }))
+      return std::nullopt;
+    if (!part(sides)) return std::nullopt;
+    const bool found = _ridge.on_plane || _edges.size() == 2 ? turn_along() : turn_by_edge();
+    if (!found) return std::nullopt;
+    return std::move(_ridge);
+  }
+
+private:
+  /// Edge i starts before triangle i.
+  const StarTriangle& left(std::size_t edge) const { return _star[edge]; }
+  const StarTriangle& right(std::size_t edge) const {
+    return _star[(edge + _star.size() - 1) % _star.size()];
+  }
+  Vec3 along(std::size_t edge) const { return normalized(left(edge).next_point - _vertex); }
+
+  bool is_sharp(std::size_t edge) const {
+    const StarTriangle &l = left(edge), &r = right(edge);
+    if (r.wall_role() != WallRole::layered || l.wall_role() != WallRole::layered) return false;
+    const auto turn = static_cast<EdgeTurn>(l.edge_turn);
+    if (turn == EdgeTurn::smooth) return false;
+    const bool is_sharp = turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp;
+    return dot(r.normal, l.normal) < std::cos(is_sharp ? least_turn : sharp_turn) &&
+           dot(cross(r.normal, l.normal), l.next_point - _vertex) < 0;
+  }
+
+  bool is_beside_strip(std::size_t edge) const {
+    const auto is_flat = [&](const StarTriangle& from_corner) {
+      if (static_cast<EdgeTurn>(from_corner.edge_turn) == EdgeTurn::smooth) return false;
+      const Vec3 side = left(edge).next_point - _vertex;
+      return norm(cross(side, from_corner.next_point - _vertex)) < least_height * dot(side, side);
+    };
+    const std::size_t n = _star.size();
+    return is_flat(_star[(edge + 1) % n]) || is_flat(_star[(edge + n - 1) % n]);
+  }
+
+  /// Turns from the left to the right of an edge, each with a direction at right angles to it.
+  static Ridge::Turn turn_about(Vec3 along, Vec3 left, Vec3 right) {
+    const auto at_right_angles = [&](Vec3 direction) {
+      return normalized(direction - dot(direction, along) * along);
+    };
+    Ridge::Turn turn;
+    turn.normal = at_right_angles(left);
+    turn.across = cross(along, turn.normal);
+    const Vec3 last = at_right_angles(right);
+    turn.angle = std::atan2(dot(last, turn.across), dot(last, turn.normal));
+    if (turn.angle < 0) turn.angle += 2 * std::numbers::pi;
+    return turn;
+  }
+  static bool is_sound(const Ridge::Turn& turn) {
+    return turn.angle >= 0.5 * least_turn && turn.angle <= most_turn;
+  }
+
+  /// Parts the star at the edges.
+  bool part(std::vector<RidgeSide>& sides) {
+    const std::size_t n = _star.size();
+    sides.assign(n, 0);
+    std::vector<std::vector<Vec3>> normals(1);
+    for (std::size_t step = 0; step < n; ++step) {
+      const std::size_t i = (_edges[0] + step) % n;
+      const bool was_plane = step > 0 && right(i).wall_role() == WallRole::plane;
+      if (_star[i].wall_role() == WallRole::plane) {
+        if (normals.size() > 1) return false;
+        sides[i] = side_of_plane;
+        _ridge.plane_face = _star[i].face, _ridge.plane_patch = _star[i].patch;
+        _ridge.last_of_plane = {_star[i].piece, _star[i].cell}, _ridge.rim = _star[i].previous;
+        continue;
+      }
+      const bool at_edge = step > 0 && std::find(_edges.begin(), _edges.end(), i) != _edges.end();
+      if (at_edge || was_plane) normals.emplace_back();
+      sides[i] = static_cast<RidgeSide>(normals.size() - 1);
+      normals.back().push_back(_star[i].normal);
+    }
+    if (normals.size() != (_ridge.on_plane ? 2 : _edges.size())) return false;
+    for (const std::vector<Vec3>& of_side : normals) {
+      const NormalCone cone = smallest_cone(of_side);
+      _ridge.cone = std::min(_ridge.cone, cone.visibility);
+      _ridge.sides.push_back(cone.axis);
+    }
+    for (const std::size_t edge : _edges) {
+      const StarTriangle &l = left(edge), &r = right(edge);
+      _ridge.edges.push_back({l.next, {r.piece, r.cell}, {l.piece, l.cell}, along(edge)});
+    }
+    return _ridge.cone >= least_cone;
+  }
+
+  /// One turn, from side to side: on a plane about the edge, else at right angles to the bisector of both.
+  bool turn_along() {
+    constexpr double least_passing = 0.3;  // cosine between edge and plane's normal
+    constexpr double least_mitre = 0.5;    // cosine of half the bend; columns get twice as long at most
+    const Vec3 first = _ridge.edges[0].direction;
+    if (_ridge.on_plane) {
+      _ridge.plane = _plane;
+      _ridge.turns.push_back(turn_about(first, _ridge.sides[0], _ridge.sides[1]));
+      return is_sound(_ridge.turns[0]) && std::abs(dot(first, _plane)) > least_passing;
+    }
+    const Vec3 second = _ridge.edges[1].direction, bend = first + second;
+    const double cosine = std::sqrt(std::max(0.0, 1 - 0.25 * dot(bend, bend)));
+    if (cosine == 0) return false;
+    if (norm(bend) > 0) _ridge.mitre = std::sqrt(1 / std::max(cosine, least_mitre) - 1) * normalized(bend);
+    _ridge.turns.push_back(turn_about(normalized(first - second), _ridge.sides[0], _ridge.sides[1]));
+    return is_sound(_ridge.turns[0]);
+  }
+
+  bool turn_by_edge() {
+    for (const std::size_t edge : _edges) {
+      _ridge.turns.push_back(turn_about(along(edge), left(edge).normal, right(edge).normal));
+      if (!is_sound(_ridge.turns.back())) return false;
+    }
+    return true;
+  }
+
+  const StarCentre& _centre;
+  Vec3 _vertex;
+  std::span<const StarTriangle> _star;
+  Vec3 _plane;
+  std::vector<std::size_t> _edges;  // in order from the first
+  Ridge _ridge;
+};
+
+}  // namespace
+
+Vec3 Ridge::Turn::direction(double at) const {
+  return std::cos(at) * normal + std::sin(at) * across;
+}
+
+std::optional<Ridge> find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
+                                std::vector<RidgeSide>& sides) {
+  return RidgeFinder(centre, star).find(sides);
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,252 @@
+#include "layers/sectors.hpp"
+
+#include "layers/column_heights.hpp"
+#include "layers/end_planes.hpp"
+#include "mesh/data/shared_vertex_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace aeroloom::layers {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double widest_sector = 35 * std::numbers::pi / 180;
+/// Keys of columns have eight bits for their number; a corner of three ridges has about as many columns as a
+/// disc around which 60 sectors lie.
+constexpr std::int32_t most_sectors = 24, most_columns = 255;
+constexpr auto more = [](auto a, auto b) { return std::max(a, b); };
+constexpr auto fewer = [](auto a, auto b) { return std::min(a, b); };
+
+std::int32_t sectors_by_turn(double turn) {
+  return static_cast<std::int32_t>(std::clamp(std::ceil(turn / widest_sector), 1.0, double{most_sectors}));
+}
+std::int32_t sectors_by_front(double turn, double height, double edge) {
+  return static_cast<std::int32_t>(std::clamp(std::ceil(turn * height / edge), 1.0, double{most_sectors}));
+}
+
+class SectorCounter {
+public:
+  SectorCounter(const LocalWall& wall, const VertexStars& stars, const std::vector<double>& edges,
+                const std::vector<double>& reached)
+      : _wall(wall), _stars(stars), _edges(edges), _reached(reached) {
+    for (const mesh::Piece& piece : wall.mesh.pieces) {
+      const std::vector<mesh::VertexName> names = mesh::name_vertices(piece);
+      _names.insert(_names.end(), names.begin(), names.end());
+    }
+  }
+
+  Sectors count(const std::vector<VertexLayers>& wanted) {
+    list_edges();
+    ask(wanted);
+    drop_all_if_one_is_open();
+    agree_along_ridges();
+    make_divisible();
+    fit_to_heights();
+    make_fans();
+    return std::move(_sectors);
+  }
+
+private:
+  /// The place of the edge from a vertex to another among those of the ridge there; -1: none.
+  std::int32_t slot_of(std::int32_t from, std::int32_t to) const {
+    const Ridge* ridge = _stars.ridge_at(from);
+    if (ridge == nullptr) return -1;
+    for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
+      if (ridge->edges[e].end == _names[to]) return static_cast<std::int32_t>(e);
+    }
+    return -1;
+  }
+
+  void list_edges() {
+    for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
+      if (_wall.roles[t] != WallRole::layered) continue;
+      const TrianglePlace here = _wall.place_of(t);
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t a = _wall.triangles[t][i], b = _wall.triangles[t][(i + 1) % 3];
+        const std::array slots{slot_of(a, b), slot_of(b, a)};
+        if (slots[0] < 0 && slots[1] < 0) continue;
+        const Ridge::Edge& edge =
+            slots[0] >= 0 ? _stars.ridge_at(a)->edges[slots[0]] : _stars.ridge_at(b)->edges[slots[1]];
+        _sectors.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here)});
+      }
+    }
+  }
+
+  void ask(const std::vector<VertexLayers>& wanted) {
+    std::size_t most_slots = 2;
+    for (const Ridge& ridge : _stars.ridges) most_slots = std::max(most_slots, ridge.edges.size());
+    const auto slots =
+        static_cast<std::size_t>(_wall.mesh.communicator.maximum(static_cast<std::int64_t>(most_slots)));
+    _by_slot.assign(slots, std::vector<std::int32_t>(_wall.points.size(), 0));
+    for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+      const Ridge* ridge = _stars.ridge_at(v);
+      if (ridge == nullptr || wanted[v].edges == 0 || _edges[v] <= 0) continue;
+      if (_names[v].piece < 0 && !mesh::can_name_columns(_names[v].id)) continue;
+      const double height = wanted_height(wanted[v], _edges[v]);
+      for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
+        const double turn = turn_at(*ridge, e);
+        _by_slot[e][v] = std::max(sectors_by_turn(turn), sectors_by_front(turn, height, _edges[v]));
+      }
+    }
+  }
+
+  static double turn_at(const Ridge& ridge, std::size_t edge) {
+    return ridge.turns[ridge.is_corner() ? edge : 0].angle;
+  }
+  std::int32_t& count_of(std::int32_t vertex, std::int32_t slot) { return _by_slot[slot][vertex]; }
+  bool has_fan(const RidgeEdge& edge, int end) const {
+    return edge.slots[end] >= 0 && _by_slot[edge.slots[end]][edge.ends[end]] > 0;
+  }
+  void raise(std::int32_t vertex, std::int32_t slot, std::int32_t count) {
+    const Ridge& ridge = *_stars.ridge_at(vertex);
+    if (ridge.is_corner()) {
+      count_of(vertex, slot) = count;
+    } else {
+      for (std::size_t e = 0; e < ridge.edges.size(); ++e)
+        count_of(vertex, static_cast<std::int32_t>(e)) = count;
+    }
+  }
+
+  /// Sectors over an edge must be sectors at both its ends. Where one ridge is open, none has fans: solvers
+  /// need other settings on walls with fans, under which a single column at a sharp edge is worse than
+  /// without.
+  void drop_all_if_one_is_open() {
+    std::int64_t open = _stars.lost_ridges;
+    for (const RidgeEdge& edge : _sectors.edges) open += has_fan(edge, 0) && has_fan(edge, 1) ? 0 : 1;
+    if (_wall.mesh.communicator.sum(open) == 0) return;
+    for (std::vector<std::int32_t>& counts : _by_slot) std::fill(counts.begin(), counts.end(), 0);
+  }
+
+  /// Calls visit(edge) for all edges with fans at both ends until it changes nothing, here and, once values
+  /// of vertices are combined, on all ranks.
+  template <class Visit, class Op>
+  void repeat_over_edges(const Visit& visit, const Op& op) {
+    for (bool changes = true; changes;) {
+      const std::vector<std::vector<std::int32_t>> before = _by_slot;
+      for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        for (const RidgeEdge& edge : _sectors.edges) goes_on = visit(edge) || goes_on;
+      }
+      for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, op);
+      changes = _wall.mesh.communicator.sum(std::int64_t{before != _by_slot}) > 0;
+    }
+  }
+
+  /// All edges of a ridge as many as that with most.
+  void agree_along_ridges() {
+    repeat_over_edges(
+        [&](const RidgeEdge& edge) {
+          if (!has_fan(edge, 0) || !has_fan(edge, 1)) return false;
+          const std::int32_t a = count_of(edge.ends[0], edge.slots[0]),
+                             b = count_of(edge.ends[1], edge.slots[1]);
+          for (int end = 0; end < 2; ++end) raise(edge.ends[end], edge.slots[end], std::max(a, b));
+          return a != b;
+        },
+        more);
+  }
+
+  /// Numbers along a ridge differ by factors of two alone: over long flat cells the widths of all sectors
+  /// must change alike, or the centres of neighbours lie apart along the edge by more than the cells are
+  /// wide.
+  void make_divisible() {
+    for (std::vector<std::int32_t>& counts : _by_slot) {
+      for (std::int32_t& count : counts) {
+        const std::int32_t divisor = count < 8 ? 2 : 4;
+        count = (count + divisor - 1) / divisor * divisor;
+      }
+    }
+    _full = _by_slot;
+  }
+  /// The least number that an edge can have, from `count` on.
+  std::int32_t possible_count(std::int32_t v, std::int32_t slot, std::int32_t count) const {
+    std::int32_t possible = _full[slot][v];
+    while (possible % 2 == 0 && possible / 2 >= count) possible /= 2;
+    return possible;
+  }
+
+  /// Fewer where columns are low: the largest number that the heights ask for at both ends.
+  void fit_to_heights() {
+    const auto lower = [&](std::int32_t v, std::int32_t slot, std::int32_t count) {
+      std::int32_t& present = count_of(v, slot);
+      if (present <= count) return false;
+      present = count;
+      return true;
+    };
+    repeat_over_edges(
+        [&](const RidgeEdge& edge) {
+          bool changes = false;
+          for (int end = 0; end < 2; ++end) {
+            const std::int32_t v = edge.ends[end], slot = edge.slots[end];
+            if (!has_fan(edge, end)) continue;
+            const Ridge& ridge = *_stars.ridge_at(v);
+            const double turn = turn_at(ridge, static_cast<std::size_t>(slot));
+            const std::int32_t wanted = std::min(count_of(edge.ends[1 - end], edge.slots[1 - end]),
+                                                 sectors_by_front(turn, _reached[v], _edges[v]));
+            changes = lower(v, slot, possible_count(v, slot, wanted)) || changes;
+            if (ridge.is_corner() || ridge.on_plane) continue;
+            changes = lower(v, 1 - slot, 2 * count_of(v, slot)) || changes;
+          }
+          return changes;
+        },
+        fewer);
+  }
+
+  /// Where columns of a vertex cannot see each other, its ridges have no fans.
+  void make_fans() {
+    for (std::int64_t failed = 1; failed > 0;) {
+      _sectors.fans.clear();
+      failed = 0;
+      for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) failed += make_fan(v) ? 0 : 1;
+      failed = _wall.mesh.communicator.sum(failed);
+      if (failed > 0) drop_all_if_one_is_open();
+    }
+  }
+
+  bool make_fan(std::int32_t v) {
+    const Ridge* ridge = _stars.ridge_at(v);
+    if (ridge == nullptr || _by_slot[0][v] == 0) return true;
+    std::vector<std::int32_t> sectors;
+    for (std::size_t e = 0; e < ridge->edges.size(); ++e) sectors.push_back(_by_slot[e][v]);
+    std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors);
+    if (!fan || static_cast<std::int32_t>(fan->directions.size()) > most_columns) {
+      for (std::vector<std::int32_t>& counts : _by_slot) counts[v] = 0;
+      return false;
+    }
+    if (ridge->on_plane) {
+      for (Vec3& direction : fan->directions) direction = along_planes(direction, _stars.planes_at(v));
+    }
+    _sectors.fans.emplace(v, std::move(*fan));
+    return true;
+  }
+
+  const LocalWall& _wall;
+  const VertexStars& _stars;
+  const std::vector<double>&_edges, &_reached;
+  std::vector<mesh::VertexName> _names;
+  /// By place among Ridge::edges and by vertex: the number over that edge; 0: no fan.
+  std::vector<std::vector<std::int32_t>> _by_slot, _full;  // _full: before numbers fall
+  Sectors _sectors;
+};
+
+}  // namespace
+
+double wanted_height(const VertexLayers& asked, double edge) {
+  const double total = asked.total < std::numeric_limits<double>::infinity() ? asked.total : 0;
+  const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
+                          static_cast<std::int32_t>(asked.count), total};
+  const FittedLayers fitted = wanted_layers(wanted, edge);
+  return Heights{asked.first, asked.growth, wanted.constant, fitted.regular, fitted.stretch}.total(
+      fitted.count);
+}
+
+Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
+                      const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
+                      const std::vector<double>& reached) {
+  return SectorCounter(wall, stars, edges, reached).count(wanted);
+}
+
+}  // namespace aeroloom::layers

@@ -1,0 +1,28 @@
+/// The columns of a vertex that ridges pass or meet at.
+#pragma once
+
+#include "layers/ridges.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace aeroloom::layers {
+
+/// Columns over the sides of a ridge, those that part the turn over each of its edges into sectors, and,
+/// where the numbers of two edges differ or more than two meet, triangles between columns, whose cells fill
+/// what the sectors leave.
+struct VertexFan {
+  std::vector<geometry::Vec3> directions;  ///< seen along an edge, of about unit length
+  std::vector<std::int32_t> of_side;
+  std::vector<std::vector<std::int32_t>> across;       ///< by edge: columns from the left side to the right
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen from the fluid
+};
+
+/// `sectors`: by edge, at least 1; of two edges they are equal or one is twice the other. Nothing where
+/// columns cannot see each other.
+std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors);
+
+}  // namespace aeroloom::layers

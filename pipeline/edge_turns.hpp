@@ -1,0 +1,16 @@
+/// How the CAD surface turns over its edges.
+#pragma once
+
+#include "cad/model/model.hpp"
+#include "layers/columns.hpp"
+
+#include <vector>
+
+namespace aeroloom::pipeline {
+
+/// By edge: sharp between two faces, or a face and itself, whose normals turn by layers::sharp_turn at one of
+/// some places along it, or by half as much where it meets a sharp edge; smooth if they do not. Others, and
+/// edges of faceted faces, are unknown: facets are what turns there.
+std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model);
+
+}  // namespace aeroloom::pipeline

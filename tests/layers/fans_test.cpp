@@ -1,0 +1,160 @@
+/// Fans at the sharp edges of small bodies.
+#include "layers/fans.hpp"
+
+#include "mesh/data/cad_dimension.hpp"
+#include "tests/layers/checked_layers.hpp"
+#include "tests/several_ranks.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace aeroloom::layers {
+namespace {
+
+using examples::Fluid;
+using examples::Shapes;
+using geometry::Vec3;
+using parallel::Communicator;
+using namespace checked;
+
+constexpr std::int32_t edge_number = 3;
+
+bool is_end(double x) {
+  return x == 0 || x == 1;
+}
+/// 2 on edges of the unit cube, 3 at its corners.
+int ends(Vec3 p) {
+  return is_end(p.x) + is_end(p.y) + is_end(p.z);
+}
+
+/// A cube of edge 1 in a sphere, whose edges and corners are those of a CAD model.
+mesh::DistributedMesh cube(const Communicator& communicator) {
+  mesh::DistributedMesh mesh = Shapes()
+                                   .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
+                                   .add_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, Fluid::outside)
+                                   .distribute(communicator, 5);
+  for (mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const int at = ends(piece.point(v));
+      if (norm(piece.point(v)) > 3 || at < 2) continue;
+      piece.vertex_dimension[v] = at == 2 ? mesh::CadDimension::edge : mesh::CadDimension::vertex;
+      const bool is_chosen = piece.point(v).x == 0 && (piece.point(v).y == 0 || piece.point(v).z == 0);
+      piece.vertex_entity[v] = at == 2 && is_chosen ? edge_number : 0;
+    }
+  }
+  return mesh;
+}
+
+TEST(Fans, CoverTheEdgesAndCornersOfACube) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = cube(world);
+  const Layers layers = build(mesh, options_for({0, 1e-4}));
+  expect_valid(mesh, layers);
+  const PatchLayers& patch = layers.report.patches[1];
+  EXPECT_NEAR(patch.full_area, patch.area, 1e-12);
+  EXPECT_EQ(patch.low_first_area, 0);
+  EXPECT_GT(patch.hexahedra, 1000);
+  std::int32_t on_edges = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const PieceColumns& columns = layers.columns.pieces[p];
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 at = mesh.pieces[p].point(v);
+      const std::int32_t count = columns.columns_at(v);
+      if (ends(at) == 2) {
+        EXPECT_NEAR(columns.first[v], 1e-4, 1e-6) << "the outer columns stand on their walls";
+        EXPECT_TRUE(on_edges == 0 || on_edges == count) << "as many on all edges";
+        on_edges = count;
+        EXPECT_GE(count, 4);
+      } else if (ends(at) == 3) {
+        EXPECT_GT(count, 3 * 4) << "those of three edges and more within";
+      } else {
+        EXPECT_EQ(count, 1);
+      }
+    }
+  }
+}
+
+TEST(Fans, HaveEqualSectors) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = cube(world);
+  const Layers layers = build(mesh, options_for({0, 1e-4}));
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const PieceColumns& columns = layers.columns.pieces[p];
+    for (const FanFace& face : columns.fan_faces) {
+      if (!face.is_sector()) continue;
+      const Vec3 along = normalized(mesh.pieces[p].point(columns.vertex_of(face.columns[3])) -
+                                    mesh.pieces[p].point(columns.vertex_of(face.columns[0])));
+      const auto area = [&](int a, int b) {
+        return dot(along, cross(columns.directions[face.columns[a]], columns.directions[face.columns[b]]));
+      };
+      EXPECT_NEAR(std::abs(area(0, 1)), std::abs(area(3, 2)), 1e-12);
+    }
+  }
+}
+
+// Two of the three edges at a corner are smooth, so the ridge along the third ends there.
+TEST(Fans, AreMissingWhereARidgeIsOpen) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = cube(world);
+  LayerOptions options = options_for({0, 1e-4});
+  options.edges.assign(edge_number + 1, EdgeTurn::sharp);
+  options.edges[edge_number] = EdgeTurn::smooth;
+  const auto expect_single = [&](const LayerOptions& asked) {
+    const Layers layers = build(mesh, asked);
+    expect_valid(mesh, layers);
+    for (const PieceColumns& columns : layers.columns.pieces)
+      EXPECT_EQ(columns.column_count(), static_cast<std::int32_t>(columns.counts.size()));
+  };
+  expect_single(options);
+  LayerOptions tets = options_for({0, 1e-4});
+  tets.elements = LayerElements::tets;
+  expect_single(tets);
+}
+
+/// Two plates with a slit between, with CAD edges.
+mesh::DistributedMesh slit(const Communicator& communicator, double width) {
+  mesh::DistributedMesh mesh = Shapes()
+                                   .add_sphere({1, 1, 0.5}, 12, 8, Fluid::inside)
+                                   .add_box({0, 0, -0.5 - width}, {2, 2, -width}, {10, 10, 3}, Fluid::outside)
+                                   .add_box({0, 0, 0}, {2, 2, 0.5}, {10, 10, 3}, Fluid::outside)
+                                   .distribute(communicator, 7);
+  for (mesh::Piece& piece : mesh.pieces)
+    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+  return mesh;
+}
+
+TEST(Fans, HaveFewerSectorsWhereColumnsAreLow) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = slit(world, 0.1);
+  const Layers layers = build(mesh, options_for({0, 1e-3, 1e-3}));
+  expect_valid(mesh, layers);
+  const auto fewest = [&](bool in_slit) {
+    std::int64_t least = 100;
+    for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+      const PieceColumns& columns = layers.columns.pieces[p];
+      for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+        const Vec3 at = mesh.pieces[p].point(v);
+        const bool low = at.z == 0 || at.z == -0.1, on_edge = at.x == 0 && at.y > 0 && at.y < 2;
+        if (on_edge && (low || at.z == 0.5 || at.z == -0.6) && low == in_slit)
+          least = std::min<std::int64_t>(least, columns.columns_at(v));
+      }
+    }
+    return world.minimum(least);
+  };
+  EXPECT_LT(fewest(true), fewest(false));
+  EXPECT_GE(fewest(true), 2);
+}
+
+TEST(Fans, AreTheSameOnAnyNumberOfRanks) {
+  NEEDS_SEVERAL_RANKS();
+  const auto hash = [](const mesh::DistributedMesh& mesh, const LayerOptions& options) {
+    return mesh::hash_mesh(mesh::number_mesh(build(mesh, options).cap));
+  };
+  const auto world = Communicator::world(), self = Communicator::self();
+  EXPECT_EQ(hash(cube(world), options_for({0, 1e-4})), hash(cube(self), options_for({0, 1e-4})));
+  EXPECT_EQ(hash(slit(world, 0.1), options_for({0, 1e-3, 1e-3})),
+            hash(slit(self, 0.1), options_for({0, 1e-3, 1e-3})));
+}
+
+}  // namespace
+}  // namespace aeroloom::layers
