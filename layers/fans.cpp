@@ -8,8 +8,6 @@
 namespace aeroloom::layers {
 namespace {
 
-using geometry::Vec3;
-
 class FanFinder {
 public:
   FanFinder(const LocalWall& wall, const VertexStars& stars, const Sectors& sectors)

@@ -150,8 +150,8 @@ mesh::DistributedMesh make_cap(const mesh::DistributedMesh& wall, const Columns&
 /// Counts that columns of this rank fall to, if any.
 class CapClearing::LoweredCounts {
 public:
-  LoweredCounts(const LocalWall& wall, const Fans& fans, const ColumnLimits& limits, int round)
-      : _wall(wall), _fans(fans), _limits(limits), _round(round), _counts(wall.points.size(), unchanged) {}
+  LoweredCounts(const LocalWall& wall, const ColumnLimits& limits, int round)
+      : _wall(wall), _limits(limits), _round(round), _counts(wall.points.size(), unchanged) {}
 
   void add(std::int32_t v) {
     if (_limits.count(v) == 0) return;
@@ -182,7 +182,6 @@ private:
   static constexpr std::int32_t unchanged = std::numeric_limits<std::int32_t>::max();
 
   const LocalWall& _wall;
-  const Fans& _fans;
   const ColumnLimits& _limits;
   int _round;
   std::vector<std::int32_t> _counts;
@@ -273,7 +272,7 @@ mesh::DistributedMesh CapClearing::run(ColumnLimits& limits, LayerReport& report
   for (int round = 1;; ++round) {
     const Columns columns = make_columns(_wall, _fans, _directions, limits);
     mesh::DistributedMesh cap = make_cap(_wall.mesh, columns);
-    LoweredCounts lower(_wall, _fans, limits, round);
+    LoweredCounts lower(_wall, limits, round);
     if (is_clear(columns, cap, lower, report)) return cap;
     report.crossing_rounds = round;
     if (round > rounds_of_thirds) report.zeroed_by_force += lower.total();

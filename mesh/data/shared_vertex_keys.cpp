@@ -18,7 +18,6 @@ constexpr int column_of_index = 24, column_of_split = 23, column_of_cut = 16;
 constexpr SharedVertexKey late_bit = SharedVertexKey{1} << 63, placed_bit = SharedVertexKey{1} << 62,
                           added_bit = SharedVertexKey{1} << 61, layer_bit = SharedVertexKey{1} << 60;
 constexpr int round_shift = 54, piece_shift = 31, zone_shift = 32, node_bits = 20;
-constexpr SharedVertexKey round_mask = 0xff;
 
 constexpr SharedVertexKey wide(std::int64_t value) {
   return static_cast<SharedVertexKey>(value);
