@@ -11,12 +11,7 @@ namespace {
 class FanFinder {
 public:
   FanFinder(const LocalWall& wall, const VertexStars& stars, const Sectors& sectors)
-      : _wall(wall), _stars(stars), _sectors(sectors) {
-    for (const mesh::Piece& piece : wall.mesh.pieces) {
-      const std::vector<mesh::VertexName> names = mesh::name_vertices(piece);
-      _names.insert(_names.end(), names.begin(), names.end());
-    }
-  }
+      : _wall(wall), _stars(stars), _sectors(sectors), _names(wall.vertex_names()) {}
 
   Fans find() {
     place_columns();

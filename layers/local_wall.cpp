@@ -87,6 +87,15 @@ LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& o
   });
 }
 
+std::vector<mesh::VertexName> LocalWall::vertex_names() const {
+  std::vector<mesh::VertexName> all;
+  for (const mesh::Piece& piece : mesh.pieces) {
+    const std::vector<mesh::VertexName> names = mesh::name_vertices(piece);
+    all.insert(all.end(), names.begin(), names.end());
+  }
+  return all;
+}
+
 EdgeTurn LocalWall::turn_at(std::size_t position, mesh::LocalIndex vertex) const {
   const mesh::Piece& piece = mesh.pieces[position];
   if (piece.vertex_dimension[vertex] == mesh::CadDimension::vertex) return EdgeTurn::unknown;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "layers/columns.hpp"
+#include "mesh/checks/intersection.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 
 #include <array>
@@ -39,6 +40,8 @@ struct LocalWall {
   std::span<const std::int32_t> triangles_around(std::int32_t vertex) const {
     return std::span(around).subspan(first_around[vertex], first_around[vertex + 1] - first_around[vertex]);
   }
+  /// Of all vertices: what each is called in every piece.
+  std::vector<mesh::VertexName> vertex_names() const;
   /// The piece and the number in it of a triangle.
   TrianglePlace place_of(std::int32_t triangle) const;
   /// How the surface turns over the CAD edge of a vertex of a piece at a position; smooth within faces.

@@ -32,12 +32,7 @@ class SectorCounter {
 public:
   SectorCounter(const LocalWall& wall, const VertexStars& stars, const std::vector<double>& edges,
                 const std::vector<double>& reached)
-      : _wall(wall), _stars(stars), _edges(edges), _reached(reached) {
-    for (const mesh::Piece& piece : wall.mesh.pieces) {
-      const std::vector<mesh::VertexName> names = mesh::name_vertices(piece);
-      _names.insert(_names.end(), names.begin(), names.end());
-    }
-  }
+      : _wall(wall), _stars(stars), _edges(edges), _reached(reached), _names(wall.vertex_names()) {}
 
   Sectors count(const std::vector<VertexLayers>& wanted) {
     list_edges();

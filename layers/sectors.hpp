@@ -32,9 +32,9 @@ struct Sectors {
 
 /// Edges of a ridge have as many sectors as the turn asks for where it is largest, at most 35 degrees each,
 /// and as the front: over columns of the wanted heights a sector is about an edge wide. `reached`: by vertex,
-/// the height that limits leave to columns much lower than wanted, else infinite; over these there is a half
-/// or a quarter. Ridges must close, or end on planes: a sector cannot end on a wall, as the first layer would
-/// need cells with faces along it. Where one ridge does not, none has sectors. Collective.
+/// the height that limits leave to columns much lower than wanted, else infinite; over these there is a half,
+/// a quarter and so on. Ridges must close, or end on planes: a sector cannot end on a wall, as the first
+/// layer would need cells with faces along it. Where one ridge does not, none has sectors. Collective.
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
                       const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
                       const std::vector<double>& reached);

@@ -85,7 +85,8 @@ private:
 /// neighbours would else lie apart along the edge by more than the cells are wide.
 std::optional<std::vector<Vec3>> part_turn(const Ridge::Turn& turn, Vec3 left, Vec3 right,
                                            std::int32_t sectors) {
-  constexpr double most_off = 1.2, least_radius = 0.5, largest_radius = 2;  // angles in radians
+  // An angle in radians; chosen, not measured.
+  constexpr double most_off = 1.2, least_radius = 0.5, largest_radius = 2;
   const Vec3 along = cross(turn.normal, turn.across);
   struct Polar {
     double angle, radius, ahead;
@@ -120,13 +121,14 @@ std::optional<std::vector<Vec3>> part_turn(const Ridge::Turn& turn, Vec3 left, V
 
 /// The column over a side, which seen along its edges is as high as it.
 Vec3 column_over(Vec3 side, std::initializer_list<Vec3> normals) {
+  constexpr double least_seen = 0.3;  // chosen, not measured
   double seen = 0;
   for (const Vec3 normal : normals) seen += dot(side, normal) / static_cast<double>(normals.size());
-  return side / std::max(seen, 0.3);
+  return side / std::max(seen, least_seen);
 }
 
 bool is_good(const VertexFan& fan) {
-  constexpr double least_volume = 1e-4;
+  constexpr double least_volume = 1e-4;  // chosen, not measured
   return std::all_of(fan.triangles.begin(), fan.triangles.end(), [&](const auto& t) {
     return dot(fan.directions[t[0]], cross(fan.directions[t[1]], fan.directions[t[2]])) > least_volume;
   });

@@ -11,6 +11,7 @@
 namespace aeroloom::pipeline {
 namespace {
 
+// Chosen, not measured.
 constexpr int places = 7;
 /// An edge that turns by this much goes on with a sharp one that it meets.
 constexpr double going_on = std::numbers::pi / 6;
@@ -39,7 +40,9 @@ double largest_turn(const cad::Model& model, cad::EdgeId id,
     const auto normal = [&](const auto& use) {
       return model.face_frame(use.first, model.edge_uv(use.first, use.second, parameter)).normal;
     };
-    const double cosine = dot(normal(uses[0]), normal(uses[1]));
+    const geometry::Vec3 one = normal(uses[0]), other = normal(uses[1]);
+    if (one == geometry::Vec3{} || other == geometry::Vec3{}) continue;  // a singular point
+    const double cosine = dot(one, other);
     largest = std::max(largest, std::acos(std::clamp(cosine, -1.0, 1.0)));
   }
   return largest;
