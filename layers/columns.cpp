@@ -25,6 +25,11 @@ mesh::LocalIndex PieceColumns::vertex_of(std::int32_t column) const {
 geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::int32_t column,
                     std::int32_t k) {
   const mesh::LocalIndex vertex = columns.vertex_of(column);
+  if (!columns.curved.empty() && k > 0) {
+    const auto found = std::lower_bound(columns.curved.begin(), columns.curved.end(), std::array{column, 0});
+    if (found != columns.curved.end() && (*found)[0] == column)
+      return columns.curved_nodes[(*found)[1] + k - 1];
+  }
   return wall.point(vertex) + height(columns, vertex, k) * columns.directions[column];
 }
 

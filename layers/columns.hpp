@@ -13,10 +13,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 namespace aeroloom::layers {
+
+class CurvedEnds;  // layers/curved_ends.hpp
 
 /// The layers requested on a patch. Heights are in the length unit of the mesh.
 struct WallLayers {
@@ -43,6 +46,9 @@ struct LayerOptions {
   /// Whether layers may end on planes of symmetry, slip, inlet and outlet. Columns at their rims then lie in
   /// the plane, and the plane is meshed again. Otherwise counts fall to zero before such a plane.
   bool ends_on_planes = false;
+  /// The curved faces of these types, and far fields, that layers end on as on planes where a wall meets
+  /// them; nothing: on none.
+  std::shared_ptr<const CurvedEnds> curved_ends;
   LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
   std::vector<EdgeTurn> edges;                     ///< by CAD edge; missing ones are unknown
 };
@@ -78,6 +84,9 @@ struct PieceColumns {
       corner_columns;              ///< by triangle, of its corners as the piece has them
   std::vector<FanFace> fan_faces;  ///< by triangle
   std::vector<RimTriangle> rims;   ///< by triangle
+  /// The columns on curved faces, ascending, and the first of their nodes 1 to count.
+  std::vector<std::array<std::int32_t, 2>> curved;
+  std::vector<geometry::Vec3> curved_nodes;
 
   std::int32_t column_count() const { return first_column.back(); }
   std::int32_t columns_at(mesh::LocalIndex vertex) const {

@@ -37,6 +37,7 @@ Directions find_directions(const LocalWall& wall, const VertexStars& stars, cons
   Directions directions;
   directions.most_normal = fans.directions;
   directions.visibility = fans.visibility;
+  directions.ends = stars.ends;
   const auto is_single = [&](std::int32_t v) { return fans.count_at(v) == 1; };
   for (std::int32_t v = 0; v < count; ++v) {
     if (stars.kinds[v] != StarKind::plain || !is_single(v)) continue;

@@ -1,6 +1,7 @@
 /// The directions in which columns of nodes grow from the wall.
 #pragma once
 
+#include "layers/curved_ends.hpp"
 #include "layers/fans.hpp"
 
 #include <vector>
@@ -16,6 +17,7 @@ struct Directions {
   /// Mean of the smallest and largest dot product of the smoothed direction with a normal. A column is longer
   /// than its height along the normals by about the inverse.
   std::vector<double> slants;
+  EndPlaces ends;
 };
 
 /// Computes the most normal directions and smooths them. Smoothing keeps at least 0.9 of the visibility.

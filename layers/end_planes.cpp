@@ -1,5 +1,7 @@
 #include "layers/end_planes.hpp"
 
+#include "mesh/exchange/shared_vertices.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,9 +15,12 @@ using geometry::Vec3;
 /// Cosine of the angle between normals of one plane, at least: rounding of coordinates turns them by less.
 constexpr double same_plane = 1 - 1e-12;
 
+bool has_layers(const LayerOptions& options, std::int32_t patch) {
+  return static_cast<std::size_t>(patch) < options.patches.size() && options.patches[patch].first > 0;
+}
+
 bool may_end_on(const mesh::DistributedMesh& mesh, const LayerOptions& options, std::int32_t patch) {
-  if (static_cast<std::size_t>(patch) < options.patches.size() && options.patches[patch].first > 0)
-    return false;
+  if (has_layers(options, patch)) return false;
   switch (mesh.type_of_patch(patch)) {
     case mesh::PatchType::symmetry:
     case mesh::PatchType::slip:
@@ -103,6 +108,42 @@ std::vector<Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const Layer
     }
   }
   return normals;
+}
+
+std::vector<std::uint8_t> find_curved_ends(const mesh::DistributedMesh& mesh, const LayerOptions& options,
+                                           const std::vector<Vec3>& planes) {
+  std::vector<std::uint8_t> found(mesh.faces.size(), 0);
+  if (!options.curved_ends) return found;
+  const auto is_candidate = [&](std::int32_t face, std::int32_t patch) {
+    if (face < 0 || mesh.sides_of(face).is_inner() || !(planes[face] == Vec3{})) return false;
+    return may_end_on(mesh, options, patch) ||
+           (!has_layers(options, patch) && mesh.type_of_patch(patch) == mesh::PatchType::farfield);
+  };
+  constexpr std::uint32_t wall = 1;
+  const mesh::SharedVertices shared(mesh);
+  std::vector<std::vector<std::uint32_t>> meets;  // by piece and vertex: whether a wall with layers has it
+  for (const mesh::Piece& piece : mesh.pieces) {
+    std::vector<std::uint32_t>& of_piece = meets.emplace_back(piece.vertex_count(), 0);
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      if (!has_layers(options, piece.triangle_patch[t]) || mesh.sides_of(piece.triangle_face[t]).is_inner())
+        continue;
+      for (int i = 0; i < 3; ++i) of_piece[piece.cell(t)[i]] = wall;
+    }
+  }
+  shared.combine(meets, [](std::uint32_t a, std::uint32_t b) { return a | b; });
+  std::vector<double> none(mesh.faces.size(), 1);
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const mesh::Piece& piece = mesh.pieces[p];
+    for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
+      const std::int32_t face = piece.triangle_face[t];
+      const mesh::LocalIndex* v = piece.cell(t);
+      if ((meets[p][v[0]] | meets[p][v[1]] | meets[p][v[2]]) == 0) continue;
+      if (is_candidate(face, piece.triangle_patch[t])) none[face] = 0;
+    }
+  }
+  mesh.communicator.minimum_each(none);
+  for (std::size_t face = 0; face < found.size(); ++face) found[face] = none[face] == 0 ? 1 : 0;
+  return found;
 }
 
 Vec3 along_planes(Vec3 direction, std::span<const Vec3> normals) {

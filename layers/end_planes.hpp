@@ -1,8 +1,9 @@
-/// Planes that boundary layers end on.
+/// Planes and curved faces that boundary layers end on.
 #pragma once
 
 #include "layers/columns.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,12 @@ namespace aeroloom::layers {
 /// allow it. If all vertices of a face have the same bits in a coordinate, its normal is exact. Collective;
 /// equal on all ranks.
 std::vector<geometry::Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const LayerOptions& options);
+
+/// By CAD face: 1 where layers end on a face that is none of the planes, else 0. They end on faces without
+/// layers of the same types, and on far fields, where a wall with layers meets them; on none without
+/// LayerOptions::curved_ends. Collective; equal on all ranks.
+std::vector<std::uint8_t> find_curved_ends(const mesh::DistributedMesh& mesh, const LayerOptions& options,
+                                           const std::vector<geometry::Vec3>& planes);
 
 /// The part of a direction parallel to one plane, or to the intersection line of two, given by normals. If a
 /// normal is exactly along an axis, that component is -0: adding a multiple of it keeps a coordinate bit for

@@ -103,7 +103,12 @@ std::vector<NearTriangle> fetch_triangles(const LocalWall& wall, const std::vect
   for (std::int32_t t = 0; t < wall.triangle_count(); ++t) {
     const auto& [a, b, c] = wall.triangles[t];
     NearTriangle triangle{{wall.points[a], wall.points[b], wall.points[c]}, {}, 0};
-    if (wall.roles[t] == WallRole::plane) triangle.plane = wall.end_planes[wall.faces[t]];
+    if (wall.roles[t] == WallRole::plane) {
+      triangle.plane =
+          wall.is_curved_end(wall.faces[t])
+              ? -normalized(cross(wall.points[b] - wall.points[a], wall.points[c] - wall.points[a]))
+              : wall.end_planes[wall.faces[t]];
+    }
     Box box;
     for (const Vec3 corner : triangle.corners) box.add(corner);
     ranks.clear();

@@ -44,7 +44,8 @@ struct ColumnSource {
   const ColumnLimits& limits;
 
   CornerColumn at(std::int32_t v, std::int32_t column) const {
-    return {wall.points[v], directions.smoothed[column], limits.heights(v), limits.count(v)};
+    return {wall.points[v],  directions.smoothed[column], limits.heights(v), limits.count(v),
+            wall.ends.get(), directions.ends.at(v)};
   }
   TriangleColumns over(std::int32_t triangle) const {
     TriangleColumns columns;

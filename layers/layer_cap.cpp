@@ -25,6 +25,26 @@ std::int32_t lowered(std::int32_t count, int round) {
   return round <= rounds_of_thirds ? 2 * count / 3 : 0;
 }
 
+/// What columns follow from.
+struct ColumnsSource {
+  const Fans& fans;
+  const Directions& directions;
+  const ColumnLimits& limits;
+};
+
+/// Puts the nodes of the columns of a vertex onto the curved faces that these end on. `first`: column of the
+/// piece.
+void add_curved(const LocalWall& wall, const ColumnsSource& from, std::int32_t v, std::int32_t first,
+                PieceColumns& columns) {
+  for (std::int32_t c = from.fans.first[v]; c < from.fans.first[v + 1]; ++c) {
+    columns.curved.push_back({c - first, static_cast<std::int32_t>(columns.curved_nodes.size())});
+    from.limits.heights(v).for_each_node(from.limits.count(v), [&](std::int32_t, double height) {
+      columns.curved_nodes.push_back(wall.ends->onto(*from.directions.ends.at(v),
+                                                     wall.points[v] + height * from.directions.smoothed[c]));
+    });
+  }
+}
+
 }  // namespace
 
 Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& directions,
@@ -46,6 +66,7 @@ Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& 
       of_piece.first.push_back(heights.first);
       of_piece.growth.push_back(heights.growth);
       of_piece.stretch.push_back(heights.stretch);
+      if (directions.ends.at(v) != nullptr) add_curved(wall, {fans, directions, limits}, v, first, of_piece);
     }
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
       const auto& [a, b, c] = fans.columns[t];  // counter-clockwise seen from the fluid

@@ -73,13 +73,13 @@ bool is_good_pyramid(const Level& q, const Level& t, int i) {
 }
 
 /// The smallest determinant of unit vectors at the corners of a triangle: along its sides and the column.
-double corner_determinant(const Level& level, Vec3 normal, const TriangleColumns& columns) {
+double corner_determinant(const Level& level, Vec3 normal, const Level& directions) {
   const double sides[3] = {distance(level[0], level[1]), distance(level[1], level[2]),
                            distance(level[2], level[0])};
   double least = 1;
   for (int i = 0; i < 3; ++i) {
     const double area = sides[i] * sides[(i + 2) % 3];
-    least = std::min(least, area > 0 ? dot(normal, columns[i].direction) / area : 0);
+    least = std::min(least, area > 0 ? dot(normal, directions[i]) / area : 0);
   }
   return least;
 }
@@ -95,6 +95,13 @@ double largest_cosine(const Level& level) {
   return std::min(largest, 1.0);
 }
 
+/// The directions of columns at heights.
+Level directions_at(const TriangleColumns& columns, const std::array<double, 3>& heights) {
+  Level directions;
+  for (int i = 0; i < 3; ++i) directions[i] = columns[i].direction_at(heights[i]);
+  return directions;
+}
+
 /// The nodes of the columns layer by layer.
 class Levels {
 public:
@@ -105,6 +112,7 @@ public:
     }
   }
   const Level& level() const { return _level; }
+  const std::array<double, 3>& heights() const { return _sums; }
   /// Goes up by one layer; columns that end here stay.
   void advance() {
     ++_k;
@@ -114,7 +122,7 @@ public:
       if (_k > column.heights.constant) _layers[i] *= column.heights.growth;
       if (_k > column.heights.regular) _layers[i] *= column.heights.stretch;
       _sums[i] += _layers[i];
-      _level[i] = column.point + _sums[i] * column.direction;
+      _level[i] = column.at(_sums[i]);
     }
   }
 
@@ -142,7 +150,7 @@ struct Least {
 
   explicit Least(const TriangleColumns& columns) {
     const Level wall{columns[0].point, columns[1].point, columns[2].point};
-    determinant = kept_jacobian * corner_determinant(wall, doubled_area(wall), columns);
+    determinant = kept_jacobian * corner_determinant(wall, doubled_area(wall), directions_at(columns, {}));
     cosine = std::cos(kept_angle * std::acos(largest_cosine(wall)));
   }
 };
@@ -164,13 +172,15 @@ struct Ends {
 /// Whether cap and uppermost prism are good where all columns shrink to a height.
 bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least& least, double height) {
   Level cap, prism;
+  std::array<double, 3> heights;
   for (int i = 0; i < 3; ++i) {
     const double ratio = ends.totals[i] > height ? height / ends.totals[i] : 1;
-    cap[i] = columns[i].point + ratio * ends.totals[i] * columns[i].direction;
-    prism[i] = columns[i].point + ratio * ends.of_prisms[i] * columns[i].direction;
+    cap[i] = columns[i].at(ratio * ends.totals[i]);
+    heights[i] = ratio * ends.of_prisms[i];
+    prism[i] = columns[i].at(heights[i]);
   }
   return largest_cosine(cap) <= least.cosine &&
-         corner_determinant(prism, doubled_area(prism), columns) >= least.determinant;
+         corner_determinant(prism, doubled_area(prism), directions_at(columns, heights)) >= least.determinant;
 }
 
 }  // namespace
@@ -187,7 +197,9 @@ std::int32_t good_layers(const TriangleColumns& columns) {
     const Level& upper = levels.level();
     const Vec3 above = doubled_area(upper);
     if (!is_good_cell(columns, k, lower, upper, below, above)) return k - 1;
-    if (k <= prisms && corner_determinant(upper, above, columns) < least.determinant) return k - 1;
+    if (k <= prisms &&
+        corner_determinant(upper, above, directions_at(columns, levels.heights())) < least.determinant)
+      return k - 1;
     lower = upper;
     below = above;
   }
@@ -235,7 +247,7 @@ Vec3 sector_apex(const std::array<Vec3, 4>& top, const std::array<Vec3, 4>& dire
 namespace {
 
 Vec3 node_of(const CornerColumn& column, std::int32_t level) {
-  return column.point + column.heights.total(level) * column.direction;
+  return column.at(column.heights.total(level));
 }
 
 bool is_good_layer(const FanColumns& fan, std::int32_t k) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "layers/column_heights.hpp"
+#include "layers/curved_ends.hpp"
 #include "layers/layer_shapes.hpp"
 
 #include <array>
@@ -14,6 +15,18 @@ struct CornerColumn {
   geometry::Vec3 point, direction;
   Heights heights;
   std::int32_t count = 0;
+  const CurvedEnds* ends = nullptr;  ///< of a column on curved faces: they, and what it follows
+  const EndPlace* end = nullptr;
+
+  geometry::Vec3 at(double height) const {
+    const geometry::Vec3 straight = point + height * direction;
+    return end == nullptr ? straight : ends->onto(*end, straight);
+  }
+  /// Unit, of the column at a height.
+  geometry::Vec3 direction_at(double height) const {
+    constexpr double below = 0.9;
+    return end == nullptr || height == 0 ? direction : normalized(at(height) - at(below * height));
+  }
 };
 /// Corners counter-clockwise seen from the fluid.
 using TriangleColumns = std::array<CornerColumn, 3>;

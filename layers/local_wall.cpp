@@ -46,6 +46,8 @@ LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& o
     : mesh((require_fitting(surface, options), surface)),
       edges(options.edges),
       end_planes(find_end_planes(surface, options)),
+      curved_ends(find_curved_ends(surface, options, end_planes)),
+      ends(options.curved_ends),
       shared(surface) {
   const std::vector<WallRole> of_patches = roles_of_patches(mesh, options);
   for (const mesh::Piece& piece : mesh.pieces) {
@@ -60,7 +62,7 @@ LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& o
       const auto has = [](const auto& table, std::int32_t i) {
         return i >= 0 && static_cast<std::size_t>(i) < table.size();
       };
-      if (has(end_planes, face) && !(end_planes[face] == geometry::Vec3{})) {
+      if (has(end_planes, face) && (!(end_planes[face] == geometry::Vec3{}) || is_curved_end(face))) {
         roles.push_back(WallRole::plane);
       } else {
         roles.push_back(has(of_patches, patch) && !mesh.sides_of(face).is_inner() ? of_patches[patch]

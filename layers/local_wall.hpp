@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct TrianglePlace {
 /// What a triangle means for the columns at its corners.
 enum class WallRole : std::int8_t {
   layered,  ///< layers are requested
-  plane,    ///< of a plane that layers end on
+  plane,    ///< of a plane or a curved face that layers end on
   other     ///< layers may not end here
 };
 
@@ -44,6 +45,7 @@ struct LocalWall {
   std::vector<mesh::VertexName> vertex_names() const;
   /// The piece and the number in it of a triangle.
   TrianglePlace place_of(std::int32_t triangle) const;
+  bool is_curved_end(std::int32_t face) const { return curved_ends[face] != 0; }
   /// How the surface turns over the CAD edge of a vertex of a piece at a position; smooth within faces.
   EdgeTurn turn_at(std::size_t position, mesh::LocalIndex vertex) const;
   /// Calls visit(neighbour) for the other corners of the layered triangles around a vertex; most come twice.
@@ -80,6 +82,8 @@ struct LocalWall {
   std::vector<WallRole> roles;
   std::vector<EdgeTurn> edges;             ///< LayerOptions::edges
   std::vector<geometry::Vec3> end_planes;  ///< by CAD face: normals of planes that layers end on, else zero
+  std::vector<std::uint8_t> curved_ends;   ///< by CAD face: 1 on curved ones that layers end on
+  std::shared_ptr<const CurvedEnds> ends;  ///< LayerOptions::curved_ends
   std::vector<std::int32_t> first_around,
       around;  ///< triangles by vertex, ascending; each list ends where the next begins
   mesh::SharedVertices shared;

@@ -1,10 +1,12 @@
 #include "layers/vertex_stars.hpp"
 
+#include "geometry/sort_unique.hpp"
 #include "mesh/checks/intersection.hpp"
 #include "mesh/exchange/rendezvous.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <tuple>
 
@@ -102,6 +104,35 @@ std::vector<Vec3> planes_around(const LocalWall& wall, std::span<const StarTrian
   return planes;
 }
 
+/// The faces around a vertex that layers end on, ascending; empty unless one is curved.
+std::vector<std::int32_t> curved_faces_around(const LocalWall& wall, std::span<const StarTriangle> star) {
+  std::vector<std::int32_t> faces;
+  bool is_curved = false;
+  for (const StarTriangle& t : star) {
+    if (t.wall_role() != WallRole::plane) continue;
+    faces.push_back(t.face);
+    is_curved = is_curved || wall.is_curved_end(t.face);
+  }
+  if (!is_curved) return {};
+  geometry::sort_unique(faces);
+  return faces;
+}
+
+/// What a column at the rim of these faces follows; nothing where the wall meets one of them too obliquely.
+std::optional<EndPlace> find_end(const LocalWall& wall, Vec3 point, std::span<const StarTriangle> star,
+                                 std::span<const std::int32_t> faces) {
+  const double most_oblique = std::cos(std::numbers::pi / 6);
+  for (const std::int32_t face : faces) {
+    const Vec3 normal = wall.ends->normal(face, point);
+    if (normal == Vec3{}) return std::nullopt;
+    for (const StarTriangle& t : star) {
+      if (t.wall_role() == WallRole::layered && std::abs(dot(t.normal, normal)) > most_oblique)
+        return std::nullopt;
+    }
+  }
+  return wall.ends->place(faces, point);
+}
+
 /// Appends the normals of layered triangles, and their mirror images at the planes.
 void append_normals(std::span<const StarTriangle> star, std::span<const Vec3> planes,
                     std::vector<Vec3>& normals) {
@@ -162,6 +193,29 @@ void add_ridge(const StarCentre& centre, std::int32_t v, std::span<const StarTri
   }
 }
 
+/// The planes of the last vertex that columns there lie in, or what they follow on curved faces.
+std::vector<Vec3> find_planes(const LocalWall& wall, std::int32_t v, std::span<const StarTriangle> star,
+                              VertexStars& stars) {
+  StarKind& kind = stars.kinds.back();
+  if (kind != StarKind::plain) return {};
+  const std::vector<std::int32_t> faces = curved_faces_around(wall, star);
+  if (faces.empty()) {
+    std::vector<Vec3> planes = planes_around(wall, star);
+    if (planes.size() > 2) kind = StarKind::ending, planes.clear();
+    return planes;
+  }
+  const std::optional<EndPlace> end = find_end(wall, wall.points[v], star, faces);
+  if (!end) {
+    kind = StarKind::ending;
+    return {};
+  }
+  stars.ends.of[v] = static_cast<std::int32_t>(stars.ends.places.size());
+  stars.ends.places.push_back(*end);
+  std::vector<Vec3> planes(end->across.begin(), end->across.end());
+  if (planes[1] == Vec3{}) planes.pop_back();
+  return planes;
+}
+
 }  // namespace
 
 VertexStars gather_stars(const LocalWall& wall) {
@@ -171,6 +225,7 @@ VertexStars gather_stars(const LocalWall& wall) {
   stars.first.push_back(0);
   stars.first_plane.push_back(0);
   stars.ridge_of.assign(wall.points.size(), -1);
+  stars.ends.of.assign(wall.points.size(), -1);
   stars.sides.assign(3 * wall.triangles.size(), 0);
   std::vector<StarTriangle> star;
   std::size_t next = 0;
@@ -184,12 +239,16 @@ VertexStars gather_stars(const LocalWall& wall) {
       }
       const std::vector<StarTriangle> ordered = in_order(star);
       stars.kinds.push_back(kind_of(star, !ordered.empty()));
-      std::vector<Vec3> planes = planes_around(wall, star);
-      if (stars.kinds.back() != StarKind::plain) planes.clear();
-      if (planes.size() > 2) stars.kinds.back() = StarKind::ending, planes.clear();
+      std::vector<Vec3> planes = find_planes(wall, v, star, stars);
       const EdgeTurn turn = wall.turn_at(p, v - wall.first_vertex[p]);
-      if (stars.kinds.back() == StarKind::plain && planes.size() < 2 && turn != EdgeTurn::smooth)
-        add_ridge({wall.points[v], turn, planes.empty() ? Vec3{} : planes[0]}, v, ordered, wall, stars);
+      if (stars.kinds.back() == StarKind::plain && planes.size() < 2 && turn != EdgeTurn::smooth) {
+        const StarCentre centre{wall.points[v], turn, planes.empty() ? Vec3{} : planes[0]};
+        if (stars.ends.at(v) == nullptr) {
+          add_ridge(centre, v, ordered, wall, stars);
+        } else if (std::vector<RidgeSide> sides; find_ridge(centre, ordered, sides) || !sides.empty()) {
+          ++stars.lost_ridges;
+        }
+      }
       append_normals(star, planes, stars.normals);
       stars.plane_normals.insert(stars.plane_normals.end(), planes.begin(), planes.end());
       stars.first.push_back(static_cast<std::int64_t>(stars.normals.size()));

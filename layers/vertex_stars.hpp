@@ -1,6 +1,7 @@
 /// The star of each wall vertex: all triangles around it, those of other pieces included.
 #pragma once
 
+#include "layers/curved_ends.hpp"
 #include "layers/ridges.hpp"
 
 #include <cstdint>
@@ -26,7 +27,9 @@ struct VertexStars {
   std::vector<geometry::Vec3> normals;
   std::vector<std::int64_t> first_plane;  ///< (vertices + 1)
   std::vector<geometry::Vec3>
-      plane_normals;  ///< normals of the planes at a vertex that layers end on; at most two
+      plane_normals;  ///< of the planes at a vertex that layers end on, or EndPlace::across; at most two
+
+  EndPlaces ends;
 
   std::vector<Ridge> ridges;
   std::int64_t lost_ridges = 0;        ///< vertices of this rank that sharp edges meet and that have no ridge

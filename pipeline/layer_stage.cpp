@@ -5,9 +5,11 @@
 #include "layers/end_planes.hpp"
 #include "mesh/transfer/split_pieces.hpp"
 #include "parallel/observation/log.hpp"
+#include "pipeline/curved_ends.hpp"
 #include "pipeline/edge_turns.hpp"
 #include "pipeline/stage_log.hpp"
 #include "sizing/field/sources.hpp"
+#include "surface/moved_faces.hpp"
 #include "surface/plane_remesher.hpp"
 
 #include <algorithm>
@@ -160,13 +162,20 @@ void fit_layers(const cases::LayerRequest& request, const mesh::DistributedMesh&
   }
 }
 
-/// Ascending.
-std::vector<cad::FaceId> faces_of_planes(const mesh::DistributedMesh& wall,
-                                         const layers::LayerOptions& options) {
-  std::vector<cad::FaceId> faces;
+/// The faces that layers end on, ascending.
+struct EndFaces {
+  std::vector<cad::FaceId> planes, curved, all;
+};
+
+EndFaces find_end_faces(const mesh::DistributedMesh& wall, const layers::LayerOptions& options) {
+  EndFaces faces;
   const std::vector<Vec3> normals = layers::find_end_planes(wall, options);
+  const std::vector<std::uint8_t> curved = layers::find_curved_ends(wall, options, normals);
   for (std::size_t face = 0; face < normals.size(); ++face) {
-    if (!(normals[face] == Vec3{})) faces.push_back(static_cast<cad::FaceId>(face));
+    const auto id = static_cast<cad::FaceId>(face);
+    if (!(normals[face] == Vec3{})) faces.planes.push_back(id);
+    if (curved[face] != 0) faces.curved.push_back(id);
+    if (!(normals[face] == Vec3{}) || curved[face] != 0) faces.all.push_back(id);
   }
   return faces;
 }
@@ -180,12 +189,16 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
                            surface.patches, surface.types);
   fit_layers(input.layers, surface, options);
   options.edges = find_edge_turns(surface.model);
-  const surface::PlanesToRemesh planes{faces_of_planes(surface, options), input.surface};
-  surface.bounds_volume = planes.faces.empty();
+  options.curved_ends = curved_ends_of(surface.model);
+  const EndFaces ends = find_end_faces(surface, options);
+  surface.bounds_volume = ends.all.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
-      mesh::split_pieces(surface, layers::wall_piece_triangles, planes.faces);
+      mesh::split_pieces(surface, layers::wall_piece_triangles, ends.all);
   const auto remesh = [&](mesh::DistributedMesh& cap) {
-    surface::PlaneConflicts conflicts = surface::remesh_planes(surface.model, surface.field, planes, cap);
+    surface::PlaneConflicts conflicts = surface::remesh_moved_faces(
+        surface.model, surface.field, {ends.curved, ends.planes}, input.surface, surface, cap);
+    if (conflicts.empty())
+      conflicts = surface::remesh_planes(surface.model, surface.field, {ends.planes, input.surface}, cap);
     return std::move(conflicts.vertices);
   };
   layers::Layers made = layers::build_layers(surface, options, remesh);

@@ -116,6 +116,19 @@ double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) 
   return at;
 }
 
+Vec3 onto_exact_plane(const Model& model, FaceId face, Vec3 point) {
+  if (!model.is_exact_plane(face)) return point;
+  const Coedge& use = model.face(face).loops.front().front();
+  const SurfaceFrame frame =
+      model.face_frame(face, model.edge_uv(face, use, model.edge(use.edge).first_parameter));
+  int along = 0;
+  for (const int axis : {1, 2}) {
+    if (std::abs(frame.normal[axis]) > std::abs(frame.normal[along])) along = axis;
+  }
+  point[along] = frame.point[along];
+  return point;
+}
+
 EdgeFoot foot_on_edge(const Model& model, EdgeId id, Vec3 point, double guess) {
   constexpr int few_steps = 8;  // the guess is near, each step is one along a tangent; chosen, not measured
   const Edge& edge = model.edge(id);

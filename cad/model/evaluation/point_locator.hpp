@@ -44,6 +44,9 @@ private:
 /// edge's interval, also on closed edges.
 double project_on_edge(const Model& model, EdgeId id, Vec3 point, double guess);
 
+/// The point with the coordinate of an exact plane (Model::is_exact_plane); of other faces the point itself.
+Vec3 onto_exact_plane(const Model& model, FaceId face, Vec3 point);
+
 struct EdgeFoot {
   double parameter;
   Vec3 point;
