@@ -13,10 +13,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
 namespace aeroloom::layers {
+
+struct OpenedWall;
 
 /// The layers requested on a patch. Heights are in the length unit of the mesh.
 struct WallLayers {
@@ -38,14 +41,24 @@ enum class EdgeTurn : std::uint8_t {
   sharp     ///< a ridge all along it, where the mesh turns at all
 };
 
+/// The sides on which inner faces have layers. The front of a face between two regions lies in its front
+/// region (mesh::FaceSides), that of a baffle where its normal points.
+enum class InnerSides : std::uint8_t { none, front, back, both };
+
 struct LayerOptions {
-  std::vector<WallLayers> patches;  ///< by patch index of the mesh; missing ones have no layers
+  std::vector<WallLayers> patches;      ///< by patch index of the mesh; missing ones have no layers
+  std::vector<InnerSides> inner_sides;  ///< by patch, of its inner faces; missing ones: none
   /// Whether layers may end on planes of symmetry, slip, inlet and outlet. Columns at their rims then lie in
   /// the plane, and the plane is meshed again. Otherwise counts fall to zero before such a plane.
   bool ends_on_planes = false;
   LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
   std::vector<EdgeTurn> edges;                     ///< by CAD edge; missing ones are unknown
 };
+
+/// Whether inner faces of the patch have layers on a side.
+inline bool has_inner_sides(const LayerOptions& options, std::size_t patch) {
+  return patch < options.inner_sides.size() && options.inner_sides[patch] != InnerSides::none;
+}
 
 /// What closes a wall mesh between the columns of one vertex: a face without area. Its corners are columns,
 /// counter-clockwise seen from the fluid: two of one vertex and two of the other over an edge of a ridge (a
@@ -156,6 +169,9 @@ struct Layers {
   /// remesher left them.
   mesh::DistributedMesh cap;
   LayerReport report;
+  /// Where inner faces have layers: the wall that `columns` stand on. The cap is then closed again where it
+  /// has no layers on either side (glued_cap.hpp).
+  std::shared_ptr<const OpenedWall> opened;  // opened_wall.hpp
 };
 
 /// Meshes again the planes that layers end on. The rims of the planes have moved in `cap`. Other pieces stay,
