@@ -131,7 +131,6 @@ void close_inner_faces(const OpenedWall& opened, mesh::DistributedMesh& volume) 
   volume.faces = opened.before.faces;
   volume.sides = opened.before.sides;
   volume.patches = opened.before.patches;
-  volume.patch_types = opened.before.patch_types;
 }
 
 }  // namespace aeroloom::layers

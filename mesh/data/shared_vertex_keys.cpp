@@ -14,9 +14,9 @@ constexpr int edge_shift = 32;
 constexpr SharedVertexKey last_column = 0xff;
 constexpr int column_of_index = 24, column_of_split = 23, column_of_cut = 16;
 
-// Sides of vertices: four bits below those that tell keys apart, of which the uppermost marks vertices inside
+// Sides of vertices: five bits below those that tell keys apart, of which the uppermost marks vertices inside
 // of a piece.
-constexpr int side_bits = 4, side_of_cut = 58, side_of_curve = 59;
+constexpr int side_bits = 5, side_of_cut = 57, side_of_curve = 58;
 constexpr SharedVertexKey last_side = (SharedVertexKey{1} << side_bits) - 1,
                           inside_mark = SharedVertexKey{1} << (side_bits - 1);
 

@@ -33,9 +33,9 @@ bool can_name_columns(SharedVertexKey vertex);
 
 /// Side `side`, from 1 on, of a vertex at which a surface divides the space into several; side 0 is the
 /// vertex. Throws std::runtime_error beyond `last_vertex_side`, and if the vertex cannot name sides: its CAD
-/// edge is 2^27 or more, on cuts its face 2^18, of a split piece the piece 2^27.
+/// edge is 2^26 or more, on cuts its face 2^17, of a split piece the piece 2^26.
 SharedVertexKey side_vertex_key(SharedVertexKey vertex, int side);
-inline constexpr int last_vertex_side = 7;
+inline constexpr int last_vertex_side = 15;
 bool can_name_sides(SharedVertexKey vertex);
 /// A vertex of a piece that no other piece knew before its sides got names.
 SharedVertexKey inside_vertex_key(PieceId piece, LocalIndex vertex);
