@@ -12,7 +12,7 @@ namespace aeroloom::layers {
 /// and with nothing beyond. A vertex is one for each part of the space around it. So a vertex of a face
 /// between two regions has columns of its own on either side. Pieces are those of the wall, which have the
 /// front sides of inner faces, then one for each piece of an inner face with its back sides; both are on the
-/// same rank, with the same vertices and triangles. Where the space around a vertex cannot be told apart, all
+/// same rank, with the same vertices and triangles. Where the space around a vertex cannot be parted, all
 /// sides have that vertex.
 ///
 /// Faces and patches of the wall come first, then two for each of them: of the front sides, of the back

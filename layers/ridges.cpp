@@ -54,9 +54,15 @@ private:
   }
   Vec3 along(std::size_t edge) const { return normalized(left(edge).next_point - _vertex); }
 
+  /// Whether both triangles at an edge are the sides of one: it is the free rim of a baffle.
+  bool is_rim(std::size_t edge) const {
+    return left(edge).previous_point == right(edge).next_point;
+  }
+
   bool is_sharp(std::size_t edge) const {
     const StarTriangle &l = left(edge), &r = right(edge);
     if (r.wall_role() != WallRole::layered || l.wall_role() != WallRole::layered) return false;
+    if (is_rim(edge)) return true;
     const auto turn = static_cast<EdgeTurn>(l.edge_turn);
     if (turn == EdgeTurn::smooth) return false;
     const bool is_sharp = turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp;
