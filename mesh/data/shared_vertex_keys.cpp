@@ -90,6 +90,10 @@ SharedVertexKey side_vertex_key(SharedVertexKey vertex, int side) {
   return vertex | wide(side) << side_shift(vertex);
 }
 
+SharedVertexKey vertex_key_of_side(SharedVertexKey side) {
+  return side & ~((last_side & ~inside_mark) << side_shift(side));
+}
+
 SharedVertexKey inside_vertex_key(PieceId piece, LocalIndex vertex) {
   return split_vertex_key(piece, vertex) | inside_mark << side_of_cut;
 }

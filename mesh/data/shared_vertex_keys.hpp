@@ -37,6 +37,8 @@ bool can_name_columns(SharedVertexKey vertex);
 SharedVertexKey side_vertex_key(SharedVertexKey vertex, int side);
 inline constexpr int last_vertex_side = 15;
 bool can_name_sides(SharedVertexKey vertex);
+/// The vertex that a key of side_vertex_key() is a side of.
+SharedVertexKey vertex_key_of_side(SharedVertexKey side);
 /// A vertex of a piece that no other piece knew before its sides got names.
 SharedVertexKey inside_vertex_key(PieceId piece, LocalIndex vertex);
 

@@ -54,6 +54,7 @@ TEST(SharedVertexKeysLocal, NameSidesOfAVertex) {
        {cad_vertex_key(12), curve_vertex_key(7, 5), cut_vertex_key(7, 5, 3), split_vertex_key(7, 5)}) {
     ASSERT_TRUE(can_name_sides(key));
     EXPECT_EQ(side_vertex_key(key, 0), key);
+    EXPECT_EQ(vertex_key_of_side(side_vertex_key(key, last_vertex_side)), key);
     EXPECT_NE(side_vertex_key(key, 1), side_vertex_key(key, last_vertex_side));
     const SharedVertexKey side = side_vertex_key(key, last_vertex_side);
     EXPECT_EQ(is_cut_vertex_key(side), is_cut_vertex_key(key));
@@ -67,6 +68,7 @@ TEST(SharedVertexKeysLocal, NameSidesOfAVertex) {
   EXPECT_FALSE(can_name_sides(curve_vertex_key(1 << 26, 0)));
   EXPECT_FALSE(can_name_sides(cut_vertex_key(1 << 17, 0, 0)));
   EXPECT_FALSE(can_name_sides(split_vertex_key(1 << 26, 0)));
+  EXPECT_EQ(vertex_key_of_side(side_vertex_key(inside_vertex_key(7, 5), 3)), inside_vertex_key(7, 5));
   EXPECT_NE(inside_vertex_key(7, 5), split_vertex_key(7, 5));
   EXPECT_NE(side_vertex_key(inside_vertex_key(7, 5), 1), side_vertex_key(split_vertex_key(7, 5), 1));
 }
