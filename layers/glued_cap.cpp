@@ -99,7 +99,7 @@ std::vector<std::vector<SharedVertexKey>> find_foot_keys(
   std::vector<std::vector<SharedVertexKey>> keys;
   for (std::size_t p = 0; p < opened.mesh.pieces.size(); ++p) {
     const Piece& wall = opened.mesh.pieces[p];
-    keys.emplace_back(wall.vertex_count(), 0);
+    keys.emplace_back(wall.vertex_count(), no_foot_key);
     if (!places[p]) continue;
     for (const LocalIndex v : wall.shared_vertices) {
       const bool bare = columns.pieces[p].counts[v] == 0;

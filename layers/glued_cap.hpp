@@ -20,8 +20,8 @@ mesh::LocalIndex triangle_before_gluing(const OpenedWall& opened, const Columns&
                                         mesh::LocalIndex triangle);
 
 /// By piece of the opened wall and vertex: the key of the wall's vertex in the volume with layers. It is that
-/// of the vertex of the glued cap where a side has no layers there. 0 of vertices that only their piece
-/// knows. `places`: of the pieces in the cap. Collective.
+/// of the vertex of the glued cap where a side has no layers there; no_foot_key of vertices that only their
+/// piece knows. `places`: of the pieces in the cap. Collective.
 std::vector<std::vector<mesh::SharedVertexKey>> find_foot_keys(
     const OpenedWall& opened, const Columns& columns, const mesh::NumberedMesh& cap,
     const std::vector<std::optional<std::size_t>>& places);

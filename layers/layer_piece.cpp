@@ -143,7 +143,7 @@ private:
                             _source.wall.vertex_dimension[v], _source.wall.vertex_entity[v]);
       if (top == 0) {
         share(_foot[v], mesh::running_key(_source.numbers[end]));
-      } else if (!_source.foot_keys.empty() && _source.foot_keys[v] != 0) {
+      } else if (!_source.foot_keys.empty() && _source.foot_keys[v] != no_foot_key) {
         share(_foot[v], _source.foot_keys[v]);
       } else if (_shared[v] != 0) {
         const bool several = _source.columns.columns_at(v) > 1;

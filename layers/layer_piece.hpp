@@ -36,6 +36,9 @@ struct LayeredPiece {
   LayersOverFan layers_of(const FanFace& face) const;
 };
 
+/// In LayeredPiece::foot_keys: of a vertex that only its piece knows.
+inline constexpr mesh::SharedVertexKey no_foot_key = ~mesh::SharedVertexKey{0};
+
 /// The key in the volume of a vertex of the wall, by its number there and not by that of a column.
 mesh::SharedVertexKey wall_vertex_key(mesh::GlobalIndex number);
 

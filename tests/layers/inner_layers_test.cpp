@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -20,6 +21,13 @@ using volume::surfaces::Surface;
 /// The patch of inner faces, and that of all others.
 constexpr std::size_t inner = 0;
 
+constexpr double plate_height = 0.1, half_plate = 0.6;
+
+/// Of the free plate.
+bool is_on_rim(Vec3 p) {
+  return p.z == plate_height && std::max(std::abs(p.x), std::abs(p.y)) > half_plate - 1e-9;
+}
+
 mesh::NumberedMesh wall_of(const Communicator& ranks, const Surface& surface) {
   mesh::DistributedMesh wall = volume::surfaces::spread(ranks, surface);
   wall.patches = {"inner", "outer"};
@@ -27,6 +35,9 @@ mesh::NumberedMesh wall_of(const Communicator& ranks, const Surface& surface) {
   for (Piece& piece : wall.pieces) {
     for (std::size_t t = 0; t < piece.triangle_face.size(); ++t)
       piece.triangle_patch[t] = wall.sides_of(piece.triangle_face[t]).is_inner() ? 0 : 1;
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      if (is_on_rim(piece.point(v))) piece.vertex_dimension[v] = mesh::CadDimension::edge;
+    }
   }
   return mesh::number_mesh(std::move(wall));
 }
@@ -91,6 +102,18 @@ std::set<mesh::RegionId> regions_of_first_layers(const InnerLayers& made) {
 Surface cube_in_a_cube() {
   return volume::surfaces::nested_cubes(8);
 }
+/// Two boxes that share a face, which has the first numbers.
+Surface two_boxes() {
+  Surface surface = volume::surfaces::voxels(
+      {8, 4, 4}, [](int i, int, int) { return i / 4; },
+      volume::surfaces::onto({-2, -1, -1}, {2, 1, 1}, {8, 4, 4}));
+  const auto shared = std::find_if(surface.sides.begin(), surface.sides.end(),
+                                   [](const mesh::FaceSides& sides) { return sides.is_inner(); });
+  const auto face = static_cast<std::int32_t>(shared - surface.sides.begin());
+  std::swap(surface.sides[0], *shared);
+  for (std::int32_t& f : surface.face) f = f == face ? 0 : f == 0 ? face : f;
+  return surface;
+}
 /// Eight regions around a point, in a cube.
 Surface eight_cubes() {
   return volume::surfaces::voxels(
@@ -115,7 +138,8 @@ Surface free_plate() {
   plate.sides.push_back({0, 0});
   constexpr int n = 6;
   for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n; ++j) plate.points.push_back({(i - 3) * 0.2, (j - 3) * 0.2, 0.1});
+    for (int j = 0; j <= n; ++j)
+      plate.points.push_back({(i - 3) * half_plate / 3, (j - 3) * half_plate / 3, plate_height});
   }
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
@@ -167,6 +191,17 @@ TEST(InnerLayers, BothSidesShareTheNodesInTheFace) {
   EXPECT_NEAR(area, 2 * 6, 1e-9) << "of both sides";
 }
 
+TEST(InnerLayers, OfOneSideMeetThoseOfWallsThere) {
+  for (const InnerSides side : {InnerSides::front, InnerSides::back}) {
+    const InnerLayers made(Communicator::world(), two_boxes(), side, true);
+    expect_valid(made);
+    const PatchLayers& of_side = made.layers.report.patches[inner];
+    EXPECT_NEAR(of_side.full_area, of_side.area, 1e-9);
+    EXPECT_GT(made.full(), 0.7) << "on the other side layers of walls step down to zero";
+    EXPECT_LT(made.full(), 0.99);
+  }
+}
+
 TEST(InnerLayers, RegionsMeetInLinesAndPoints) {
   const InnerLayers made(Communicator::world(), eight_cubes(), InnerSides::both, true);
   expect_valid(made);
@@ -180,6 +215,20 @@ TEST(InnerLayers, BafflesCrossAndEndOnWalls) {
   EXPECT_NEAR(made.full(), 1, 1e-12);
 }
 
+TEST(InnerLayers, GoAroundFreeRims) {
+  for (const bool outer : {false, true}) {
+    const InnerLayers made(Communicator::world(), free_plate(), InnerSides::both, outer);
+    expect_valid(made);
+    EXPECT_NEAR(made.full(), 1, 1e-12);
+    std::int64_t over_rims = 0;
+    for (const PieceColumns& columns : made.layers.columns.pieces) {
+      for (const FanFace& face : columns.fan_faces) over_rims += face.is_sector() ? 1 : 0;
+    }
+    EXPECT_EQ(made.wall.communicator.sum(over_rims) % (4 * 6), 0);
+    EXPECT_GT(made.wall.communicator.sum(over_rims), 0);
+  }
+}
+
 TEST(InnerLayers, OfBafflesTheFrontIsWhereNormalsPoint) {
   for (const InnerSides sides : {InnerSides::front, InnerSides::back}) {
     const InnerLayers made(Communicator::world(), free_plate(), sides);
@@ -188,8 +237,8 @@ TEST(InnerLayers, OfBafflesTheFrontIsWhereNormalsPoint) {
     for (const Piece& piece : made.mesh.pieces) {
       if (piece.layers.empty()) continue;
       for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-        above += piece.point(v).z > 0.1 ? 1 : 0;
-        below += piece.point(v).z < 0.1 ? 1 : 0;
+        above += piece.point(v).z > plate_height ? 1 : 0;
+        below += piece.point(v).z < plate_height ? 1 : 0;
       }
     }
     const auto& ranks = made.wall.communicator;
