@@ -44,6 +44,8 @@ enum class EdgeTurn : std::uint8_t {
 /// The sides on which inner faces have layers. The front of a face between two regions lies in its front
 /// region (mesh::FaceSides), that of a baffle where its normal points.
 enum class InnerSides : std::uint8_t { none, front, back, both };
+/// The name used in cases and reports.
+std::string_view name_of(InnerSides sides);
 
 struct LayerOptions {
   std::vector<WallLayers> patches;      ///< by patch index of the mesh; missing ones have no layers
@@ -55,9 +57,9 @@ struct LayerOptions {
   std::vector<EdgeTurn> edges;                     ///< by CAD edge; missing ones are unknown
 };
 
-/// Whether inner faces of the patch have layers on a side.
-inline bool has_inner_sides(const LayerOptions& options, std::size_t patch) {
-  return patch < options.inner_sides.size() && options.inner_sides[patch] != InnerSides::none;
+/// The sides on which inner faces of the patch have layers.
+inline InnerSides inner_sides_of(const LayerOptions& options, std::size_t patch) {
+  return patch < options.inner_sides.size() ? options.inner_sides[patch] : InnerSides::none;
 }
 
 /// What closes a wall mesh between the columns of one vertex: a face without area. Its corners are columns,

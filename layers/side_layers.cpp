@@ -9,8 +9,8 @@ namespace aeroloom::layers {
 namespace {
 
 bool wants(const LayerOptions& options, std::size_t patch, InnerSides side) {
-  if (patch >= options.inner_sides.size() || patch >= options.patches.size()) return false;
-  const InnerSides asked = options.inner_sides[patch];
+  if (patch >= options.patches.size()) return false;
+  const InnerSides asked = inner_sides_of(options, patch);
   return options.patches[patch].first > 0 && (asked == side || asked == InnerSides::both);
 }
 

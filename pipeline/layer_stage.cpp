@@ -223,7 +223,7 @@ std::vector<std::vector<std::int32_t>> layers_over_triangles(const mesh::Distrib
       const LocalIndex* const v = piece.cell(t);
       const auto patch = static_cast<std::size_t>(piece.triangle_patch[t]);  // of none: beyond all
       const bool wanted = patch < asked.patches.size() && asked.patches[patch].first > 0 &&
-                          (!inner || layers::has_inner_sides(asked, patch));
+                          (!inner || layers::inner_sides_of(asked, patch) != layers::InnerSides::none);
       const auto least = [&](std::size_t place) {
         const std::vector<std::int32_t>& counts = layered.columns.pieces[place].counts;
         return std::min({counts[v[0]], counts[v[1]], counts[v[2]]});

@@ -32,15 +32,15 @@ void declare_layer_rule(KeyTable& keys, LayerRule& rule) {
   keys.number("total", rule.total, Range::above(0, length_unit),
               {"As `layers.total`, on this patch.", "as for all walls", "0.01"});
   using layers::InnerSides;
-  keys.choice<InnerSides>("side", rule.side,
-                          {{"none", InnerSides::none},
-                           {"front", InnerSides::front},
-                           {"back", InnerSides::back},
-                           {"both", InnerSides::both}},
-                          "The sides with layers of its faces between two regions and of its baffles. Of the "
-                          "former the front lies "
-                          "in the front region, the first one in the name `interface_A_B`; of baffles it is "
-                          "where the normal of the CAD face points.");
+  keys.choice<InnerSides>(
+      "side", rule.side,
+      {{"none", InnerSides::none},
+       {"front", InnerSides::front},
+       {"back", InnerSides::back},
+       {"both", InnerSides::both}},
+      "The sides of inner faces that have layers. `front`: in the front region of a face "
+      "between two regions, A of `interface_A_B`; on a baffle where the normal of its CAD "
+      "surface points. Without the key inner faces have none.");
 }
 
 void declare_first(KeyTable& keys, LayerRequest& request) {
@@ -154,8 +154,7 @@ void declare_layers(KeyTable& root, CaseDraft& draft) {
       request.gate);
   keys.named_sections(
       "patches", "Layers of single patches that differ from the others.",
-      {"A patch of type `wall`, or with `side` of faces with something on both sides, by its name.", "",
-       "nacelle"},
+      {"A patch of type `wall`, or one of inner faces with `side`, by its name.", "", "nacelle"},
       [&rules = draft.layer_rules](const std::string& name, KeyTable& table) {
         declare_layer_rule(table, layer_rule_of(rules, name));
       });
