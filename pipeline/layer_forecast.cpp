@@ -35,6 +35,7 @@ struct WallFacet {
   Triangle corners;
   Vec3 outward;  ///< unit, out of the fluid
   cad::FaceId face;
+  bool turned = false;  ///< of an inner face, seen from its back
 };
 
 Vec3 area_vector(const Triangle& t) {
@@ -108,7 +109,7 @@ private:
       // Facets cut corners: the exact area makes up for it.
       const double larger = _model.face_area(facet.face) / area_of_facets[facet.face];
       if (!inner || (is_baffle ? back : front)) visit_parts(facet, facet.corners, larger, 0, visit);
-      const WallFacet turned{facet.corners, -facet.outward, facet.face};
+      const WallFacet turned{facet.corners, -facet.outward, facet.face, true};
       if (inner && (is_baffle ? front : back)) visit_parts(turned, facet.corners, larger, 0, visit);
     }
   }
@@ -170,7 +171,10 @@ private:
   double gap_before(const WallFacet& facet, Vec3 point, double reach) const {
     const Vec3 inward = -facet.outward;
     const auto corners = [&](std::int32_t t) -> const Triangle& { return _facets[t].corners; };
-    const auto faces_back = [&](std::int32_t t) { return dot(_facets[t].outward, inward) > 0; };
+    const auto faces_back = [&](std::int32_t t) {
+      const bool turned = facet.turned && _model.face(_facets[t].face).back != cad::no_entity;
+      return dot(turned ? -_facets[t].outward : _facets[t].outward, inward) > 0;
+    };
     std::int64_t nodes = 0;
     const sizing::RayTree::Crossing met =
         _tree.nearest_crossings(point, inward, reach, corners, faces_back, nodes)[0];
