@@ -18,7 +18,7 @@ bool wants(const LayerOptions& options, std::size_t patch, InnerSides side) {
 
 bool has_inner_layers(const mesh::DistributedMesh& wall, const LayerOptions& options) {
   bool found = false;
-  for (const Piece& piece : wall.pieces) {
+  for (const mesh::Piece& piece : wall.pieces) {
     if (!wall.sides_of(piece.common_face()).is_inner()) continue;
     for (const std::int32_t patch : piece.triangle_patch) {
       const auto p = static_cast<std::size_t>(patch);
