@@ -3,7 +3,9 @@
 #include "layers/good_columns.hpp"
 #include "layers/layer_cap.hpp"
 #include "layers/layer_report.hpp"
+#include "layers/opened_wall.hpp"
 #include "layers/sectors.hpp"
+#include "layers/side_layers.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
 
@@ -102,12 +104,9 @@ LimitedColumns fit_columns(const LayerInput& in) {
   }
 }
 
-}  // namespace
-
-Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
-                    const PlaneRemesher& remesh_planes) {
-  const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
-  parallel::add_pieces(static_cast<std::int64_t>(wall.pieces.size()));
+/// Of a wall without inner faces, or of an opened one.
+Layers build_on(const mesh::NumberedMesh& wall, const LayerOptions& options, const OpenedWall* opened,
+                const PlaneRemesher& remesh_planes) {
   const LocalWall walls(wall, options);
   const VertexStars stars = gather_stars(walls);
   const std::vector<VertexLayers> wanted = gather_wanted_layers(walls, options);
@@ -118,9 +117,23 @@ Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
   ColumnLimits& limits = found.limits;
   Layers layers;
   layers.report.validity_rounds = found.rounds;
-  layers.cap = CapClearing(walls, fans, directions, remesh_planes).run(limits, layers.report);
+  layers.cap = CapClearing(walls, fans, directions, {remesh_planes, opened}).run(limits, layers.report);
   layers.columns = make_columns(walls, fans, directions, limits);
   layers.report.patches = report_patches(walls, fans, directions, limits, options);
+  return layers;
+}
+
+}  // namespace
+
+Layers build_layers(const mesh::NumberedMesh& wall, const LayerOptions& options,
+                    const PlaneRemesher& remesh_planes) {
+  const parallel::ScopedCpu cpu(parallel::ScopedCpu::As::task);
+  parallel::add_pieces(static_cast<std::int64_t>(wall.pieces.size()));
+  if (!has_inner_layers(wall, options)) return build_on(wall, options, nullptr, remesh_planes);
+  const auto opened = std::make_shared<const OpenedWall>(open_inner_faces(wall));
+  Layers layers = build_on(opened->mesh, options_of_sides(*opened, options), opened.get(), remesh_planes);
+  layers.report.patches = join_sides(*opened, layers.report.patches);
+  layers.opened = opened;
   return layers;
 }
 

@@ -33,6 +33,11 @@ geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::i
   return wall.point(vertex) + height(columns, vertex, k) * columns.directions[column];
 }
 
+std::string_view name_of(InnerSides sides) {
+  static constexpr std::array<std::string_view, 4> names = {"none", "front", "back", "both"};
+  return names[static_cast<std::size_t>(sides)];
+}
+
 std::string_view name_of(LayerLimit limit) {
   static constexpr std::array<std::string_view, layer_limit_count> names = {
       "none", "no_direction", "ending", "gap", "validity", "slope", "crossing"};

@@ -19,7 +19,8 @@
 
 namespace aeroloom::layers {
 
-class CurvedEnds;  // layers/curved_ends.hpp
+class CurvedEnds;   // layers/curved_ends.hpp
+struct OpenedWall;  // layers/opened_wall.hpp
 
 /// The layers requested on a patch. Heights are in the length unit of the mesh.
 struct WallLayers {
@@ -41,8 +42,15 @@ enum class EdgeTurn : std::uint8_t {
   sharp     ///< a ridge all along it, where the mesh turns at all
 };
 
+/// The sides on which inner faces have layers. The front of a face between two regions lies in its front
+/// region (mesh::FaceSides), that of a baffle where its normal points.
+enum class InnerSides : std::uint8_t { none, front, back, both };
+/// The name used in cases and reports.
+std::string_view name_of(InnerSides sides);
+
 struct LayerOptions {
-  std::vector<WallLayers> patches;  ///< by patch index of the mesh; missing ones have no layers
+  std::vector<WallLayers> patches;      ///< by patch index of the mesh; missing ones have no layers
+  std::vector<InnerSides> inner_sides;  ///< by patch, of its inner faces; missing ones: none
   /// Whether layers may end on planes of symmetry, slip, inlet and outlet. Columns at their rims then lie in
   /// the plane, and the plane is meshed again. Otherwise counts fall to zero before such a plane.
   bool ends_on_planes = false;
@@ -52,6 +60,11 @@ struct LayerOptions {
   LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
   std::vector<EdgeTurn> edges;                     ///< by CAD edge; missing ones are unknown
 };
+
+/// The sides on which inner faces of the patch have layers.
+inline InnerSides inner_sides_of(const LayerOptions& options, std::size_t patch) {
+  return patch < options.inner_sides.size() ? options.inner_sides[patch] : InnerSides::none;
+}
 
 /// What closes a wall mesh between the columns of one vertex: a face without area. Its corners are columns,
 /// counter-clockwise seen from the fluid: two of one vertex and two of the other over an edge of a ridge (a
@@ -165,12 +178,17 @@ struct Layers {
   /// remesher left them.
   mesh::DistributedMesh cap;
   LayerReport report;
+  /// Where inner faces have layers: the wall that `columns` stand on. The cap is then closed again where it
+  /// has no layers on either side (glued_cap.hpp).
+  std::shared_ptr<const OpenedWall> opened;  // opened_wall.hpp
 };
 
-/// Meshes again the planes that layers end on. The rims of the planes have moved in `cap`. Other pieces stay,
-/// keep their order and come first. Returns nothing on success. Else it leaves the cap unchanged and returns
-/// the shared-vertex keys of the vertices that must move less, equal on all ranks. Collective.
-using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(mesh::DistributedMesh& cap)>;
+/// Meshes again the planes and curved faces that layers end on. Their rims have moved in `cap`; `wall` has
+/// the same pieces before, in the same order. Other pieces stay, keep their order and come first. Returns
+/// nothing on success. Else the cap is of no use, and it returns the shared-vertex keys of the vertices that
+/// must move less, equal on all ranks. Collective.
+using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(const mesh::DistributedMesh& wall,
+                                                                       mesh::DistributedMesh& cap)>;
 
 /// Triangles per wall piece. Pieces of surface meshing are often whole CAD faces, too large to balance layers
 /// over ranks. Chosen, not measured.

@@ -125,8 +125,11 @@ std::vector<std::uint8_t> find_curved_ends(const mesh::DistributedMesh& mesh, co
   for (const mesh::Piece& piece : mesh.pieces) {
     std::vector<std::uint32_t>& of_piece = meets.emplace_back(piece.vertex_count(), 0);
     for (mesh::LocalIndex t = 0; t < piece.cell_count(); ++t) {
-      if (!has_layers(options, piece.triangle_patch[t]) || mesh.sides_of(piece.triangle_face[t]).is_inner())
-        continue;
+      const std::int32_t patch = piece.triangle_patch[t];
+      if (!has_layers(options, patch)) continue;
+      const bool is_bare = mesh.sides_of(piece.triangle_face[t]).is_inner() &&
+                           inner_sides_of(options, static_cast<std::size_t>(patch)) == InnerSides::none;
+      if (is_bare) continue;
       for (int i = 0; i < 3; ++i) of_piece[piece.cell(t)[i]] = wall;
     }
   }

@@ -2,8 +2,10 @@
 
 #include "layers/cap_layout.hpp"
 #include "layers/enclosed_parts.hpp"
+#include "layers/glued_cap.hpp"
 #include "layers/good_columns.hpp"
 #include "layers/layer_validity.hpp"
+#include "layers/opened_wall.hpp"
 #include "mesh/checks/intersection.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/delivery.hpp"
@@ -183,10 +185,11 @@ public:
     for (const std::int32_t v : _wall.triangles[triangle]) add(v);
   }
   /// The columns under a triangle of the cap, if its piece of the wall is here.
-  void add(mesh::PieceId piece, mesh::LocalIndex cell, const Columns& columns) {
+  void add(mesh::PieceId piece, mesh::LocalIndex cell, const Columns& columns, const OpenedWall* opened) {
     const auto& pieces = _wall.mesh.pieces;
     const std::size_t p = mesh::position_of(_wall.mesh, piece);
     if (p == pieces.size() || pieces[p].id != piece) return;
+    if (opened != nullptr) cell = triangle_before_gluing(*opened, columns, p, cell);
     if (cell < pieces[p].cell_count()) return add_triangle(_wall.first_triangle[p] + cell);
     const CapLayout layout = lay_out_cap(pieces[p], columns.pieces[p]);
     const std::int32_t face = layout.origins[cell - pieces[p].cell_count()];
@@ -210,8 +213,12 @@ private:
 };
 
 CapClearing::CapClearing(const LocalWall& wall, const Fans& fans, const Directions& directions,
-                         const PlaneRemesher& remesh_planes)
-    : _wall(wall), _fans(fans), _directions(directions), _remesh_planes(remesh_planes) {
+                         const CapChanges& changes)
+    : _wall(wall),
+      _fans(fans),
+      _directions(directions),
+      _remesh_planes(changes.remesh_planes),
+      _opened(changes.opened) {
   std::vector<std::int32_t> on_plane;
   for (std::size_t p = 0; p < wall.mesh.pieces.size(); ++p) {
     const auto roles =
@@ -224,7 +231,7 @@ CapClearing::CapClearing(const LocalWall& wall, const Fans& fans, const Directio
     if (on_plane[piece] == 0) _kept.push_back(piece);
   }
   const bool has_planes = _kept.size() < on_plane.size();
-  if (has_planes && !remesh_planes)
+  if (has_planes && !_remesh_planes)
     throw parallel::CollectiveError(parallel::FailureKind::bug,
                                     "layers end on planes, but none can be meshed again");
 }
@@ -269,7 +276,7 @@ bool CapClearing::is_clear(const Columns& columns, mesh::DistributedMesh& cap, L
                            LayerReport& report) const {
   const bool has_planes = static_cast<mesh::PieceId>(_kept.size()) < _wall.mesh.piece_count;
   std::vector<mesh::SharedVertexKey> at_fault;
-  if (has_planes) at_fault = _remesh_planes(cap);
+  if (has_planes) at_fault = _remesh_planes(_wall.mesh, cap);
   if (!at_fault.empty()) {
     std::sort(at_fault.begin(), at_fault.end());
     lower_on_planes(at_fault, lower);
@@ -277,7 +284,7 @@ bool CapClearing::is_clear(const Columns& columns, mesh::DistributedMesh& cap, L
   }
   const std::vector<mesh::TriangleHit> hits = mesh::find_intersections(cap);
   const auto add = [&](mesh::PieceId piece, mesh::LocalIndex cell) {
-    if (static_cast<std::size_t>(piece) < _kept.size()) lower.add(_kept[piece], cell, columns);
+    if (static_cast<std::size_t>(piece) < _kept.size()) lower.add(_kept[piece], cell, columns, _opened);
   };
   for (const mesh::TriangleHit& hit : hits) {
     add(hit.first_piece, hit.first);
@@ -293,6 +300,7 @@ mesh::DistributedMesh CapClearing::run(ColumnLimits& limits, LayerReport& report
   for (int round = 1;; ++round) {
     const Columns columns = make_columns(_wall, _fans, _directions, limits);
     mesh::DistributedMesh cap = make_cap(_wall.mesh, columns);
+    if (_opened != nullptr) glue_cap(*_opened, columns, cap);
     LoweredCounts lower(_wall, limits, round);
     if (is_clear(columns, cap, lower, report)) return cap;
     report.crossing_rounds = round;

@@ -14,13 +14,18 @@ Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& 
 /// The wall mesh with its vertices moved to the ends of their columns, as CapLayout has it.
 mesh::DistributedMesh make_cap(const mesh::DistributedMesh& wall, const Columns& columns);
 
+/// What is done to a cap before it is tested.
+struct CapChanges {
+  const PlaneRemesher& remesh_planes;  ///< not empty if layers end on planes
+  const OpenedWall* opened = nullptr;  ///< of a wall that was opened: its cap is glued
+};
+
 /// Shrinks columns until the cap has no intersections.
 class CapClearing {
 public:
-  /// Arguments must outlive the object. `remesh_planes` must not be empty if layers end on planes.
-  /// Collective.
+  /// Arguments must outlive the object. Collective.
   CapClearing(const LocalWall& wall, const Fans& fans, const Directions& directions,
-              const PlaneRemesher& remesh_planes);
+              const CapChanges& changes);
 
   /// Repeats until no triangles of the cap intersect, no part is enclosed, and all planes can be meshed
   /// again. In each round the counts of the columns concerned fall by a third. After ten rounds they fall to
@@ -42,6 +47,7 @@ private:
   const Fans& _fans;
   const Directions& _directions;
   const PlaneRemesher& _remesh_planes;
+  const OpenedWall* _opened;
   std::vector<mesh::PieceId> _kept;  ///< wall pieces off the planes, in the order of the cap
 };
 

@@ -2,7 +2,9 @@
 
 #include "geometry/sort_unique.hpp"
 #include "layers/cap_layout.hpp"
+#include "layers/glued_cap.hpp"
 #include "layers/layer_piece.hpp"
+#include "layers/opened_wall.hpp"
 #include "mesh/data/piece_faces.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "mesh/exchange/distributed_table.hpp"
@@ -29,13 +31,19 @@ namespace {
 /// The place in the cap of each local piece of the wall; nothing for planes that were meshed again. All
 /// others come first, in order.
 std::vector<std::optional<std::size_t>> places_in_cap(const mesh::DistributedMesh& wall,
-                                                      const mesh::DistributedMesh& cap) {
+                                                      const mesh::DistributedMesh& cap,
+                                                      const OpenedWall* opened) {
   std::vector<std::optional<std::size_t>> places(wall.pieces.size());
   std::size_t next = 0;
   for (std::size_t p = 0; p < places.size() && next < cap.pieces.size(); ++p) {
     const std::vector<std::int32_t>&of_wall = wall.pieces[p].triangle_face,
           &of_cap = cap.pieces[next].triangle_face;
-    if (of_wall.size() <= of_cap.size() && std::equal(of_wall.begin(), of_wall.end(), of_cap.begin()))
+    const auto is_same = [&](std::int32_t a, std::int32_t b) {
+      return a == b || (opened != nullptr && opened->base_face(a) == opened->base_face(b));
+    };
+    const bool is_back = opened != nullptr && opened->is_back_piece(wall.pieces[p].id);
+    if (is_back || (of_wall.size() <= of_cap.size() &&
+                    std::equal(of_wall.begin(), of_wall.end(), of_cap.begin(), is_same)))
       places[p] = next++;
   }
   return places;
@@ -147,12 +155,18 @@ std::vector<std::uint8_t> bearing_triangles(const mesh::DistributedMesh& wall, c
   return bears;
 }
 
+/// What cells are made from besides the columns.
+struct CellSources {
+  std::vector<std::optional<std::size_t>> places;  ///< by piece of the wall: in the cap
+  std::vector<LateralEdge> laterals;
+  std::vector<std::vector<mesh::SharedVertexKey>> foot_keys;  ///< of an opened wall
+};
+
 /// The pieces of the layers over the pieces of the wall on this rank, by piece of the wall, without ids.
 std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, const Columns& columns,
-                                            const mesh::NumberedMesh& cap,
-                                            const std::vector<std::optional<std::size_t>>& places,
-                                            const std::vector<LateralEdge>& laterals,
+                                            const mesh::NumberedMesh& cap, const CellSources& sources,
                                             const LayerCellOptions& options) {
+  const auto& [places, laterals, foot_keys] = sources;
   std::vector<std::vector<Piece>> made(wall.pieces.size());
   for (std::size_t p = 0; p < made.size(); ++p) {
     if (!places[p]) continue;
@@ -162,16 +176,18 @@ std::vector<std::vector<Piece>> make_pieces(const mesh::NumberedMesh& wall, cons
                          [](const LateralEdge& a, const LateralEdge& b) { return a.piece < b.piece; });
     const std::vector<std::uint8_t> bears = bearing_triangles(wall, piece);
     const CapLayout layout = lay_out_cap(piece, columns.pieces[p]);
-    const LayeredPiece source{piece,
-                              cap.pieces[*places[p]],
-                              columns.pieces[p],
-                              layout,
-                              wall.numbering.vertices[p],
-                              cap.numbering.vertices[*places[p]],
-                              bears,
-                              {first, last},
-                              wall.sides_of(piece.common_face()).front,
-                              options.elements};
+    LayeredPiece source{piece,
+                        cap.pieces[*places[p]],
+                        columns.pieces[p],
+                        layout,
+                        wall.numbering.vertices[p],
+                        cap.numbering.vertices[*places[p]],
+                        bears,
+                        {first, last},
+                        {},
+                        wall.sides_of(piece.common_face()).front,
+                        options.elements};
+    if (!foot_keys.empty()) source.foot_keys = foot_keys[p];
     const std::vector<TriangleRange> ranges = cut_into_ranges(source, options.most_cells_per_piece);
     const std::vector<std::uint8_t> shared = find_shared(source, ranges);
     for (const TriangleRange range : ranges) made[p].push_back(make_layer_piece(source, range, shared));
@@ -213,12 +229,12 @@ void classify_on_planes(mesh::SharedVertices& shared, mesh::DistributedMesh& vol
 
 void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume) {
-  const std::vector<std::optional<std::size_t>> places = places_in_cap(wall, cap);
-  BeyondCap(wall, make_table(wall, columns, cap, places), volume).join(volume);
-  const std::vector<LateralEdge> laterals = find_lateral_edges(wall, columns);
+  CellSources sources{places_in_cap(wall, cap, options.opened), find_lateral_edges(wall, columns), {}};
+  BeyondCap(wall, make_table(wall, columns, cap, sources.places), volume).join(volume);
+  if (options.opened != nullptr)
+    sources.foot_keys = find_foot_keys(*options.opened, columns, cap, sources.places);
   std::vector<std::vector<Piece>> made;
-  parallel::agree(wall.communicator,
-                  [&] { made = make_pieces(wall, columns, cap, places, laterals, options); });
+  parallel::agree(wall.communicator, [&] { made = make_pieces(wall, columns, cap, sources, options); });
   std::vector<GlobalIndex> counts;
   counts.reserve(made.size());
   for (const std::vector<Piece>& pieces : made) counts.push_back(static_cast<GlobalIndex>(pieces.size()));
@@ -231,9 +247,10 @@ void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const
     }
   }
   volume.piece_count += static_cast<PieceId>(first.back());
+  if (options.opened != nullptr) close_inner_faces(*options.opened, volume);
   mesh::SharedVertices shared(volume);
   shared.drop_unshared(volume);
-  if (wall.communicator.sum(static_cast<std::int64_t>(laterals.size())) > 0)
+  if (wall.communicator.sum(static_cast<std::int64_t>(sources.laterals.size())) > 0)
     classify_on_planes(shared, volume);
 }
 

@@ -13,6 +13,7 @@ namespace aeroloom::layers {
 struct LayerCellOptions {
   std::int64_t most_cells_per_piece = 0;  ///< exceeded only by the cells over a single triangle
   LayerElements elements = LayerElements::prisms;
+  const OpenedWall* opened = nullptr;  ///< whose mesh the wall is, if it was opened
 };
 
 /// Appends the layer cells to the tetrahedra outside the layer cap. The boundary of these tetrahedra is still
@@ -31,7 +32,8 @@ struct LayerCellOptions {
 ///
 /// Wall triangles with a column at a corner become boundary of the layer cells. Other boundary triangles
 /// stay. Planes that layers end on get lateral quadrilaterals and triangles. Nodes above the wall are
-/// classified on their region, or on the plane that layers end on. Collective.
+/// classified on their region, or on the plane that layers end on. Inner faces that were opened are one
+/// again: both sides share the nodes in them, and the volume has the faces and patches of before. Collective.
 void append_layers(const mesh::NumberedMesh& wall, const Columns& columns, const mesh::NumberedMesh& cap,
                    const LayerCellOptions& options, mesh::DistributedMesh& volume);
 

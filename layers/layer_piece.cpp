@@ -17,9 +17,6 @@ namespace {
 
 using Triangle = std::array<LocalIndex, 3>;
 
-/// In the key of a vertex with several columns, which are not numbered by its own number.
-constexpr std::int32_t no_node = (1 << 20) - 1;
-
 Triangle corners_of(const Piece& wall, LocalIndex t) {
   const LocalIndex* v = wall.cell(t);
   return {v[0], v[1], v[2]};
@@ -146,10 +143,12 @@ private:
                             _source.wall.vertex_dimension[v], _source.wall.vertex_entity[v]);
       if (top == 0) {
         share(_foot[v], mesh::running_key(_source.numbers[end]));
+      } else if (!_source.foot_keys.empty() && _source.foot_keys[v] != no_foot_key) {
+        share(_foot[v], _source.foot_keys[v]);
       } else if (_shared[v] != 0) {
         const bool several = _source.columns.columns_at(v) > 1;
-        share(_foot[v], several ? mesh::layer_key(_source.wall_numbers[v], no_node)
-                                : mesh::layer_key(_source.numbers[end], 0));
+        share(_foot[v],
+              several ? wall_vertex_key(_source.wall_numbers[v]) : mesh::layer_key(_source.numbers[end], 0));
       }
     }
     if (top == 0 || _first[column] >= 0) return;
@@ -251,6 +250,11 @@ private:
 };
 
 }  // namespace
+
+mesh::SharedVertexKey wall_vertex_key(mesh::GlobalIndex number) {
+  constexpr std::int32_t no_node = (1 << 20) - 1;
+  return mesh::layer_key(number, no_node);
+}
 
 std::int32_t LayeredPiece::layers_over(LocalIndex triangle) const {
   if (!bears[triangle]) return 0;

@@ -22,6 +22,8 @@ struct LayeredPiece {
   const std::vector<mesh::GlobalIndex>& numbers;       ///< of the cap's vertices
   const std::vector<std::uint8_t>& bears;              ///< by triangle: whether it gets layer cells
   std::span<const LateralEdge> laterals;               ///< by half-edge
+  /// Of an opened wall, by vertex: find_foot_keys(); else empty.
+  std::span<const mesh::SharedVertexKey> foot_keys;
   mesh::RegionId region = 0;
   LayerElements elements = LayerElements::prisms;
 
@@ -33,6 +35,12 @@ struct LayeredPiece {
   LayersOverTriangle layers_of(const std::array<std::int32_t, 3>& corners) const;
   LayersOverFan layers_of(const FanFace& face) const;
 };
+
+/// In LayeredPiece::foot_keys: of a vertex that only its piece knows.
+inline constexpr mesh::SharedVertexKey no_foot_key = ~mesh::SharedVertexKey{0};
+
+/// The key in the volume of a vertex of the wall, by its number there and not by that of a column.
+mesh::SharedVertexKey wall_vertex_key(mesh::GlobalIndex number);
 
 /// Consecutive triangles of a wall piece.
 struct TriangleRange {

@@ -86,7 +86,9 @@ void add_triangle(const Reported& of, std::int32_t t, PatchLayers& patch) {
   }
 }
 
-void add_row(const PatchLayers& row, PatchLayers& sum) {
+}  // namespace
+
+void add_figures(const PatchLayers& row, PatchLayers& sum) {
   for (double PatchLayers::*member :
        {&PatchLayers::area, &PatchLayers::full_area, &PatchLayers::partial_area, &PatchLayers::empty_area,
         &PatchLayers::isotropic_area, &PatchLayers::low_first_area})
@@ -101,8 +103,6 @@ void add_row(const PatchLayers& row, PatchLayers& sum) {
     sum.sums.*member += row.sums.*member;
   sum.most_layers = std::max(sum.most_layers, row.most_layers);
 }
-
-}  // namespace
 
 std::vector<PatchLayers> report_patches(const LocalWall& wall, const Fans& fans, const Directions& directions,
                                         const ColumnLimits& limits, const LayerOptions& options) {
@@ -123,7 +123,7 @@ std::vector<PatchLayers> report_patches(const LocalWall& wall, const Fans& fans,
   }
   rows = wall.mesh.communicator.gather_sorted(rows, &PieceRow::piece);
   std::vector<PatchLayers> patches(wall.mesh.patches.size());
-  for (const PieceRow& row : rows) add_row(row.layers, patches[row.patch]);
+  for (const PieceRow& row : rows) add_figures(row.layers, patches[row.patch]);
   return patches;
 }
 

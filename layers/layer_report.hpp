@@ -12,4 +12,7 @@ namespace aeroloom::layers {
 std::vector<PatchLayers> report_patches(const LocalWall& wall, const Fans& fans, const Directions& directions,
                                         const ColumnLimits& limits, const LayerOptions& options);
 
+/// Adds the figures of a part of a patch to those of the others.
+void add_figures(const PatchLayers& part, PatchLayers& sum);
+
 }  // namespace aeroloom::layers

@@ -27,6 +27,14 @@ public:
       : _centre(centre), _vertex(centre.point), _star(star), _plane(centre.plane) {}
 
   std::optional<Ridge> find(std::vector<RidgeSide>& sides) {
+    std::optional<Ridge> ridge = find_any(sides);
+    if (!ridge && std::all_of(_edges.begin(), _edges.end(), [&](std::size_t edge) { return is_rim(edge); }))
+      sides.clear();
+    return ridge;
+  }
+
+private:
+  std::optional<Ridge> find_any(std::vector<RidgeSide>& sides) {
     for (std::size_t i = 0; i < _star.size(); ++i) {
       if (is_sharp(i)) _edges.push_back(i);
     }
@@ -46,7 +54,6 @@ public:
     return std::move(_ridge);
   }
 
-private:
   /// Edge i starts before triangle i.
   const StarTriangle& left(std::size_t edge) const { return _star[edge]; }
   const StarTriangle& right(std::size_t edge) const {
@@ -54,9 +61,13 @@ private:
   }
   Vec3 along(std::size_t edge) const { return normalized(left(edge).next_point - _vertex); }
 
+  /// Whether both triangles at an edge are the sides of one: it is the free rim of a baffle.
+  bool is_rim(std::size_t edge) const { return left(edge).previous_point == right(edge).next_point; }
+
   bool is_sharp(std::size_t edge) const {
     const StarTriangle &l = left(edge), &r = right(edge);
     if (r.wall_role() != WallRole::layered || l.wall_role() != WallRole::layered) return false;
+    if (is_rim(edge)) return true;
     const auto turn = static_cast<EdgeTurn>(l.edge_turn);
     if (turn == EdgeTurn::smooth) return false;
     const bool is_sharp = turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp;
@@ -118,7 +129,7 @@ private:
     }
     for (const std::size_t edge : _edges) {
       const StarTriangle &l = left(edge), &r = right(edge);
-      _ridge.edges.push_back({l.next, {r.piece, r.cell}, {l.piece, l.cell}, along(edge)});
+      _ridge.edges.push_back({l.next, {r.piece, r.cell}, {l.piece, l.cell}, along(edge), is_rim(edge)});
     }
     return _ridge.cone >= least_cone;
   }

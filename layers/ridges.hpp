@@ -22,6 +22,7 @@ struct Ridge {
     mesh::VertexName end;       ///< its other vertex
     TrianglePlace right, left;  ///< seen from the fluid and from the vertex
     geometry::Vec3 direction;   ///< unit, from the vertex
+    bool is_rim;                ///< the free rim of a baffle
   };
   /// How directions turn over an edge, from its left to its right through the fluid.
   struct Turn {
@@ -60,8 +61,9 @@ struct StarCentre {
 };
 
 /// The ridges at a vertex, and by triangle of the star its side. Nothing, and no sides, where the star has
-/// none; nothing, but sides, where one ends off planes, runs beside a strip, or sides have no direction. The
-/// star is closed and in order, counter-clockwise seen from the fluid.
+/// none, or one alone that ends as the free rim of a baffle; nothing, but sides, where another one ends off
+/// planes, runs beside a strip, or sides have no direction. The star is closed and in order,
+/// counter-clockwise seen from the fluid.
 std::optional<Ridge> find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
                                 std::vector<RidgeSide>& sides);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace aeroloom::layers {
 namespace {
@@ -37,6 +38,7 @@ public:
   Sectors count(const std::vector<VertexLayers>& wanted) {
     list_edges();
     ask(wanted);
+    drop_open_rims();
     drop_all_if_one_is_open();
     agree_along_ridges();
     make_divisible();
@@ -66,7 +68,7 @@ private:
         if (slots[0] < 0 && slots[1] < 0) continue;
         const Ridge::Edge& edge =
             slots[0] >= 0 ? _stars.ridge_at(a)->edges[slots[0]] : _stars.ridge_at(b)->edges[slots[1]];
-        _sectors.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here)});
+        _sectors.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here), edge.is_rim});
       }
     }
   }
@@ -111,9 +113,25 @@ private:
   /// without.
   void drop_all_if_one_is_open() {
     std::int64_t open = _stars.lost_ridges;
-    for (const RidgeEdge& edge : _sectors.edges) open += has_fan(edge, 0) && has_fan(edge, 1) ? 0 : 1;
+    for (const RidgeEdge& edge : _sectors.edges)
+      open += edge.is_rim || (has_fan(edge, 0) && has_fan(edge, 1)) ? 0 : 1;
     if (_wall.mesh.communicator.sum(open) == 0) return;
     for (std::vector<std::int32_t>& counts : _by_slot) std::fill(counts.begin(), counts.end(), 0);
+  }
+
+  /// Without fans the free rim of a baffle has no columns at all, which is no worse where others have fans.
+  void drop_open_rims() {
+    repeat_over_edges(
+        [&](const RidgeEdge& edge) {
+          if (!edge.is_rim || (has_fan(edge, 0) && has_fan(edge, 1))) return false;
+          bool changes = false;
+          for (const std::int32_t v : edge.ends) {
+            for (std::vector<std::int32_t>& counts : _by_slot)
+              changes = std::exchange(counts[v], 0) > 0 || changes;
+          }
+          return changes;
+        },
+        fewer);
   }
 
   /// Calls visit(edge) for all edges with fans at both ends until it changes nothing, here and, once values
@@ -197,7 +215,9 @@ private:
       failed = 0;
       for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) failed += make_fan(v) ? 0 : 1;
       failed = _wall.mesh.communicator.sum(failed);
-      if (failed > 0) drop_all_if_one_is_open();
+      if (failed == 0) continue;
+      drop_open_rims();
+      drop_all_if_one_is_open();
     }
   }
 

@@ -18,6 +18,7 @@ struct RidgeEdge {
   std::array<std::int32_t, 2> ends;   ///< counter-clockwise in the triangle
   std::array<std::int32_t, 2> slots;  ///< by end: its place among Ridge::edges there; -1: none
   bool is_owned;                      ///< no lower triangle has it
+  bool is_rim;                        ///< the free rim of a baffle
 };
 
 struct Sectors {
@@ -34,7 +35,8 @@ struct Sectors {
 /// and as the front: over columns of the wanted heights a sector is about an edge wide. `reached`: by vertex,
 /// the height that limits leave to columns much lower than wanted, else infinite; over these there is a half,
 /// a quarter and so on. Ridges must close, or end on planes: a sector cannot end on a wall, as the first
-/// layer would need cells with faces along it. Where one ridge does not, none has sectors. Collective.
+/// layer would need cells with faces along it. Where one ridge does not, none has sectors; where the free rim
+/// of a baffle does not, it has none. Collective.
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
                       const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
                       const std::vector<double>& reached);

@@ -9,8 +9,9 @@
 namespace aeroloom::layers {
 
 struct StarTriangle {
-  geometry::Vec3 normal;            ///< unit, into the fluid
-  geometry::Vec3 next_point;        ///< of the following corner, counter-clockwise seen from the fluid
+  geometry::Vec3 normal;      ///< unit, into the fluid
+  geometry::Vec3 next_point;  ///< of the following corner, counter-clockwise seen from the fluid
+  geometry::Vec3 previous_point;
   mesh::VertexName next, previous;  ///< the other two corners in order
   std::int32_t piece, cell, role, face, patch;
   std::int32_t edge_turn;  ///< EdgeTurn at the following corner

@@ -47,6 +47,7 @@ public:
     const std::int32_t base = _wall.first_vertex[_position];
     return {normal_of(_wall, t),
             _wall.points[corners[(at + 1) % 3]],
+            _wall.points[corners[(at + 2) % 3]],
             _names[corners[(at + 1) % 3] - base],
             _names[corners[(at + 2) % 3] - base],
             _wall.mesh.pieces[_position].id,
@@ -63,17 +64,26 @@ private:
   std::vector<VertexName> _names;
 };
 
+/// Whether two triangles that share the last edge of the first one are the sides of one triangle of a baffle.
+bool are_sides(const StarTriangle& first, const StarTriangle& second) {
+  return first.next_point == second.previous_point;
+}
+
 /// The triangles in order, each one's last edge the first of the next; empty unless they form one closed fan.
+/// Between two vertices on the rim of a baffle may run an edge inside of it, where four triangles meet: those
+/// of each side go on with each other.
 std::vector<StarTriangle> in_order(std::span<const StarTriangle> star) {
   std::vector<StarTriangle> ordered;
   for (std::size_t at = 0; ordered.empty() || at != 0;) {
     ordered.push_back(star[at]);
-    std::size_t following = star.size();
+    std::size_t following = star.size(), other_side = star.size();
     for (std::size_t i = 0; i < star.size(); ++i) {
       if (!(star[i].next == star[at].previous)) continue;
-      if (following != star.size()) return {};
-      following = i;
+      std::size_t& found = are_sides(star[at], star[i]) ? other_side : following;
+      if (found != star.size()) return {};
+      found = i;
     }
+    if (following == star.size()) following = other_side;
     if (following == star.size() || ordered.size() > star.size()) return {};
     at = following;
   }

@@ -35,6 +35,7 @@ struct WallFacet {
   Triangle corners;
   Vec3 outward;  ///< unit, out of the fluid
   cad::FaceId face;
+  bool turned = false;  ///< of an inner face, seen from its back
 };
 
 Vec3 area_vector(const Triangle& t) {
@@ -75,17 +76,17 @@ public:
         _facets(boundary_facets(model)),
         _tree(corners_of_facets(_facets)) {}
 
-  /// Over the facets of the patch's faces.
-  void add_patch(std::int32_t patch, PatchLayerForecast& sum) const {
-    for_each_part(patch, [&](const WallFacet& facet, Vec3 middle, double size, double area) {
+  /// Over the facets of the patch's faces, of inner ones on the sides that are asked for.
+  void add_patch(std::int32_t patch, layers::InnerSides sides, PatchLayerForecast& sum) const {
+    for_each_part(patch, sides, [&](const WallFacet& facet, Vec3 middle, double size, double area) {
       add_part(facet, middle, size, area, sum);
     });
   }
 
   /// Of the sizes on the patch, weighted by area; 0 for a patch without facets.
-  double mean_size(std::int32_t patch) const {
+  double mean_size(std::int32_t patch, layers::InnerSides sides) const {
     double sum = 0, sum_of_areas = 0;
-    for_each_part(patch, [&](const WallFacet&, Vec3, double size, double area) {
+    for_each_part(patch, sides, [&](const WallFacet&, Vec3, double size, double area) {
       sum += area * size, sum_of_areas += area;
     });
     return sum_of_areas > 0 ? sum / sum_of_areas : 0;
@@ -94,15 +95,22 @@ public:
 private:
   /// Calls visit(facet, middle, size, area) for parts that are not much larger than the size there.
   template <class Visit>
-  void for_each_part(std::int32_t patch, const Visit& visit) const {
+  void for_each_part(std::int32_t patch, layers::InnerSides sides, const Visit& visit) const {
+    using layers::InnerSides;
     std::vector<double> area_of_facets(_model.face_count(), 0);
     for (const WallFacet& facet : _facets) area_of_facets[facet.face] += norm(area_vector(facet.corners));
     for (const WallFacet& facet : _facets) {
       const cad::Face& face = _model.face(facet.face);
-      if (face.patch != patch || face.back != cad::no_entity) continue;
+      if (face.patch != patch) continue;
+      const bool inner = face.back != cad::no_entity;
+      const bool front = sides == InnerSides::front || sides == InnerSides::both,
+                 back = sides == InnerSides::back || sides == InnerSides::both,
+                 is_baffle = face.back == face.front;  // normals point to its front
       // Facets cut corners: the exact area makes up for it.
       const double larger = _model.face_area(facet.face) / area_of_facets[facet.face];
-      visit_parts(facet, facet.corners, larger, 0, visit);
+      if (!inner || (is_baffle ? back : front)) visit_parts(facet, facet.corners, larger, 0, visit);
+      const WallFacet turned{facet.corners, -facet.outward, facet.face, true};
+      if (inner && (is_baffle ? front : back)) visit_parts(turned, facet.corners, larger, 0, visit);
     }
   }
 
@@ -163,7 +171,10 @@ private:
   double gap_before(const WallFacet& facet, Vec3 point, double reach) const {
     const Vec3 inward = -facet.outward;
     const auto corners = [&](std::int32_t t) -> const Triangle& { return _facets[t].corners; };
-    const auto faces_back = [&](std::int32_t t) { return dot(_facets[t].outward, inward) > 0; };
+    const auto faces_back = [&](std::int32_t t) {
+      const bool turned = facet.turned && _model.face(_facets[t].face).back != cad::no_entity;
+      return dot(turned ? -_facets[t].outward : _facets[t].outward, inward) > 0;
+    };
     std::int64_t nodes = 0;
     const sizing::RayTree::Crossing met =
         _tree.nearest_crossings(point, inward, reach, corners, faces_back, nodes)[0];
@@ -182,10 +193,7 @@ private:
 };
 
 /// Changes what is asked for as a run does; sizes stand for edges.
-void fit_patch(const cases::LayerRequest& request, const LayerCount& count, std::int32_t patch,
-               PatchLayerForecast& forecast) {
-  if (request.fit == cases::LayerFit::none) return;
-  const double size = count.mean_size(patch);
+void fit_patch(const cases::LayerRequest& request, double size, PatchLayerForecast& forecast) {
   if (size <= 0) return;
   const layers::WallLayers asked = forecast.asked;
   forecast.asked = cases::fitted_layers(asked, size, request.fit, request.growth_maximum);
@@ -254,8 +262,10 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
   for (std::size_t p = 0; p < options.patches.size(); ++p) {
     if (options.patches[p].first <= 0) continue;
     PatchLayerForecast patch{.name = model.patches()[p], .asked = options.patches[p]};
-    fit_patch(input.layers, count, static_cast<std::int32_t>(p), patch);
-    count.add_patch(static_cast<std::int32_t>(p), patch);
+    const layers::InnerSides sides = layers::inner_sides_of(options, p);
+    if (input.layers.fit != cases::LayerFit::none)
+      fit_patch(input.layers, count.mean_size(static_cast<std::int32_t>(p), sides), patch);
+    count.add_patch(static_cast<std::int32_t>(p), sides, patch);
     if (patch.area > 0) forecast.patches.push_back(std::move(patch));
   }
   return forecast;

@@ -3,6 +3,7 @@
 #include "layers/cap_layout.hpp"
 #include "layers/column_heights.hpp"
 #include "layers/end_planes.hpp"
+#include "layers/opened_wall.hpp"
 #include "mesh/transfer/split_pieces.hpp"
 #include "parallel/observation/log.hpp"
 #include "pipeline/curved_ends.hpp"
@@ -194,9 +195,9 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   surface.bounds_volume = ends.all.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
       mesh::split_pieces(surface, layers::wall_piece_triangles, ends.all);
-  const auto remesh = [&](mesh::DistributedMesh& cap) {
+  const auto remesh = [&](const mesh::DistributedMesh& wall, mesh::DistributedMesh& cap) {
     surface::PlaneConflicts conflicts = surface::remesh_moved_faces(
-        surface.model, surface.field, {ends.curved, ends.planes}, input.surface, surface, cap);
+        surface.model, surface.field, {ends.curved, ends.planes}, input.surface, wall, cap);
     if (conflicts.empty())
       conflicts = surface::remesh_planes(surface.model, surface.field, {ends.planes, input.surface}, cap);
     return std::move(conflicts.vertices);
@@ -211,27 +212,38 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
     warn_of_missing_layers(record, surface.patches);
     warn_of_low_layers(record, surface.patches);
   }
-  const std::vector<sizing::SizeSource> sizes = sizes_of_cap(surface, made.columns, surface.field);
+  const mesh::DistributedMesh& wall = made.opened ? made.opened->mesh : surface;
+  const std::vector<sizing::SizeSource> sizes = sizes_of_cap(wall, made.columns, surface.field);
   sizing::SizeField field = surface.communicator.sum(static_cast<std::int64_t>(sizes.size())) > 0
                                 ? surface.field.refined(sizes)
                                 : surface.field;
-  return {
-      std::move(made.columns), {mesh::number_mesh(std::move(made.cap)), std::move(field)}, std::move(record)};
+  return {std::move(made.columns),
+          std::move(made.opened),
+          {mesh::number_mesh(std::move(made.cap)), std::move(field)},
+          std::move(record)};
 }
 
 std::vector<std::vector<std::int32_t>> layers_over_triangles(const mesh::DistributedMesh& surface,
                                                              const LayersAndCap& layered) {
-  const std::vector<layers::WallLayers>& asked = layered.record.asked.patches;
+  const layers::LayerOptions& asked = layered.record.asked;
   std::vector<std::vector<std::int32_t>> all;
   for (std::size_t p = 0; p < surface.pieces.size(); ++p) {
     const mesh::Piece& piece = surface.pieces[p];
-    const std::vector<std::int32_t>& counts = layered.columns.pieces[p].counts;
+    const bool inner = surface.sides_of(piece.common_face()).is_inner();
+    const std::int64_t back = inner && layered.opened ? layered.opened->back_of[p] : -1;
     std::vector<std::int32_t>& mine = all.emplace_back();
     for (LocalIndex t = 0; t < piece.cell_count(); ++t) {
       const LocalIndex* const v = piece.cell(t);
       const auto patch = static_cast<std::size_t>(piece.triangle_patch[t]);  // of none: beyond all
-      const bool wanted = patch < asked.size() && asked[patch].first > 0;
-      mine.push_back(wanted ? std::min({counts[v[0]], counts[v[1]], counts[v[2]]}) : -1);
+      const bool wanted = patch < asked.patches.size() && asked.patches[patch].first > 0 &&
+                          (!inner || layers::inner_sides_of(asked, patch) != layers::InnerSides::none);
+      const auto least = [&](std::size_t place) {
+        const std::vector<std::int32_t>& counts = layered.columns.pieces[place].counts;
+        return std::min({counts[v[0]], counts[v[1]], counts[v[2]]});
+      };
+      mine.push_back(!wanted    ? -1
+                     : back < 0 ? least(p)
+                                : std::max(least(p), least(static_cast<std::size_t>(back))));
     }
   }
   return all;
@@ -241,8 +253,10 @@ void append_layers(const cases::Case& input, const mesh::NumberedMesh& surface, 
                    mesh::DistributedMesh& volume) {
   constexpr std::int64_t most_cells = 170'000;  // as pieces of the volume at most, by default
   const parallel::ScopedCpu task(parallel::ScopedCpu::As::task);
-  layers::append_layers(surface, layered.columns, layered.cap,
-                        {input.volume.piece_tets.value_or(most_cells), input.layers.elements}, volume);
+  const layers::OpenedWall* const opened = layered.opened.get();
+  layers::append_layers(opened != nullptr ? opened->mesh : surface, layered.columns, layered.cap,
+                        {input.volume.piece_tets.value_or(most_cells), input.layers.elements, opened},
+                        volume);
 }
 
 }  // namespace aeroloom::pipeline

@@ -7,6 +7,7 @@
 #include "pipeline/finished_surface.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace aeroloom::pipeline {
@@ -14,6 +15,7 @@ namespace aeroloom::pipeline {
 /// The layers on a surface, and the layer cap with its sizes, from which the volume starts.
 struct LayersAndCap {
   layers::Columns columns;
+  std::shared_ptr<const layers::OpenedWall> opened;  ///< what columns stand on, where inner faces have layers
   sizing::SizedSurface cap;
   report::LayerRecord record;
 };
@@ -22,7 +24,8 @@ struct LayersAndCap {
 /// std::invalid_argument for layers on a patch that does not exist.
 LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface);
 
-/// By piece and triangle of the surface: the number of layers over it, -1 where none are asked for.
+/// By piece and triangle of the surface: the number of layers over it, -1 where none are asked for. Of
+/// the sides of inner faces the one with more counts.
 std::vector<std::vector<std::int32_t>> layers_over_triangles(const mesh::DistributedMesh& surface,
                                                              const LayersAndCap& layered);
 

@@ -14,6 +14,12 @@ constexpr int edge_shift = 32;
 constexpr SharedVertexKey last_column = 0xff;
 constexpr int column_of_index = 24, column_of_split = 23, column_of_cut = 16;
 
+// Sides of vertices: five bits below those that tell keys apart, of which the uppermost marks vertices inside
+// of a piece.
+constexpr int side_bits = 5, side_of_cut = 57, side_of_curve = 58;
+constexpr SharedVertexKey last_side = (SharedVertexKey{1} << side_bits) - 1,
+                          inside_mark = SharedVertexKey{1} << (side_bits - 1);
+
 // Volumes: bits 63 and 62 for rounds, 8 for the round, 54 for piece and vertex or for a running number.
 constexpr SharedVertexKey late_bit = SharedVertexKey{1} << 63, placed_bit = SharedVertexKey{1} << 62,
                           added_bit = SharedVertexKey{1} << 61, layer_bit = SharedVertexKey{1} << 60;
@@ -65,13 +71,41 @@ SharedVertexKey fan_vertex_key(SharedVertexKey vertex, std::int32_t column) {
   return vertex | wide(column) << column_shift(vertex);
 }
 
+namespace {
+
+int side_shift(SharedVertexKey vertex) {
+  return (vertex & cut_bit) != 0 ? side_of_cut : side_of_curve;
+}
+
+}  // namespace
+
+bool can_name_sides(SharedVertexKey vertex) {
+  return (vertex >> side_shift(vertex) & last_side) == 0;
+}
+
+SharedVertexKey side_vertex_key(SharedVertexKey vertex, int side) {
+  const SharedVertexKey present = vertex >> side_shift(vertex) & last_side;
+  if (side < 0 || side > last_vertex_side || (present != 0 && present != inside_mark))
+    throw std::runtime_error("boundary layers: a side of a vertex has no name");
+  return vertex | wide(side) << side_shift(vertex);
+}
+
+SharedVertexKey vertex_key_of_side(SharedVertexKey side) {
+  return side & ~((last_side & ~inside_mark) << side_shift(side));
+}
+
+SharedVertexKey inside_vertex_key(PieceId piece, LocalIndex vertex) {
+  return split_vertex_key(piece, vertex) | inside_mark << side_of_cut;
+}
+
 bool is_cut_vertex_key(SharedVertexKey vertex_key) {
   return (vertex_key & cut_bit) != 0;
 }
 
 std::int32_t edge_of_vertex_key(SharedVertexKey vertex_key) {
   if (is_cut_vertex_key(vertex_key)) return -1;
-  return static_cast<std::int32_t>(vertex_key >> edge_shift) - 1;
+  constexpr SharedVertexKey without_side = (SharedVertexKey{1} << side_of_curve) - 1;
+  return static_cast<std::int32_t>((vertex_key & without_side) >> edge_shift) - 1;
 }
 
 std::int32_t index_of_vertex_key(SharedVertexKey vertex_key) {

@@ -31,6 +31,17 @@ SharedVertexKey split_vertex_key(PieceId piece, LocalIndex vertex);
 SharedVertexKey fan_vertex_key(SharedVertexKey vertex, std::int32_t column);
 bool can_name_columns(SharedVertexKey vertex);
 
+/// Side `side`, from 1 on, of a vertex at which a surface divides the space into several; side 0 is the
+/// vertex. Throws std::runtime_error beyond `last_vertex_side`, and if the vertex cannot name sides: its CAD
+/// edge is 2^26 or more, on cuts its face 2^17, of a split piece the piece 2^26.
+SharedVertexKey side_vertex_key(SharedVertexKey vertex, int side);
+inline constexpr int last_vertex_side = 15;
+bool can_name_sides(SharedVertexKey vertex);
+/// The vertex that a key of side_vertex_key() is a side of.
+SharedVertexKey vertex_key_of_side(SharedVertexKey side);
+/// A vertex of a piece that no other piece knew before its sides got names.
+SharedVertexKey inside_vertex_key(PieceId piece, LocalIndex vertex);
+
 bool is_cut_vertex_key(SharedVertexKey vertex_key);
 /// The CAD edge in the name of a vertex of a curve, -1 for CAD vertices and vertices on cuts.
 std::int32_t edge_of_vertex_key(SharedVertexKey vertex_key);

@@ -31,6 +31,16 @@ void declare_layer_rule(KeyTable& keys, LayerRule& rule) {
                {"As `layers.count`, on this patch; 0: no layers.", "as for all walls", "0"});
   keys.number("total", rule.total, Range::above(0, length_unit),
               {"As `layers.total`, on this patch.", "as for all walls", "0.01"});
+  using layers::InnerSides;
+  keys.choice<InnerSides>(
+      "side", rule.side,
+      {{"none", InnerSides::none},
+       {"front", InnerSides::front},
+       {"back", InnerSides::back},
+       {"both", InnerSides::both}},
+      "The sides of inner faces that have layers. `front`: in the front region of a face "
+      "between two regions, A of `interface_A_B`; on a baffle where the normal of its CAD "
+      "surface points. Without the key inner faces have none.");
 }
 
 void declare_first(KeyTable& keys, LayerRequest& request) {
@@ -142,11 +152,12 @@ void declare_layers(KeyTable& root, CaseDraft& draft) {
           "Limits for the layers. If one is missed, the run ends with exit code 6 after writing the mesh.",
           &request.gate.given),
       request.gate);
-  keys.named_sections("patches", "Layers of single patches that differ from the others.",
-                      {"A patch of type `wall`, by its name.", "", "nacelle"},
-                      [&rules = draft.layer_rules](const std::string& name, KeyTable& table) {
-                        declare_layer_rule(table, layer_rule_of(rules, name));
-                      });
+  keys.named_sections(
+      "patches", "Layers of single patches that differ from the others.",
+      {"A patch of type `wall`, or one of inner faces with `side`, by its name.", "", "nacelle"},
+      [&rules = draft.layer_rules](const std::string& name, KeyTable& table) {
+        declare_layer_rule(table, layer_rule_of(rules, name));
+      });
 }
 
 void check_layers(const KeyTable& keys, const CaseDraft& draft) {

@@ -78,12 +78,13 @@ std::size_t patch_of_rule(const LayerRule& rule, const std::vector<std::string>&
         fmt::format("{}: there is no such patch{}. Remedy: `aeroloom check` lists the patches",
                     place_of_rule(rule), nearest ? fmt::format("; the nearest name is '{}'", *nearest) : ""));
   }
-  if (types.at(patch) == mesh::PatchType::interior && rule.count != 0)
-    throw std::invalid_argument(
-        fmt::format("layers.patches.{}: layers stand on walls, and this patch has cells on both sides. "
-                    "Remedy: no layers on it",
-                    rule.name));
-  if (types.at(patch) != mesh::PatchType::wall && rule.count != 0)
+  const bool inner = types.at(patch) == mesh::PatchType::interior;
+  if (inner && rule.count != 0 && rule.side == layers::InnerSides::none)
+    throw std::invalid_argument(fmt::format(
+        "{}: this patch has cells on both sides, and the case does not say on which of them layers "
+        "stand. Remedy: `side: front`, `back` or `both`, or no layers on it",
+        place_of_rule(rule)));
+  if (!inner && types.at(patch) != mesh::PatchType::wall && rule.count != 0)
     throw std::invalid_argument(
         fmt::format("{}: layers stand on walls, and this patch is of type {}. Remedy: "
                     "`patches: {{{}: {{type: wall}}}}`, or no layers on it",
@@ -181,8 +182,12 @@ layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequ
   for (std::size_t p = 0; p < patches.size() && request.walls == LayeredWalls::all; ++p) {
     if (types.at(p) == mesh::PatchType::wall) options.patches[p] = wanted;
   }
-  for (const LayerRule& rule : request.patches)
-    options.patches[patch_of_rule(rule, patches, types)] = wanted_layers(request, sizing, &rule);
+  options.inner_sides.resize(patches.size(), layers::InnerSides::none);
+  for (const LayerRule& rule : request.patches) {
+    const std::size_t patch = patch_of_rule(rule, patches, types);
+    options.patches[patch] = wanted_layers(request, sizing, &rule);
+    options.inner_sides[patch] = rule.side;
+  }
   return options;
 }
 

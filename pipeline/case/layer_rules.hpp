@@ -16,8 +16,9 @@ namespace aeroloom::cases {
 struct LayerRule {
   std::string name;  ///< of the patch
   std::optional<double> first, growth, total;
-  std::optional<std::int64_t> constant, count;  ///< count 0: no layers
-  std::string where = {};                       ///< place in the case, for messages: "case.yaml:7:3"
+  std::optional<std::int64_t> constant, count;         ///< count 0: no layers
+  layers::InnerSides side = layers::InnerSides::none;  ///< of faces between regions and of baffles
+  std::string where = {};                              ///< place in the case, for messages: "case.yaml:7:3"
 };
 
 /// The patches that get layers by default.

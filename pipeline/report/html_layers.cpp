@@ -33,6 +33,14 @@ std::string limits_text(const Json& limited) {
   return words.empty() ? "–" : words;
 }
 
+/// With the side of inner faces that has layers.
+std::string name_and_side(const Json& patch) {
+  const Json& side = find(patch, "/side");
+  const std::string words = name(find(patch, "/name"));
+  if (!side.is_string() || side == "none") return words;
+  return fmt::format("{} ({})", words, side == "both" ? "both sides" : escaped(side.get<std::string>()));
+}
+
 std::string asked_end(const Json& patch) {
   std::string words;
   if (!find(patch, "/count").is_null()) words = fmt::format("{} layers", count(find(patch, "/count")));
@@ -55,7 +63,7 @@ std::string heights_table(const Json& patches, const Json& boundary_layer) {
   for (const Json& patch : patches) {
     const Json& height = find(patch, "/height_mean");
     const double thickness = number(boundary_layer);
-    table.add({name(find(patch, "/name")), quantity(find(patch, "/first")), quantity(find(patch, "/growth")),
+    table.add({name_and_side(patch), quantity(find(patch, "/first")), quantity(find(patch, "/growth")),
                asked_end(patch),
                fmt::format("{:.1f} of {:.1f}", number(find(patch, "/layers_mean")),
                            number(find(patch, "/layers_wanted_mean"))),
@@ -73,7 +81,7 @@ std::string coverage_table(const Json& patches) {
                {"first is low", Align::right, "below 0.8 of what is asked for, where columns lean"},
                {"what took layers away", Align::left, "as parts of the area"}});
   for (const Json& patch : patches) {
-    table.add({name(find(patch, "/name")), percent(number(find(patch, "/full"))),
+    table.add({name_and_side(patch), percent(number(find(patch, "/full"))),
                percent(number(find(patch, "/partial"))), percent(number(find(patch, "/empty"))),
                percent(number(find(patch, "/low_first"))), limits_text(find(patch, "/limited"))});
   }

@@ -21,8 +21,10 @@ Json limits_json(const layers::PatchLayers& patch) {
   return json;
 }
 
-Json patch_json(const std::string& name, const layers::WallLayers& asked, const layers::PatchLayers& patch) {
+Json patch_json(const std::string& name, layers::InnerSides sides, const layers::WallLayers& asked,
+                const layers::PatchLayers& patch) {
   Json json = {{"name", name},
+               {"side", layers::name_of(sides)},
                {"first", asked.first},
                {"growth", asked.growth},
                {"constant", asked.constant},
@@ -60,7 +62,8 @@ Json layers_json(const RunRecord& record) {
     const layers::PatchLayers& patch = report.patches[p];
     area += patch.area, full += patch.full_area, empty += patch.empty_area;
     low_first += patch.low_first_area;
-    patches.push_back(patch_json(record.patches.at(p).name, asked, patch));
+    patches.push_back(
+        patch_json(record.patches.at(p).name, layers::inner_sides_of(record.layers->asked, p), asked, patch));
   }
   return {{"full", fraction(full, area)},
           {"empty", fraction(empty, area)},

@@ -5,6 +5,7 @@
 #include "surface/curves/curves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -48,22 +49,38 @@ bool contains(const FaceLoops& loops, mesh::SharedVertexKey key) {
   return std::binary_search(loops.vertex_keys.begin(), loops.vertex_keys.end(), key);
 }
 
-/// The number of vertices inside the edge, the first of them and both ends among those of the loops.
+/// Both ends, the first vertex inside the edge among those of the loops, and their number, at least 1.
 struct Chain {
   std::int32_t first_end, last_end, first_inside, inside;
 };
 
+/// The vertex that stands for a CAD vertex at the end of a chain: a side of it, where faces part the space
+/// there.
+std::int32_t end_of_chain(const FaceLoops& loops, mesh::SharedVertexKey vertex, std::int32_t inside) {
+  for (const std::array<std::int32_t, 2>& edge : loops.edges) {
+    for (const int i : {0, 1}) {
+      if (edge[i] == inside && mesh::vertex_key_of_side(loops.vertex_keys[edge[1 - i]]) == vertex)
+        return edge[1 - i];
+    }
+  }
+  return contains(loops, vertex) ? loops.find(vertex) : -1;
+}
+
 std::optional<Chain> find_chain(const cad::Model& model, cad::EdgeId id, const FaceLoops& loops) {
   const cad::Edge& edge = model.edge(id);
   const auto first = mesh::cad_vertex_key(edge.first), last = mesh::cad_vertex_key(edge.last);
-  if (edge.first == edge.last || !contains(loops, first) || !contains(loops, last)) return std::nullopt;
+  if (edge.first == edge.last) return std::nullopt;
   // Keys ascend by edge, then along it; some are missing where vertices have become one with others.
   const std::int32_t begin = loops.find(mesh::curve_vertex_key(id, 0));
   const std::int32_t end = loops.find(mesh::curve_vertex_key(id + 1, 0));
   for (std::int32_t v = begin; v < end; ++v) {
     if (mesh::index_of_vertex_key(loops.vertex_keys[v]) != v - begin) return std::nullopt;
   }
-  return Chain{loops.find(first), loops.find(last), begin, end - begin};
+  if (begin == end) return std::nullopt;
+  const std::int32_t first_end = end_of_chain(loops, first, begin),
+                     last_end = end_of_chain(loops, last, end - 1);
+  if (first_end < 0 || last_end < 0) return std::nullopt;
+  return Chain{first_end, last_end, begin, end - begin};
 }
 
 }  // namespace
@@ -78,7 +95,7 @@ void spread_on_free_curves(const cad::Model& model, const sizing::SizeField& fie
       });
       if (!is_free || !is_constraining(model, use.edge)) continue;
       const std::optional<Chain> chain = find_chain(model, use.edge, loops);
-      if (!chain || chain->inside == 0) continue;
+      if (!chain) continue;
       const MovedCurve curve(model, use.edge, loops.points[chain->first_end], loops.points[chain->last_end]);
       if (!curve.has_moved()) continue;
       const std::vector<double> parameters = equal_parts(curve.metric_length(field), chain->inside + 1);

@@ -94,7 +94,7 @@ LayerOptions layers_on_floor(const Bulge& bulge) {
 }
 
 /// Takes the faces that layers end on away, so that nobody minds them, and puts what is left of them last.
-std::vector<mesh::SharedVertexKey> take_ends_away(mesh::DistributedMesh& cap) {
+std::vector<mesh::SharedVertexKey> take_ends_away(const mesh::DistributedMesh&, mesh::DistributedMesh& cap) {
   std::vector<mesh::Piece> kept, ends;
   for (mesh::Piece& piece : cap.pieces) {
     const bool is_end = piece.common_face() != floor_face;

@@ -48,7 +48,8 @@ LayerOptions layers_on_floor() {
 }
 
 /// Does not mesh planes again: takes their triangles away, so that nobody minds them.
-std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& cap) {
+std::vector<mesh::SharedVertexKey> take_planes_away(const mesh::DistributedMesh&,
+                                                    mesh::DistributedMesh& cap) {
   for (mesh::Piece& piece : cap.pieces) {
     if (piece.common_face() != x_face && piece.common_face() != y_face) continue;
     piece.cells.clear(), piece.triangle_face.clear(), piece.triangle_patch.clear();
@@ -146,7 +147,8 @@ TEST(EndPlanes, HoldTheEndsOfLayers) {
 PlaneRemesher refuse_moves(const mesh::DistributedMesh& wall,
                            std::function<bool(Vec3 from, Vec3 to)> is_refused) {
   const Communicator& world = wall.communicator;
-  return [&world, &wall, is_refused = std::move(is_refused)](mesh::DistributedMesh& cap) {
+  return [&world, &wall, is_refused = std::move(is_refused)](const mesh::DistributedMesh& before,
+                                                             mesh::DistributedMesh& cap) {
     std::vector<mesh::SharedVertexKey> at_fault;
     for (std::size_t p = 0; p < cap.pieces.size(); ++p) {
       for (std::size_t s = 0; s < cap.pieces[p].shared_keys.size(); ++s) {
@@ -156,7 +158,7 @@ PlaneRemesher refuse_moves(const mesh::DistributedMesh& wall,
       }
     }
     at_fault = world.all_gather_items(std::span<const mesh::SharedVertexKey>(at_fault));
-    return at_fault.empty() ? take_planes_away(cap) : at_fault;
+    return at_fault.empty() ? take_planes_away(before, cap) : at_fault;
   };
 }
 

@@ -97,7 +97,8 @@ Vec3 blunt_section(int i) {
 }
 
 /// Takes the planes away, which come last, so that nobody minds them.
-std::vector<mesh::SharedVertexKey> take_planes_away(mesh::DistributedMesh& cap) {
+std::vector<mesh::SharedVertexKey> take_planes_away(const mesh::DistributedMesh&,
+                                                    mesh::DistributedMesh& cap) {
   for (mesh::Piece& piece : cap.pieces) {
     if (piece.common_face() < floor_face) continue;
     piece.cells.clear(), piece.triangle_face.clear(), piece.triangle_patch.clear();

@@ -41,7 +41,7 @@ struct Unaware {
   }
   mesh::DistributedMesh clear(LayerReport& report) {
     const PlaneRemesher none;
-    return CapClearing(base.wall, base.fans, base.directions, none).run(limits, report);
+    return CapClearing(base.wall, base.fans, base.directions, {none}).run(limits, report);
   }
 
   examples::DirectedWall base;

@@ -49,6 +49,30 @@ TEST(SharedVertexKeysLocal, NameColumnsOverAVertex) {
   EXPECT_FALSE(can_name_columns(split_vertex_key(7, 1 << 23)));
 }
 
+TEST(SharedVertexKeysLocal, NameSidesOfAVertex) {
+  for (const SharedVertexKey key :
+       {cad_vertex_key(12), curve_vertex_key(7, 5), cut_vertex_key(7, 5, 3), split_vertex_key(7, 5)}) {
+    ASSERT_TRUE(can_name_sides(key));
+    EXPECT_EQ(side_vertex_key(key, 0), key);
+    EXPECT_EQ(vertex_key_of_side(side_vertex_key(key, last_vertex_side)), key);
+    EXPECT_NE(side_vertex_key(key, 1), side_vertex_key(key, last_vertex_side));
+    const SharedVertexKey side = side_vertex_key(key, last_vertex_side);
+    EXPECT_EQ(is_cut_vertex_key(side), is_cut_vertex_key(key));
+    EXPECT_EQ(edge_of_vertex_key(side), edge_of_vertex_key(key));
+    EXPECT_TRUE(can_name_columns(side));
+    EXPECT_NE(fan_vertex_key(side, 255), fan_vertex_key(key, 255));
+    EXPECT_FALSE(can_name_sides(side));
+    EXPECT_THROW(side_vertex_key(side, 1), std::runtime_error);
+    EXPECT_THROW(side_vertex_key(key, last_vertex_side + 1), std::runtime_error);
+  }
+  EXPECT_FALSE(can_name_sides(curve_vertex_key(1 << 26, 0)));
+  EXPECT_FALSE(can_name_sides(cut_vertex_key(1 << 17, 0, 0)));
+  EXPECT_FALSE(can_name_sides(split_vertex_key(1 << 26, 0)));
+  EXPECT_EQ(vertex_key_of_side(side_vertex_key(inside_vertex_key(7, 5), 3)), inside_vertex_key(7, 5));
+  EXPECT_NE(inside_vertex_key(7, 5), split_vertex_key(7, 5));
+  EXPECT_NE(side_vertex_key(inside_vertex_key(7, 5), 1), side_vertex_key(split_vertex_key(7, 5), 1));
+}
+
 TEST(SharedVertexKeysLocal, CutsBeyondWhatCanBeNamedAreRefused) {
   EXPECT_NO_THROW(cut_vertex_key((1 << 22) - 1, (1 << 16) - 1, (1 << 24) - 1));
   EXPECT_THROW(cut_vertex_key(1 << 22, 0, 0), std::runtime_error);

@@ -3,6 +3,7 @@
 #include "tests/pipeline/case/case_fixture.hpp"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -103,9 +104,30 @@ TEST_F(LayerKeys, PatchesMustBeWallsOfThisModel) {
   EXPECT_NE(message("wign: {count: 3}").find("case.yaml:2:"), std::string::npos)
       << message("wign: {count: 3}");
   EXPECT_NE(message("farfield: {count: 3}").find("is of type farfield"), std::string::npos);
-  EXPECT_NE(message("vane: {count: 3}").find("has cells on both sides. Remedy: no layers"),
-            std::string::npos);
+  EXPECT_NE(message("vane: {count: 3}").find("has cells on both sides"), std::string::npos);
+  EXPECT_NE(message("vane: {count: 3}").find("Remedy: `side: front`, `back` or `both`"), std::string::npos);
+  EXPECT_NE(message("vane: {count: 3}").find("case.yaml:2:"), std::string::npos);
   EXPECT_EQ(message("farfield: {count: 0}"), "");
+}
+
+TEST_F(LayerKeys, InnerFacesHaveLayersOnTheSidesThatAreNamed) {
+  using layers::InnerSides;
+  const std::map<std::string, InnerSides> names{
+      {"front", InnerSides::front}, {"back", InnerSides::back}, {"both", InnerSides::both}};
+  for (const auto& [name, sides] : names) {
+    const Case input = with_layers("first: 1e-3, patches: {vane: {side: " + name + ", growth: 1.4}}");
+    const layers::LayerOptions options = options_of(input);
+    EXPECT_EQ(layers::inner_sides_of(options, 3), sides);
+    EXPECT_EQ(options.patches[3].first, 1e-3);
+    EXPECT_EQ(options.patches[3].growth, 1.4);
+    EXPECT_EQ(layers::inner_sides_of(options, 0), InnerSides::none);
+    EXPECT_EQ(case_of_resolved(resolved_yaml(input)).layers.patches.at(0).side, sides);
+  }
+  const layers::LayerOptions without = options_of(with_layers("first: 1e-3"));
+  EXPECT_EQ(without.patches[3].first, 0) << "walls alone";
+  const std::string wrong = refused("first: 1e-3, patches: {vane: {side: left}}");
+  EXPECT_NE(wrong.find("layers.patches.vane.side"), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("front"), std::string::npos) << wrong;
 }
 
 // By which `count` layers are `total` high, if no growth is asked for.
