@@ -23,7 +23,9 @@ public:
 
   Vec3 normal(std::int32_t face, Vec3 point) const override {
     const std::optional<cad::Vec2> uv = _locator.on_face(face, point, _tolerance);
-    return uv ? _model.face_frame(face, *uv).normal : Vec3{};
+    if (!uv) return {};
+    const Vec3 found = _model.face_frame(face, *uv).normal;
+    return found == Vec3{} ? mean_normal_about(face, point) : found;
   }
 
   std::optional<EndPlace> place(std::span<const std::int32_t> faces, Vec3 point) const override {
@@ -65,6 +67,21 @@ public:
   }
 
 private:
+  /// At a pole, where the surface has no normal: the mean of those at places about it.
+  Vec3 mean_normal_about(std::int32_t face, Vec3 point) const {
+    constexpr double away = 100;  // tolerances; chosen, not measured
+    Vec3 sum;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double step : {-away * _tolerance, away * _tolerance}) {
+        Vec3 beside = point;
+        beside[axis] += step;
+        if (const auto uv = _locator.on_face(face, beside, 2 * away * _tolerance))
+          sum += _model.face_frame(face, *uv).normal;
+      }
+    }
+    return sum == Vec3{} ? sum : normalized(sum);
+  }
+
   /// The normals of both faces, unless these are tangent.
   std::array<Vec3, 2> across(std::span<const std::int32_t> faces, Vec3 point, Vec3 tangent) const {
     constexpr double least_angle = 0.1;  // radians; chosen, not measured
