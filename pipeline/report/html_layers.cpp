@@ -36,7 +36,7 @@ std::string limits_text(const Json& limited) {
 /// With the side of inner faces that has layers.
 std::string name_and_side(const Json& patch) {
   const Json& side = find(patch, "/side");
-  const std::string words = name(find(patch, "/name"));
+  std::string words = name(find(patch, "/name"));
   if (!side.is_string() || side == "none") return words;
   return fmt::format("{} ({})", words, side == "both" ? "both sides" : escaped(side.get<std::string>()));
 }
