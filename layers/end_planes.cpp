@@ -1,7 +1,5 @@
 #include "layers/end_planes.hpp"
 
-#include "mesh/exchange/shared_vertices.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -111,7 +109,8 @@ std::vector<Vec3> find_end_planes(const mesh::DistributedMesh& mesh, const Layer
 }
 
 std::vector<std::uint8_t> find_curved_ends(const mesh::DistributedMesh& mesh, const LayerOptions& options,
-                                           const std::vector<Vec3>& planes) {
+                                           const std::vector<Vec3>& planes,
+                                           const mesh::SharedVertices& shared) {
   std::vector<std::uint8_t> found(mesh.faces.size(), 0);
   if (!options.curved_ends) return found;
   const auto is_candidate = [&](std::int32_t face, std::int32_t patch) {
@@ -120,7 +119,6 @@ std::vector<std::uint8_t> find_curved_ends(const mesh::DistributedMesh& mesh, co
            (!has_layers(options, patch) && mesh.type_of_patch(patch) == mesh::PatchType::farfield);
   };
   constexpr std::uint32_t wall = 1;
-  const mesh::SharedVertices shared(mesh);
   std::vector<std::vector<std::uint32_t>> meets;  // by piece and vertex: whether a wall with layers has it
   for (const mesh::Piece& piece : mesh.pieces) {
     std::vector<std::uint32_t>& of_piece = meets.emplace_back(piece.vertex_count(), 0);

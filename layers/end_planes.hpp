@@ -2,6 +2,7 @@
 #pragma once
 
 #include "layers/columns.hpp"
+#include "mesh/exchange/shared_vertices.hpp"
 
 #include <cstdint>
 #include <span>
@@ -19,7 +20,8 @@ std::vector<geometry::Vec3> find_end_planes(const mesh::DistributedMesh& mesh, c
 /// layers of the same types, and on far fields, where a wall with layers meets them; on none without
 /// LayerOptions::curved_ends. Collective; equal on all ranks.
 std::vector<std::uint8_t> find_curved_ends(const mesh::DistributedMesh& mesh, const LayerOptions& options,
-                                           const std::vector<geometry::Vec3>& planes);
+                                           const std::vector<geometry::Vec3>& planes,
+                                           const mesh::SharedVertices& shared);
 
 /// The part of a direction parallel to one plane, or to the intersection line of two, given by normals. If a
 /// normal is exactly along an axis, that component is -0: adding a multiple of it keeps a coordinate bit for

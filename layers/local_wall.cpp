@@ -46,9 +46,9 @@ LocalWall::LocalWall(const mesh::DistributedMesh& surface, const LayerOptions& o
     : mesh((require_fitting(surface, options), surface)),
       edges(options.edges),
       end_planes(find_end_planes(surface, options)),
-      curved_ends(find_curved_ends(surface, options, end_planes)),
       ends(options.curved_ends),
       shared(surface) {
+  curved_ends = find_curved_ends(surface, options, end_planes, shared);
   const std::vector<WallRole> of_patches = roles_of_patches(mesh, options);
   for (const mesh::Piece& piece : mesh.pieces) {
     const std::int32_t base = vertex_count();

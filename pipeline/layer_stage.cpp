@@ -171,7 +171,8 @@ struct EndFaces {
 EndFaces find_end_faces(const mesh::DistributedMesh& wall, const layers::LayerOptions& options) {
   EndFaces faces;
   const std::vector<Vec3> normals = layers::find_end_planes(wall, options);
-  const std::vector<std::uint8_t> curved = layers::find_curved_ends(wall, options, normals);
+  const std::vector<std::uint8_t> curved =
+      layers::find_curved_ends(wall, options, normals, mesh::SharedVertices(wall));
   for (std::size_t face = 0; face < normals.size(); ++face) {
     const auto id = static_cast<cad::FaceId>(face);
     if (!(normals[face] == Vec3{})) faces.planes.push_back(id);

@@ -115,11 +115,13 @@ TEST(CurvedEnds, AreThoseThatAWallMeets) {
   LayerOptions options = layers_on_floor(bulge);
   const auto planes = find_end_planes(mesh, options);
   EXPECT_EQ(planes[bulge_face], Vec3{});
-  EXPECT_EQ(find_curved_ends(mesh, options, planes)[bulge_face], 1);
-  EXPECT_EQ(find_curved_ends(mesh, options, planes)[side_face], 0) << "a plane";
-  EXPECT_EQ(find_curved_ends(mesh, options, planes)[floor_face], 0) << "it has layers itself";
+  EXPECT_EQ(find_curved_ends(mesh, options, planes, mesh::SharedVertices(mesh))[bulge_face], 1);
+  EXPECT_EQ(find_curved_ends(mesh, options, planes, mesh::SharedVertices(mesh))[side_face], 0) << "a plane";
+  EXPECT_EQ(find_curved_ends(mesh, options, planes, mesh::SharedVertices(mesh))[floor_face], 0)
+      << "it has layers itself";
   options.curved_ends = nullptr;
-  EXPECT_EQ(find_curved_ends(mesh, options, planes), std::vector<std::uint8_t>(4, 0));
+  EXPECT_EQ(find_curved_ends(mesh, options, planes, mesh::SharedVertices(mesh)),
+            std::vector<std::uint8_t>(4, 0));
 }
 
 TEST(CurvedEnds, HoldTheNodesOfLayers) {

@@ -84,4 +84,17 @@ inline report::RunRecord run_twice(const cases::Case& input, std::string& alone)
   return record;
 }
 
+/// The parts of all walls with all layers and with none.
+struct Coverage {
+  double full = 0, none = 0;
+};
+
+inline Coverage coverage_of(const report::RunRecord& record) {
+  double area = 0;
+  Coverage sums;
+  for (const layers::PatchLayers& of_patch : record.layers->report.patches)
+    sums.full += of_patch.full_area, sums.none += of_patch.empty_area, area += of_patch.area;
+  return {sums.full / area, sums.none / area};
+}
+
 }  // namespace aeroloom::pipeline::cad_cases

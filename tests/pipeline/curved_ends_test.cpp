@@ -82,11 +82,9 @@ report::RunRecord expect_layers(const TopoDS_Shape& shape, const std::vector<Pat
   EXPECT_EQ(record.hash, alone);
   EXPECT_TRUE(record.layers);
   if (!record.layers) return record;
-  double area = 0, all = 0, none = 0;
-  for (const layers::PatchLayers& of_patch : record.layers->report.patches)
-    all += of_patch.full_area, area += of_patch.area, none += of_patch.empty_area;
-  EXPECT_GT(all / area, full);
-  EXPECT_EQ(none, 0) << "layers reach the curved ends";
+  const cad_cases::Coverage coverage = cad_cases::coverage_of(record);
+  EXPECT_GT(coverage.full, full);
+  EXPECT_EQ(coverage.none, 0) << "layers reach the curved ends";
   return record;
 }
 

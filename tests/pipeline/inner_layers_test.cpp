@@ -70,11 +70,9 @@ report::RunRecord expect_layers(const TopoDS_Shape& shape, const Wanted& wanted,
   EXPECT_EQ(record.hash, alone);
   EXPECT_TRUE(record.layers);
   if (!record.layers) return record;
-  double area = 0, all = 0;
-  for (const layers::PatchLayers& of_patch : record.layers->report.patches)
-    all += of_patch.full_area, area += of_patch.area;
-  EXPECT_GT(all / area, full);
-  EXPECT_LT(all / area, 1 + 1e-9);
+  const cad_cases::Coverage coverage = cad_cases::coverage_of(record);
+  EXPECT_GT(coverage.full, full);
+  EXPECT_LT(coverage.full, 1 + 1e-9);
   return record;
 }
 
