@@ -8,8 +8,11 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <unistd.h>
 
@@ -53,6 +56,15 @@ public:
 private:
   std::filesystem::path _path;
 };
+
+/// Shapes as one file has them.
+inline TopoDS_Shape together(const std::vector<TopoDS_Shape>& shapes) {
+  TopoDS_Compound compound;
+  BRep_Builder builder;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
+  return compound;
+}
 
 /// A coarse case on a file, without pictures, which have tests of their own.
 inline cases::Case coarse_case(const std::string& file, const Folder& folder, double target) {

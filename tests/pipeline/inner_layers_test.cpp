@@ -11,8 +11,6 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRep_Builder.hxx>
-#include <TopoDS_Compound.hxx>
 #include <gp_Pln.hxx>
 #include <gtest/gtest.h>
 
@@ -20,15 +18,8 @@ namespace aeroloom::pipeline {
 namespace {
 
 using cad_cases::Folder;
+using cad_cases::together;
 using layers::InnerSides;
-
-TopoDS_Shape all_of(const std::vector<TopoDS_Shape>& shapes) {
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& each : shapes) builder.Add(compound, each);
-  return compound;
-}
 
 TopoDS_Shape duct() {
   return BRepPrimAPI_MakeBox(3.0, 1.0, 1.0).Shape();
@@ -41,7 +32,7 @@ TopoDS_Shape plate(double y_low, double y_high) {
 }
 
 TopoDS_Shape with_solid(const TopoDS_Shape& around, const TopoDS_Shape& solid) {
-  return all_of({BRepAlgoAPI_Cut(around, solid).Shape(), solid});
+  return together({BRepAlgoAPI_Cut(around, solid).Shape(), solid});
 }
 
 struct Wanted {
@@ -84,7 +75,7 @@ const layers::PatchLayers& layers_of(const report::RunRecord& record, const std:
 
 TEST(InnerLayersOfCad, APlateInADuctHasThemOnBothSidesAndAroundItsRim) {
   const report::RunRecord record =
-      expect_layers(all_of({duct(), plate(0.25, 0.75)}), {"baffle", InnerSides::both}, 0.98);
+      expect_layers(together({duct(), plate(0.25, 0.75)}), {"baffle", InnerSides::both}, 0.98);
   EXPECT_NEAR(layers_of(record, "baffle").area, 2 * 0.5, 1e-9);
   EXPECT_GT(layers_of(record, "baffle").hexahedra, 0) << "over the rim";
   EXPECT_NEAR(record.mesh_volume, 3, 1e-9);
@@ -92,7 +83,7 @@ TEST(InnerLayersOfCad, APlateInADuctHasThemOnBothSidesAndAroundItsRim) {
 
 TEST(InnerLayersOfCad, APlateOnAWall) {
   const report::RunRecord record =
-      expect_layers(all_of({duct(), plate(0, 0.6)}), {"baffle", InnerSides::both}, 0.96);
+      expect_layers(together({duct(), plate(0, 0.6)}), {"baffle", InnerSides::both}, 0.96);
   EXPECT_GT(layers_of(record, "baffle").full_area, 0.7 * 2 * 0.6) << "but for the open rim";
 }
 
@@ -123,7 +114,7 @@ TEST(InnerLayersOfCad, ARodBetweenWallsAndBetweenPlanes) {
 
 TEST(InnerLayersOfCad, TwoBoxesThatShareAFace) {
   const TopoDS_Shape other = BRepPrimAPI_MakeBox(gp_Pnt(3, 0, 0), 1.0, 1.0, 1.0).Shape();
-  expect_layers(all_of({duct(), other}), {"interface_0_1", InnerSides::both}, 0.98);
+  expect_layers(together({duct(), other}), {"interface_0_1", InnerSides::both}, 0.98);
 }
 
 }  // namespace

@@ -23,17 +23,10 @@ namespace aeroloom::pipeline {
 namespace {
 
 using cad_cases::Folder;
+using cad_cases::together;
 
 TopoDS_Shape box(double x, double y, double z, double dx, double dy, double dz) {
   return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
-}
-
-TopoDS_Shape together(const std::vector<TopoDS_Shape>& shapes) {
-  TopoDS_Compound compound;
-  BRep_Builder builder;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
-  return compound;
 }
 
 struct Expected {
