@@ -4,6 +4,7 @@
 #include "layers/layer_cap.hpp"
 #include "layers/layer_report.hpp"
 #include "layers/opened_wall.hpp"
+#include "layers/ridge_paths.hpp"
 #include "layers/sectors.hpp"
 #include "layers/side_layers.hpp"
 #include "parallel/communication/collective_error.hpp"
@@ -67,9 +68,7 @@ struct LayerInput {
   LayerElements elements;
 };
 
-LimitedColumns limit_columns(const LayerInput& in, const std::vector<double>& reached) {
-  Fans fans = in.elements == LayerElements::tets ? without_fans(in.wall)
-                                                 : find_fans(in.wall, in.stars, in.wanted, in.edges, reached);
+LimitedColumns limit_columns(const LayerInput& in, Fans fans) {
   Directions directions = find_directions(in.wall, in.stars, fans);
   ColumnLimits limits(in.wall, in.wanted, in.edges, in.stars, directions);
   limits.converge();
@@ -94,12 +93,45 @@ bool find_low_fans(const LayerInput& in, const LimitedColumns& columns, std::vec
   return in.wall.mesh.communicator.sum(found) > 0;
 }
 
-/// Columns with fans whose sectors fit the heights that are reached.
+/// By vertex: 1 where a path or the free rim of a baffle is, or at a neighbour. Collective.
+std::vector<std::int32_t> find_excused(const LayerInput& in) {
+  const auto is_excused = [](const Ridge::Edge& edge) { return edge.is_rim || edge.is_path; };
+  std::vector<std::int32_t> excused(in.wall.points.size(), 0);
+  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
+    const Ridge* ridge = in.stars.ridge_at(v);
+    if (ridge == nullptr || std::none_of(ridge->edges.begin(), ridge->edges.end(), is_excused)) continue;
+    excused[v] = 1;
+    in.wall.for_each_neighbour(v, [&](std::int32_t other) { excused[other] = 1; });
+  }
+  in.wall.combine(excused, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
+  return excused;
+}
+
+/// Whether a ridge has a fan without layers, which is an end on a wall. Paths and the free rims of baffles
+/// may, unless most of all fans are so: in a narrow duct they would only make the front finer. Collective.
+bool has_empty_fans(const LayerInput& in, const LimitedColumns& columns) {
+  const std::vector<std::int32_t> excused = find_excused(in);
+  std::int64_t fans = 0, empty = 0, not_excused = 0;
+  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
+    if (columns.fans.count_at(v) == 1 || in.wall.owned[v] == 0) continue;
+    ++fans;
+    if (columns.limits.count(v) > 0) continue;
+    ++empty;
+    not_excused += excused[v] == 0 ? 1 : 0;
+  }
+  const parallel::Communicator& ranks = in.wall.mesh.communicator;
+  return 2 * ranks.sum(empty) > ranks.sum(fans) || ranks.sum(not_excused) > 0;
+}
+
+/// Columns with fans whose sectors fit the heights that are reached, or without any fan where one would have
+/// no layers.
 LimitedColumns fit_columns(const LayerInput& in) {
   constexpr int most_attempts = 4;
+  if (in.elements == LayerElements::tets) return limit_columns(in, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
   for (int attempt = 1;; ++attempt) {
-    LimitedColumns columns = limit_columns(in, reached);
+    LimitedColumns columns = limit_columns(in, find_fans(in.wall, in.stars, in.wanted, in.edges, reached));
+    if (has_empty_fans(in, columns)) return limit_columns(in, without_fans(in.wall));
     if (attempt == most_attempts || !find_low_fans(in, columns, reached)) return columns;
   }
 }
@@ -108,7 +140,9 @@ LimitedColumns fit_columns(const LayerInput& in) {
 Layers build_on(const mesh::NumberedMesh& wall, const LayerOptions& options, const OpenedWall* opened,
                 const PlaneRemesher& remesh_planes) {
   const LocalWall walls(wall, options);
-  const VertexStars stars = gather_stars(walls);
+  VertexStars stars = gather_stars(walls);
+  if (const PathEdges paths = find_ridge_paths(walls, stars); !paths.empty())
+    stars = gather_stars(walls, paths);
   const std::vector<VertexLayers> wanted = gather_wanted_layers(walls, options);
   const std::vector<double> edges = smooth_mean_edges(walls, wanted);
   LimitedColumns found = fit_columns({walls, stars, wanted, edges, options.elements});

@@ -34,7 +34,7 @@ private:
     for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
       if (const VertexFan* fan = _sectors.fan_at(v)) {
         _fans.directions.insert(_fans.directions.end(), fan->directions.begin(), fan->directions.end());
-        const double cone = _stars.ridge_at(v)->cone;
+        const double cone = fan->visibility;
         _fans.visibility[v] = cone;
         _fans.leans[v] = 0.5 * (cone + 1);
       } else {

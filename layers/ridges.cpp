@@ -26,32 +26,54 @@ public:
   RidgeFinder(const StarCentre& centre, std::span<const StarTriangle> star)
       : _centre(centre), _vertex(centre.point), _star(star), _plane(centre.plane) {}
 
-  std::optional<Ridge> find(std::vector<RidgeSide>& sides) {
-    std::optional<Ridge> ridge = find_any(sides);
-    if (!ridge && std::all_of(_edges.begin(), _edges.end(), [&](std::size_t edge) { return is_rim(edge); }))
-      sides.clear();
-    return ridge;
+  RidgeSearch find(std::vector<RidgeSide>& sides) {
+    RidgeSearch found = find_any(sides);
+    const bool are_rims =
+        std::all_of(_edges.begin(), _edges.end(), [&](std::size_t edge) { return is_rim(edge); });
+    return found.ridge || !are_rims ? std::move(found) : RidgeSearch();
   }
 
 private:
-  std::optional<Ridge> find_any(std::vector<RidgeSide>& sides) {
+  RidgeSearch find_any(std::vector<RidgeSide>& sides) {
     for (std::size_t i = 0; i < _star.size(); ++i) {
-      if (is_sharp(i)) _edges.push_back(i);
+      const bool is_path = path_along(i) != nullptr;
+      if (!is_path && !is_sharp(i)) continue;
+      _edges.push_back(i);
+      _is_path.push_back(is_path ? 1 : 0);
     }
+    if (_edges.empty()) return {};
+    sides.assign(_star.size(), 0);
     _ridge.on_plane = !(_plane == Vec3{});
-    sides.assign(_edges.empty() ? 0 : _star.size(), 0);
-    if (_edges.empty() || _edges.size() > most_edges) return std::nullopt;
-    if (_ridge.on_plane && _edges.size() > 1) return std::nullopt;
-    if (!_ridge.on_plane && _edges.size() < 2) return std::nullopt;
+    if (!_ridge.on_plane && _edges.size() == 1) return {std::nullopt, true, left(_edges[0]).next};
+    if (!has_ridge(sides)) return {std::nullopt, true, std::nullopt};
+    return {std::move(_ridge), false, std::nullopt};
+  }
+
+  bool has_ridge(std::vector<RidgeSide>& sides) {
+    const auto paths = static_cast<std::size_t>(std::count(_is_path.begin(), _is_path.end(), 1));
+    if (_edges.size() > most_edges || (_ridge.on_plane && _edges.size() > 1)) return false;
+    if (_edges.size() > 2 && paths > 0) {
+      if (_edges.size() > 3 || paths > 1) return false;
+      _ridge.joint =
+          static_cast<std::int32_t>(std::find(_is_path.begin(), _is_path.end(), 1) - _is_path.begin());
+    }
     _ridge.lowest = {_star[0].piece, _star[0].cell};
     for (const StarTriangle& t : _star)
       _ridge.lowest = std::min(_ridge.lowest, TrianglePlace{t.piece, t.cell});
-    if (std::any_of(_edges.begin(), _edges.end(), [&](std::size_t edge) { return is_beside_strip(edge); }))
-      return std::nullopt;
-    if (!part(sides)) return std::nullopt;
-    const bool found = _ridge.on_plane || _edges.size() == 2 ? turn_along() : turn_by_edge();
-    if (!found) return std::nullopt;
-    return std::move(_ridge);
+    for (std::size_t e = 0; e < _edges.size(); ++e) {
+      if (_is_path[e] == 0 && is_beside_strip(_edges[e])) return false;
+    }
+    if (!part(sides)) return false;
+    if (paths > 0) {
+      for (const PathEdge& path : _centre.paths) _ridge.path_turn = std::max(_ridge.path_turn, path.turn);
+    }
+    return _ridge.is_corner() ? turn_by_edge() : turn_along();
+  }
+
+  const PathEdge* path_along(std::size_t edge) const {
+    const auto found = std::find_if(_centre.paths.begin(), _centre.paths.end(),
+                                    [&](const PathEdge& path) { return path.to == left(edge).next; });
+    return found == _centre.paths.end() ? nullptr : &*found;
   }
 
   /// Edge i starts before triangle i.
@@ -68,6 +90,7 @@ private:
     const StarTriangle &l = left(edge), &r = right(edge);
     if (r.wall_role() != WallRole::layered || l.wall_role() != WallRole::layered) return false;
     if (is_rim(edge)) return true;
+    if (_centre.turn == EdgeTurn::smooth) return false;
     const auto turn = static_cast<EdgeTurn>(l.edge_turn);
     if (turn == EdgeTurn::smooth) return false;
     const bool is_sharp = turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp;
@@ -98,7 +121,12 @@ private:
     if (turn.angle < 0) turn.angle += 2 * std::numbers::pi;
     return turn;
   }
-  static bool is_sound(const Ridge::Turn& turn) {
+  /// Paths lie on walls that may turn by little, or to the other side.
+  bool is_sound(Ridge::Turn& turn) const {
+    if (_ridge.is_on_path() && _ridge.joint < 0) {
+      if (turn.angle > std::numbers::pi) turn.angle -= 2 * std::numbers::pi;
+      return std::abs(turn.angle) <= most_turn;
+    }
     return turn.angle >= 0.5 * least_turn && turn.angle <= most_turn;
   }
 
@@ -127,9 +155,19 @@ private:
       _ridge.cone = std::min(_ridge.cone, cone.visibility);
       _ridge.sides.push_back(cone.axis);
     }
-    for (const std::size_t edge : _edges) {
-      const StarTriangle &l = left(edge), &r = right(edge);
-      _ridge.edges.push_back({l.next, {r.piece, r.cell}, {l.piece, l.cell}, along(edge), is_rim(edge)});
+    for (std::size_t e = 0; e < _edges.size(); ++e) {
+      const StarTriangle &l = left(_edges[e]), &r = right(_edges[e]);
+      _ridge.edges.push_back({l.next,
+                              {r.piece, r.cell},
+                              {l.piece, l.cell},
+                              along(_edges[e]),
+                              is_rim(_edges[e]),
+                              _is_path[e] != 0});
+    }
+    if (_ridge.joint >= 0) {
+      const auto at = static_cast<std::size_t>(_ridge.joint), before = (at + 2) % 3;
+      normals[at].insert(normals[at].end(), normals[before].begin(), normals[before].end());
+      _joint_side = smallest_cone(normals[at]).axis;
     }
     return _ridge.cone >= least_cone;
   }
@@ -138,17 +176,23 @@ private:
   bool turn_along() {
     constexpr double least_passing = 0.3;  // cosine between edge and plane's normal
     constexpr double least_mitre = 0.5;    // cosine of half the bend; columns get twice as long at most
-    const Vec3 first = _ridge.edges[0].direction;
     if (_ridge.on_plane) {
+      const Vec3 first = _ridge.edges[0].direction;
       _ridge.plane = _plane;
       _ridge.turns.push_back(turn_about(first, _ridge.sides[0], _ridge.sides[1]));
       return is_sound(_ridge.turns[0]) && std::abs(dot(first, _plane)) > least_passing;
     }
-    const Vec3 second = _ridge.edges[1].direction, bend = first + second;
+    // Of a ridge that a path meets, the two edges and sides without it.
+    const bool joins = _ridge.joint >= 0;
+    const std::size_t from = joins ? (static_cast<std::size_t>(_ridge.joint) + 2) % 3 : 0,
+                      to = joins ? (from + 2) % 3 : 1;
+    const Vec3 first = _ridge.edges[from].direction, second = _ridge.edges[to].direction,
+               bend = first + second;
     const double cosine = std::sqrt(std::max(0.0, 1 - 0.25 * dot(bend, bend)));
     if (cosine == 0) return false;
     if (norm(bend) > 0) _ridge.mitre = std::sqrt(1 / std::max(cosine, least_mitre) - 1) * normalized(bend);
-    _ridge.turns.push_back(turn_about(normalized(first - second), _ridge.sides[0], _ridge.sides[1]));
+    _ridge.turns.push_back(
+        turn_about(normalized(first - second), joins ? _joint_side : _ridge.sides[0], _ridge.sides[to]));
     return is_sound(_ridge.turns[0]);
   }
 
@@ -164,7 +208,9 @@ private:
   Vec3 _vertex;
   std::span<const StarTriangle> _star;
   Vec3 _plane;
-  std::vector<std::size_t> _edges;  // in order from the first
+  std::vector<std::size_t> _edges;     // in order from the first
+  std::vector<std::uint8_t> _is_path;  // of each
+  Vec3 _joint_side;                    // of both sides that a path parts
   Ridge _ridge;
 };
 
@@ -174,8 +220,18 @@ Vec3 Ridge::Turn::direction(double at) const {
   return std::cos(at) * normal + std::sin(at) * across;
 }
 
-std::optional<Ridge> find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
-                                std::vector<RidgeSide>& sides) {
+Ridge::Turn Ridge::Turn::widened(double least_angle) const {
+  if (angle >= least_angle) return *this;
+  const Vec3 along = cross(normal, across), bisector = direction(0.5 * angle);
+  Turn wide;
+  wide.angle = least_angle;
+  wide.normal = std::cos(0.5 * least_angle) * bisector - std::sin(0.5 * least_angle) * cross(along, bisector);
+  wide.across = cross(along, wide.normal);
+  return wide;
+}
+
+RidgeSearch find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
+                       std::vector<RidgeSide>& sides) {
   return RidgeFinder(centre, star).find(sides);
 }
 

@@ -19,29 +19,37 @@ constexpr double widest_sector = 35 * std::numbers::pi / 180;
 /// Keys of columns have eight bits for their number; a corner of three ridges has about as many columns as a
 /// disc around which 60 sectors lie.
 constexpr std::int32_t most_sectors = 24, most_columns = 255;
+/// At the ends of columns, in edges; chosen: with one edge a coarse wing had twice the cells, and no better
+/// ones.
+constexpr double widest_end = 2.5, narrowest_end = 0.3;
 constexpr auto more = [](auto a, auto b) { return std::max(a, b); };
 constexpr auto fewer = [](auto a, auto b) { return std::min(a, b); };
 
 std::int32_t sectors_by_turn(double turn) {
   return static_cast<std::int32_t>(std::clamp(std::ceil(turn / widest_sector), 1.0, double{most_sectors}));
 }
-std::int32_t sectors_by_front(double turn, double height, double edge) {
-  return static_cast<std::int32_t>(std::clamp(std::ceil(turn * height / edge), 1.0, double{most_sectors}));
+std::int32_t sectors_by_front(double turn, double height, double width) {
+  return static_cast<std::int32_t>(std::clamp(std::ceil(turn * height / width), 1.0, double{most_sectors}));
 }
 
 class SectorCounter {
 public:
-  SectorCounter(const LocalWall& wall, const VertexStars& stars, const std::vector<double>& edges,
-                const std::vector<double>& reached)
-      : _wall(wall), _stars(stars), _edges(edges), _reached(reached), _names(wall.vertex_names()) {}
+  SectorCounter(const LocalWall& wall, const VertexStars& stars, const std::vector<VertexLayers>& wanted,
+                const std::vector<double>& edges, const std::vector<double>& reached)
+      : _wall(wall),
+        _stars(stars),
+        _wanted(wanted),
+        _edges(edges),
+        _reached(reached),
+        _names(wall.vertex_names()) {}
 
-  Sectors count(const std::vector<VertexLayers>& wanted) {
+  Sectors count() {
     list_edges();
-    ask(wanted);
+    ask();
     drop_open_rims();
     drop_all_if_one_is_open();
     agree_along_ridges();
-    make_divisible();
+    go_on_along_paths();
     fit_to_heights();
     make_fans();
     return std::move(_sectors);
@@ -73,7 +81,7 @@ private:
     }
   }
 
-  void ask(const std::vector<VertexLayers>& wanted) {
+  void ask() {
     std::size_t most_slots = 2;
     for (const Ridge& ridge : _stars.ridges) most_slots = std::max(most_slots, ridge.edges.size());
     const auto slots =
@@ -81,30 +89,35 @@ private:
     _by_slot.assign(slots, std::vector<std::int32_t>(_wall.points.size(), 0));
     for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
       const Ridge* ridge = _stars.ridge_at(v);
-      if (ridge == nullptr || wanted[v].edges == 0 || _edges[v] <= 0) continue;
+      if (ridge == nullptr || _wanted[v].edges == 0 || _edges[v] <= 0) continue;
       if (_names[v].piece < 0 && !mesh::can_name_columns(_names[v].id)) continue;
-      const double height = wanted_height(wanted[v], _edges[v]);
+      const double height = wanted_height(_wanted[v], _edges[v]);
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
+        if (ridge->edges[e].is_path) {
+          _by_slot[e][v] = 1;
+          continue;
+        }
         const double turn = turn_at(*ridge, e);
-        _by_slot[e][v] = std::max(sectors_by_turn(turn), sectors_by_front(turn, height, _edges[v]));
+        _by_slot[e][v] =
+            std::max(sectors_by_turn(turn), sectors_by_front(turn, height, widest_end * _edges[v]));
       }
     }
   }
 
   static double turn_at(const Ridge& ridge, std::size_t edge) {
-    return ridge.turns[ridge.is_corner() ? edge : 0].angle;
+    return std::max(ridge.path_turn, ridge.turns[ridge.is_corner() ? edge : 0].angle);
   }
   std::int32_t& count_of(std::int32_t vertex, std::int32_t slot) { return _by_slot[slot][vertex]; }
   bool has_fan(const RidgeEdge& edge, int end) const {
     return edge.slots[end] >= 0 && _by_slot[edge.slots[end]][edge.ends[end]] > 0;
   }
+  /// Along a ridge that passes, both its edges; a path that goes on there does not count.
   void raise(std::int32_t vertex, std::int32_t slot, std::int32_t count) {
     const Ridge& ridge = *_stars.ridge_at(vertex);
-    if (ridge.is_corner()) {
-      count_of(vertex, slot) = count;
-    } else {
-      for (std::size_t e = 0; e < ridge.edges.size(); ++e)
-        count_of(vertex, static_cast<std::int32_t>(e)) = count;
+    const bool is_alone = ridge.is_corner() || ridge.edges[slot].is_path;
+    for (std::size_t e = 0; e < ridge.edges.size(); ++e) {
+      const auto other = static_cast<std::int32_t>(e);
+      if (other == slot || (!is_alone && !ridge.edges[e].is_path)) count_of(vertex, other) = count;
     }
   }
 
@@ -162,23 +175,50 @@ private:
         more);
   }
 
-  /// Numbers along a ridge differ by factors of two alone: over long flat cells the widths of all sectors
-  /// must change alike, or the centres of neighbours lie apart along the edge by more than the cells are
-  /// wide.
-  void make_divisible() {
-    for (std::vector<std::int32_t>& counts : _by_slot) {
-      for (std::int32_t& count : counts) {
-        const std::int32_t divisor = count < 8 ? 2 : 4;
-        count = (count + divisor - 1) / divisor * divisor;
+  /// A path has as many sectors as the ridge that it starts at, then half of them, and so on.
+  void go_on_along_paths() {
+    const auto is_path = [&](std::int32_t v, std::int32_t slot) {
+      return _stars.ridge_at(v)->edges[slot].is_path;
+    };
+    for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+      const Ridge* ridge = _stars.ridge_at(v);
+      if (ridge == nullptr) continue;
+      for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
+        if (ridge->edges[e].is_path && _by_slot[e][v] > 0) _by_slot[e][v] = 1;
       }
     }
+    repeat_over_edges(
+        [&](const RidgeEdge& edge) {
+          if (!has_fan(edge, 0) || !has_fan(edge, 1) || !is_path(edge.ends[0], edge.slots[0])) return false;
+          std::int32_t most = 0, least = most_sectors;
+          for (int end = 0; end < 2; ++end) {
+            const std::int32_t v = edge.ends[end], slot = edge.slots[end], here = count_of(v, slot);
+            most = std::max(most, here), least = std::min(least, here);
+            const Ridge& ridge = *_stars.ridge_at(v);
+            if (ridge.edges.size() != 2) continue;
+            const std::int32_t before = count_of(v, 1 - slot);
+            most = std::max(most, is_path(v, 1 - slot) ? halved(before) : before);
+          }
+          for (int end = 0; end < 2; ++end) count_of(edge.ends[end], edge.slots[end]) = most;
+          return most != least;
+        },
+        more);
     _full = _by_slot;
   }
-  /// The least number that an edge can have, from `count` on.
-  std::int32_t possible_count(std::int32_t v, std::int32_t slot, std::int32_t count) const {
-    std::int32_t possible = _full[slot][v];
-    while (possible % 2 == 0 && possible / 2 >= count) possible /= 2;
-    return possible;
+  /// Numbers along a ridge are the full one, half of it, and so on, so that most vertices have as many on
+  /// both sides.
+  static std::int32_t halved(std::int32_t count) { return (count + 1) / 2; }
+  /// The least of these numbers from `count` on.
+  std::int32_t level_from(std::int32_t v, std::int32_t slot, std::int32_t count) const {
+    std::int32_t level = _full[slot][v];
+    while (level > 1 && halved(level) >= count) level = halved(level);
+    return level;
+  }
+  /// The largest of them up to `count`, at least 1.
+  std::int32_t level_up_to(std::int32_t v, std::int32_t slot, std::int32_t count) const {
+    std::int32_t level = _full[slot][v];
+    while (level > count) level = halved(level);
+    return level;
   }
 
   /// Fewer where columns are low: the largest number that the heights ask for at both ends.
@@ -197,11 +237,17 @@ private:
             if (!has_fan(edge, end)) continue;
             const Ridge& ridge = *_stars.ridge_at(v);
             const double turn = turn_at(ridge, static_cast<std::size_t>(slot));
-            const std::int32_t wanted = std::min(count_of(edge.ends[1 - end], edge.slots[1 - end]),
-                                                 sectors_by_front(turn, _reached[v], _edges[v]));
-            changes = lower(v, slot, possible_count(v, slot, wanted)) || changes;
+            const std::int32_t wanted =
+                std::min(count_of(edge.ends[1 - end], edge.slots[1 - end]),
+                         sectors_by_front(turn, _reached[v], narrowest_end * _edges[v]));
+            changes = lower(v, slot, level_from(v, slot, wanted)) || changes;
             if (ridge.is_corner() || ridge.on_plane) continue;
-            changes = lower(v, 1 - slot, 2 * count_of(v, slot)) || changes;
+            if (ridge.joint >= 0) {
+              const std::int32_t other = 3 - slot - ridge.joint;
+              if (slot != ridge.joint) changes = lower(v, other, count_of(v, slot)) || changes;
+              continue;
+            }
+            changes = lower(v, 1 - slot, level_up_to(v, 1 - slot, 2 * count_of(v, slot))) || changes;
           }
           return changes;
         },
@@ -226,7 +272,7 @@ private:
     if (ridge == nullptr || _by_slot[0][v] == 0) return true;
     std::vector<std::int32_t> sectors;
     for (std::size_t e = 0; e < ridge->edges.size(); ++e) sectors.push_back(_by_slot[e][v]);
-    std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors);
+    std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors, spread_at(v));
     if (!fan || static_cast<std::int32_t>(fan->directions.size()) > most_columns) {
       for (std::vector<std::int32_t>& counts : _by_slot) counts[v] = 0;
       return false;
@@ -238,8 +284,16 @@ private:
     return true;
   }
 
+  /// The angle over which the outer columns of a path are about an edge apart at their ends, in radians.
+  double spread_at(std::int32_t v) const {
+    constexpr double width = 0.7, least = 0.1, most = 0.8;  // in edges, radians; chosen, not measured
+    const double height = std::min(_reached[v], wanted_height(_wanted[v], _edges[v]));
+    return height > 0 ? std::clamp(width * _edges[v] / height, least, most) : most;
+  }
+
   const LocalWall& _wall;
   const VertexStars& _stars;
+  const std::vector<VertexLayers>& _wanted;
   const std::vector<double>&_edges, &_reached;
   std::vector<mesh::VertexName> _names;
   /// By place among Ridge::edges and by vertex: the number over that edge; 0: no fan.
@@ -261,7 +315,7 @@ double wanted_height(const VertexLayers& asked, double edge) {
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
                       const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
                       const std::vector<double>& reached) {
-  return SectorCounter(wall, stars, edges, reached).count(wanted);
+  return SectorCounter(wall, stars, wanted, edges, reached).count();
 }
 
 }  // namespace aeroloom::layers

@@ -32,11 +32,12 @@ struct Sectors {
 };
 
 /// Edges of a ridge have as many sectors as the turn asks for where it is largest, at most 35 degrees each,
-/// and as the front: over columns of the wanted heights a sector is about an edge wide. `reached`: by vertex,
-/// the height that limits leave to columns much lower than wanted, else infinite; over these there is a half,
-/// a quarter and so on. Ridges must close, or end on planes: a sector cannot end on a wall, as the first
-/// layer would need cells with faces along it. Where one ridge does not, none has sectors; where the free rim
-/// of a baffle does not, it has none. Collective.
+/// and as the front: over columns of the wanted heights a sector is at most two and a half edges wide.
+/// `reached`: by vertex, the height that limits leave to columns much lower than wanted, else infinite; where
+/// sectors would be too narrow over these there is a half, a quarter and so on. Along paths their number is
+/// halved from edge to edge. Ridges must close, end on planes, or go on along paths: a sector cannot end on a
+/// wall, as the first layer would need cells with faces along it. Where one ridge does not, none has sectors;
+/// where the free rim of a baffle does not, it has none. Collective.
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
                       const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
                       const std::vector<double>& reached);

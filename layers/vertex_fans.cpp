@@ -162,43 +162,120 @@ std::optional<VertexFan> fill_corner(const Ridge& ridge, std::span<const std::in
   return fan;
 }
 
-/// Where one edge has twice the sectors of the other, each pair becomes one: the column between leans towards
-/// the edge that has it, and a triangle lies between the three.
-void join_pairs(const Ridge& ridge, std::span<const std::int32_t> sectors, VertexFan& fan) {
-  constexpr double lean = 0.8;  // of a sector's width; chosen, not measured
-  const std::size_t more = sectors[0] > sectors[1] ? 0 : 1, few = 1 - more;
-  const double slope = std::tan(lean * ridge.turns[0].angle / sectors[more]);
-  std::vector<std::int32_t> kept{0};
-  for (std::int32_t c = 0; c < sectors[more]; c += 2) {
-    kept.push_back(c + 2);
-    fan.directions[c + 1] += slope * ridge.edges[more].direction;
-    fan.triangles.push_back(more == 0 ? std::array{c, c + 2, c + 1} : std::array{c, c + 1, c + 2});
+/// The column at a part of a turn, as long as the ridge's mitre makes it.
+Vec3 mitred(const Ridge& ridge, const Ridge::Turn& turn, double part) {
+  const Vec3 column = turn.direction(part * turn.angle);
+  return column + dot(column, ridge.mitre) * ridge.mitre;
+}
+
+/// Where the numbers of sectors differ, each edge has a row of columns of its own between those of both
+/// sides, which lean towards it, and triangles lie between the rows. Each lies beside two others: a cell with
+/// three neighbours along the edge would leave solvers no gradient across.
+void join_rows(const Ridge& ridge, const Ridge::Turn& turn, std::span<const std::int32_t> sectors,
+               VertexFan& fan) {
+  constexpr double lean = 0.4;  // of a sector's width; chosen, not measured
+  const double slope = std::tan(lean * turn.angle / std::max(sectors[0], sectors[1]));
+  fan.directions = {mitred(ridge, turn, 0), mitred(ridge, turn, 1)};
+  fan.of_side = {0, 1};
+  std::array<std::vector<std::int32_t>, 2> rows;  // by edge, both from the left of the first
+  for (const std::size_t e : {0, 1}) {
+    rows[e].push_back(0);
+    for (std::int32_t i = 1; i < sectors[e]; ++i) {
+      rows[e].push_back(static_cast<std::int32_t>(fan.directions.size()));
+      fan.directions.push_back(mitred(ridge, turn, static_cast<double>(i) / sectors[e]) +
+                               slope * ridge.edges[e].direction);
+    }
+    rows[e].push_back(1);
   }
-  if (few == 1) std::reverse(kept.begin(), kept.end());
-  fan.across[few] = kept;
+  const std::vector<std::int32_t>&ahead = rows[0], &behind = rows[1];
+  const std::size_t last_ahead = ahead.size() - 1, last_behind = behind.size() - 1;
+  if (last_ahead == 1 || last_behind == 1) {
+    std::vector<std::int32_t> ring(behind);
+    ring.insert(ring.end(), ahead.rbegin() + 1, ahead.rend() - 1);
+    Vec3 sum;
+    for (const std::int32_t c : ring) sum += fan.directions[c];
+    const auto middle = static_cast<std::int32_t>(fan.directions.size());
+    fan.directions.push_back(sum / static_cast<double>(ring.size()));
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      fan.triangles.push_back({ring[i], ring[(i + 1) % ring.size()], middle});
+  } else {
+    std::size_t i = 1, j = 1;
+    fan.triangles.push_back({behind[0], behind[1], ahead[1]});
+    while (i + 1 < last_ahead || j + 1 < last_behind) {
+      if (i + 1 == last_ahead ||
+          (j + 1 < last_behind && (2 * j + 1) * last_ahead <= (2 * i + 1) * last_behind)) {
+        fan.triangles.push_back({behind[j], behind[j + 1], ahead[i]});
+        ++j;
+      } else {
+        fan.triangles.push_back({ahead[i + 1], ahead[i], behind[j]});
+        ++i;
+      }
+    }
+    fan.triangles.push_back({behind[j], behind[j + 1], ahead[i]});
+  }
+  fan.across[0] = rows[0];
+  fan.across[1] = {rows[1].rbegin(), rows[1].rend()};
+}
+
+/// Where a path meets a ridge that passes: the first column becomes a row of them along the ridge, from the
+/// side on the right of the path to that on its left, and triangles lie between these and the next column.
+void part_side(const Ridge& ridge, std::int32_t sectors, double spread, VertexFan& fan) {
+  const auto joint = static_cast<std::size_t>(ridge.joint), from = (joint + 2) % 3, to = (from + 2) % 3;
+  const Vec3 along = normalized(ridge.edges[from].direction - ridge.edges[to].direction),
+             column = fan.directions[0];
+  const double reach = std::tan(0.5 * spread);
+  std::vector<std::int32_t>& across = fan.across[joint];
+  for (std::int32_t i = 0; i <= sectors; ++i) {
+    const std::int32_t at = i == 0 ? 0 : static_cast<std::int32_t>(fan.directions.size());
+    if (i > 0) {
+      fan.directions.emplace_back();
+      fan.triangles.push_back({across.back(), at, 1});
+    }
+    fan.directions[at] = column + reach * (1 - 2.0 * i / sectors) * along;
+    across.push_back(at);
+  }
+  fan.of_side.resize(3);
+  fan.of_side[from] = 0, fan.of_side[joint] = across.back(), fan.of_side[to] = fan.across[from].back();
+  fan.across[to].back() = across.back();
+  std::reverse(across.begin(), across.end());
 }
 
 }  // namespace
 
-std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors) {
+std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors,
+                                         double spread) {
   if (ridge.is_corner()) {
     std::optional<VertexFan> fan = fill_corner(ridge, sectors);
-    return fan && is_good(*fan) ? fan : std::nullopt;
+    if (!fan || !is_good(*fan)) return std::nullopt;
+    fan->visibility = ridge.cone;
+    return fan;
   }
+  const bool is_joint = ridge.joint >= 0;
+  const std::size_t from = is_joint ? (static_cast<std::size_t>(ridge.joint) + 2) % 3 : 0,
+                    to = is_joint ? (from + 2) % 3 : 1;
   const bool passes = ridge.edges.size() > 1;
-  const std::int32_t most = passes ? std::max(sectors[0], sectors[1]) : sectors[0];
-  const Ridge::Turn& turn = ridge.turns[0];
+  const std::int32_t most = passes ? std::max(sectors[from], sectors[to]) : sectors[0];
+  const double wide = std::max(spread, ridge.path_turn);
+  const Ridge::Turn turn = ridge.is_on_path() && !is_joint ? ridge.turns[0].widened(wide) : ridge.turns[0];
   VertexFan fan;
-  fan.of_side = {0, most};
-  std::vector<std::int32_t>& all = fan.across.emplace_back();
+  std::vector<std::int32_t> all;
   for (std::int32_t i = 0; i <= most; ++i) {
     all.push_back(i);
     const Vec3 column = turn.direction(i * turn.angle / most), edge = ridge.edges[0].direction;
-    fan.directions.push_back(passes ? column + dot(column, ridge.mitre) * ridge.mitre
+    fan.directions.push_back(passes ? mitred(ridge, turn, static_cast<double>(i) / most)
                                     : column - dot(column, ridge.plane) / dot(edge, ridge.plane) * edge);
   }
-  if (passes) fan.across.push_back({all.rbegin(), all.rend()});
-  if (passes && sectors[0] != sectors[1]) join_pairs(ridge, sectors, fan);
+  fan.across.resize(ridge.edges.size());
+  fan.across[from] = all;
+  if (passes) fan.across[to] = {all.rbegin(), all.rend()};
+  fan.visibility = ridge.cone * std::cos(0.5 * std::max(0.0, turn.angle - ridge.turns[0].angle));
+  if (is_joint) {
+    if (sectors[from] != sectors[to]) return std::nullopt;
+    part_side(ridge, sectors[ridge.joint], wide, fan);
+  } else {
+    fan.of_side = {0, most};
+    if (passes && sectors[0] != sectors[1]) join_rows(ridge, turn, sectors, fan);
+  }
   return is_good(fan) ? std::optional(fan) : std::nullopt;
 }
 

@@ -19,10 +19,13 @@ struct VertexFan {
   std::vector<std::int32_t> of_side;
   std::vector<std::vector<std::int32_t>> across;       ///< by edge: columns from the left side to the right
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise seen from the fluid
+  double visibility = 1;  ///< least dot product of the outer columns with the normals of their sides
 };
 
-/// `sectors`: by edge, at least 1; of two edges they are equal or one is twice the other. Nothing where
+/// `sectors`: by edge, at least 1; of two edges they are equal or one is twice the other; at a joint those of
+/// the ridge are equal. `spread`: least angle between the outer columns of a path, in radians. Nothing where
 /// columns cannot see each other.
-std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors);
+std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors,
+                                         double spread);
 
 }  // namespace aeroloom::layers

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace aeroloom::layers {
@@ -32,7 +33,9 @@ struct VertexStars {
   EndPlaces ends;
 
   std::vector<Ridge> ridges;
-  std::int64_t lost_ridges = 0;        ///< vertices of this rank that sharp edges meet and that have no ridge
+  std::int64_t lost_ridges = 0;  ///< vertices of this rank that sharp edges meet and that have no ridge
+  /// Those of them at which a ridge ends off planes, with the other vertex of its edge.
+  std::vector<std::pair<std::int32_t, mesh::VertexName>> open_ends;
   std::vector<std::int32_t> ridge_of;  ///< by vertex: its ridge, or -1
   std::vector<RidgeSide> sides;        ///< by triangle and corner: the side of the ridge there
 
@@ -48,7 +51,8 @@ struct VertexStars {
   }
 };
 
-/// Collects the stars, with triangles of other pieces. Collective.
-VertexStars gather_stars(const LocalWall& wall);
+/// Collects the stars, with triangles of other pieces. `paths`: edges that are like those of ridges.
+/// Collective.
+VertexStars gather_stars(const LocalWall& wall, const PathEdges& paths = {});
 
 }  // namespace aeroloom::layers

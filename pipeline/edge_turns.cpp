@@ -12,8 +12,9 @@ namespace aeroloom::pipeline {
 namespace {
 
 // Chosen, not measured.
-constexpr int places = 7;
-/// An edge that turns by this much goes on with a sharp one that it meets.
+constexpr int places = 9;
+/// A sharp edge turns by this much all along: noses of lofted wings are smooth at the sections they are made
+/// from, however sharp they are in between. An edge that does goes on with a sharp one that it meets.
 constexpr double going_on = std::numbers::pi / 6;
 
 /// The faces that use an edge, and how; a face twice at a seam.
@@ -27,25 +28,30 @@ std::vector<std::vector<std::pair<cad::FaceId, cad::Coedge>>> uses_of_edges(cons
   return uses;
 }
 
-/// The largest turn at some places along an edge, in radians; negative where that is not known.
-double largest_turn(const cad::Model& model, cad::EdgeId id,
-                    const std::vector<std::pair<cad::FaceId, cad::Coedge>>& uses) {
+/// The turns at some places along an edge, in radians; negative where they are not known.
+struct Turns {
+  double least = -1, largest = -1;
+};
+
+Turns turns_along(const cad::Model& model, cad::EdgeId id,
+                  const std::vector<std::pair<cad::FaceId, cad::Coedge>>& uses) {
   const cad::Edge& edge = model.edge(id);
-  if (uses.size() != 2 || edge.degenerate) return -1;
-  if (model.is_faceted(uses[0].first) || model.is_faceted(uses[1].first)) return -1;
-  double largest = 0;
-  for (int i = 1; i <= places; ++i) {
+  if (uses.size() != 2 || edge.degenerate) return {};
+  if (model.is_faceted(uses[0].first) || model.is_faceted(uses[1].first)) return {};
+  Turns turns{std::numbers::pi, 0};
+  for (int i = 0; i < places; ++i) {
     const double parameter =
-        edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / (places + 1);
+        edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / (places - 1);
     const auto normal = [&](const auto& use) {
       return model.face_frame(use.first, model.edge_uv(use.first, use.second, parameter)).normal;
     };
     const geometry::Vec3 one = normal(uses[0]), other = normal(uses[1]);
     if (one == geometry::Vec3{} || other == geometry::Vec3{}) continue;  // a singular point
-    const double cosine = dot(one, other);
-    largest = std::max(largest, std::acos(std::clamp(cosine, -1.0, 1.0)));
+    const double turn = std::acos(std::clamp(dot(one, other), -1.0, 1.0));
+    turns.least = std::min(turns.least, turn);
+    turns.largest = std::max(turns.largest, turn);
   }
-  return largest;
+  return turns;
 }
 
 }  // namespace
@@ -53,7 +59,7 @@ double largest_turn(const cad::Model& model, cad::EdgeId id,
 std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model) {
   using layers::EdgeTurn;
   const auto uses = uses_of_edges(model);
-  std::vector<double> turns;
+  std::vector<Turns> turns;
   std::vector<EdgeTurn> found;
   std::vector<std::uint8_t> ends_sharp(model.vertex_count(), 0);  // by vertex
   const auto make_sharp = [&](std::size_t e) {
@@ -62,15 +68,15 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model) {
     ends_sharp[edge.first] = ends_sharp[edge.last] = 1;
   };
   for (std::size_t e = 0; e < uses.size(); ++e) {
-    turns.push_back(largest_turn(model, static_cast<cad::EdgeId>(e), uses[e]));
-    found.push_back(turns[e] < 0 ? EdgeTurn::unknown : EdgeTurn::smooth);
-    if (turns[e] >= layers::sharp_turn) make_sharp(e);
+    turns.push_back(turns_along(model, static_cast<cad::EdgeId>(e), uses[e]));
+    found.push_back(turns[e].largest < 0 ? EdgeTurn::unknown : EdgeTurn::smooth);
+    if (turns[e].largest >= layers::sharp_turn && turns[e].least >= going_on) make_sharp(e);
   }
   for (bool goes_on = true; goes_on;) {
     goes_on = false;
     for (std::size_t e = 0; e < uses.size(); ++e) {
       const cad::Edge& edge = model.edge(static_cast<cad::EdgeId>(e));
-      if (found[e] != EdgeTurn::smooth || turns[e] < going_on) continue;
+      if (found[e] != EdgeTurn::smooth || turns[e].least < going_on) continue;
       if (ends_sharp[edge.first] == 0 && ends_sharp[edge.last] == 0) continue;
       make_sharp(e);
       goes_on = true;
