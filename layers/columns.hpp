@@ -34,6 +34,9 @@ struct WallLayers {
 
 /// The cells made from layers: prisms, with pyramids and tetrahedra where counts differ; or tetrahedra only.
 enum class LayerElements : std::uint8_t { prisms, tets };
+/// Where sharp edges have fans. `closed`: where they close, meet in corners or end on planes; `all`: where
+/// they go on along paths on the wall too.
+enum class FanPlaces : std::uint8_t { none, closed, all };
 
 /// How the CAD surface turns over an edge.
 enum class EdgeTurn : std::uint8_t {
@@ -58,7 +61,8 @@ struct LayerOptions {
   /// them; nothing: on none.
   std::shared_ptr<const CurvedEnds> curved_ends;
   LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
-  std::vector<EdgeTurn> edges;                     ///< by CAD edge; missing ones are unknown
+  FanPlaces fans = FanPlaces::closed;
+  std::vector<EdgeTurn> edges;  ///< by CAD edge; missing ones are unknown
 };
 
 /// The sides on which inner faces of the patch have layers.

@@ -41,6 +41,7 @@ private:
         _fans.directions.emplace_back();
       }
       _fans.first.push_back(static_cast<std::int32_t>(_fans.directions.size()));
+      _fans.vertices.resize(_fans.directions.size(), v);
     }
     for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
       for (int i = 0; i < 3; ++i) {
@@ -134,11 +135,6 @@ private:
 
 }  // namespace
 
-std::int32_t Fans::vertex_of(std::int32_t column) const {
-  if (first.back() + 1 == static_cast<std::int32_t>(first.size())) return column;
-  return static_cast<std::int32_t>(std::upper_bound(first.begin(), first.end(), column) - first.begin()) - 1;
-}
-
 Fans without_fans(const LocalWall& wall) {
   Fans fans;
   const std::size_t n = wall.points.size();
@@ -149,10 +145,8 @@ Fans without_fans(const LocalWall& wall) {
   return fans;
 }
 
-Fans find_fans(const LocalWall& wall, const VertexStars& stars, const std::vector<VertexLayers>& wanted,
-               const std::vector<double>& edges, const std::vector<double>& reached) {
-  const Sectors sectors = count_sectors(wall, stars, wanted, edges, reached);
-  return FanFinder(wall, stars, sectors).find();
+Fans find_fans(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs) {
+  return FanFinder(wall, stars, count_sectors(wall, stars, needs)).find();
 }
 
 }  // namespace aeroloom::layers

@@ -280,6 +280,10 @@ bool has_good_apex(const FanColumns& fan) {
 
 }  // namespace
 
+bool has_good_first_layer(const FanColumns& fan) {
+  return is_good_layer(fan, 1);
+}
+
 double fitting_height(const FanColumns& fan) {
   constexpr double step = 0.95;
   const std::int32_t most = std::max(fan.over.counts[0], fan.over.counts[1]);

@@ -56,7 +56,10 @@ struct FanColumns {
 geometry::Vec3 sector_apex(const std::array<geometry::Vec3, 4>& top,
                            const std::array<geometry::Vec3, 4>& directions);
 
-/// The same for the cells over a face of a fan, whose corners must all span a positive volume.
+/// As fitting_height() of a triangle for the cells over a face of a fan, whose corners must all span a
+/// positive volume.
 double fitting_height(const FanColumns& fan);
+/// Whether those of the lowest one do.
+bool has_good_first_layer(const FanColumns& fan);
 
 }  // namespace aeroloom::layers

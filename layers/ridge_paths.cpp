@@ -33,7 +33,7 @@ constexpr double most_bend = 70 * degree, most_first_bend = 110 * degree, least_
 /// passes as so many.
 constexpr double joint_cost = 3;
 /// Edges over which the angle between the outer columns falls from that of the ridge.
-constexpr double fading = 5;
+constexpr double fading = 2;
 constexpr double least_seen = 0.3;
 
 /// What a path may do at a vertex.

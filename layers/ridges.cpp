@@ -16,10 +16,10 @@ using geometry::Vec3;
 constexpr double least_cone = 0.1;
 constexpr double most_turn = 1.15 * std::numbers::pi;
 constexpr std::size_t most_edges = 8;
-/// Height over the edge of the triangles beside it, in edges: what is flatter and reaches another CAD edge is
-/// of a strip that the mesh does not resolve, as a blunt edge one triangle wide. Its faces stay as oblique
-/// all the way up between two fans.
-constexpr double least_height = 0.2;
+/// A triangle beside an edge that reaches another CAD edge is of a strip, as a blunt edge one triangle wide.
+/// Between upright columns it would stay as narrow all the way up; so these lean apart, by this angle where
+/// it is flat, and less up to where it is as high as this, in edges.
+constexpr double most_lean = std::numbers::pi / 9, flat_height = 0.2, high_height = 0.6;
 
 class RidgeFinder {
 public:
@@ -60,9 +60,6 @@ private:
     _ridge.lowest = {_star[0].piece, _star[0].cell};
     for (const StarTriangle& t : _star)
       _ridge.lowest = std::min(_ridge.lowest, TrianglePlace{t.piece, t.cell});
-    for (std::size_t e = 0; e < _edges.size(); ++e) {
-      if (_is_path[e] == 0 && is_beside_strip(_edges[e])) return false;
-    }
     if (!part(sides)) return false;
     if (paths > 0) {
       for (const PathEdge& path : _centre.paths) _ridge.path_turn = std::max(_ridge.path_turn, path.turn);
@@ -93,19 +90,25 @@ private:
     if (_centre.turn == EdgeTurn::smooth) return false;
     const auto turn = static_cast<EdgeTurn>(l.edge_turn);
     if (turn == EdgeTurn::smooth) return false;
-    const bool is_sharp = turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp;
+    // An edge within a face may lead from one sharp CAD edge to another.
+    const bool is_sharp = (turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp) && l.face != r.face;
     return dot(r.normal, l.normal) < std::cos(is_sharp ? least_turn : sharp_turn) &&
            dot(cross(r.normal, l.normal), l.next_point - _vertex) < 0;
   }
 
-  bool is_beside_strip(std::size_t edge) const {
-    const auto is_flat = [&](const StarTriangle& from_corner) {
-      if (static_cast<EdgeTurn>(from_corner.edge_turn) == EdgeTurn::smooth) return false;
-      const Vec3 side = left(edge).next_point - _vertex;
-      return norm(cross(side, from_corner.next_point - _vertex)) < least_height * dot(side, side);
-    };
+  /// How the column over the side on the left or right of an edge leans away from it, as a vector along the
+  /// wall as long as the angle's tangent.
+  Vec3 lean_at(std::size_t edge, bool on_left) const {
     const std::size_t n = _star.size();
-    return is_flat(_star[(edge + 1) % n]) || is_flat(_star[(edge + n - 1) % n]);
+    const StarTriangle& beside = on_left ? left(edge) : right(edge);
+    const StarTriangle& apex = _star[on_left ? (edge + 1) % n : (edge + n - 1) % n];
+    if (beside.wall_role() != WallRole::layered || static_cast<EdgeTurn>(apex.edge_turn) == EdgeTurn::smooth)
+      return {};
+    const Vec3 side = left(edge).next_point - _vertex;
+    const double height = norm(cross(side, apex.next_point - _vertex)) / dot(side, side);
+    const double part = std::clamp((high_height - height) / (high_height - flat_height), 0.0, 1.0);
+    const Vec3 outwards = normalized(cross(side, beside.normal));
+    return std::tan(part * most_lean) * (on_left ? outwards : -outwards);
   }
 
   /// Turns from the left to the right of an edge, each with a direction at right angles to it.
@@ -121,8 +124,12 @@ private:
     if (turn.angle < 0) turn.angle += 2 * std::numbers::pi;
     return turn;
   }
-  /// Paths lie on walls that may turn by little, or to the other side.
-  bool is_sound(Ridge::Turn& turn) const {
+  /// Paths lie on walls that may turn by little, or to the other side, and ridges may end so.
+  bool is_sound(Ridge::Turn& turn) {
+    constexpr double most_concave = std::numbers::pi / 6;
+    if (!_ridge.is_on_path() && !_ridge.is_corner() && _ridge.joint < 0 &&
+        (turn.angle < 0.5 * least_turn || turn.angle > 2 * std::numbers::pi - most_concave))
+      _ridge.path_turn = 0.01;
     if (_ridge.is_on_path() && _ridge.joint < 0) {
       if (turn.angle > std::numbers::pi) turn.angle -= 2 * std::numbers::pi;
       return std::abs(turn.angle) <= most_turn;
@@ -155,6 +162,7 @@ private:
       _ridge.cone = std::min(_ridge.cone, cone.visibility);
       _ridge.sides.push_back(cone.axis);
     }
+    lean_over_strips(normals);
     for (std::size_t e = 0; e < _edges.size(); ++e) {
       const StarTriangle &l = left(_edges[e]), &r = right(_edges[e]);
       _ridge.edges.push_back({l.next,
@@ -172,15 +180,40 @@ private:
     return _ridge.cone >= least_cone;
   }
 
+  /// Columns over strips lean apart.
+  void lean_over_strips(const std::vector<std::vector<Vec3>>& normals) {
+    for (std::size_t side = 0; side < _ridge.sides.size(); ++side) {
+      Vec3 lean;
+      const auto add = [&](std::size_t edge, bool on_left) {
+        const Vec3 here = _is_path[edge] != 0 ? Vec3{} : lean_at(_edges[edge], on_left);
+        if (norm(here) > norm(lean)) lean = here;
+      };
+      const std::size_t on_right = (side + 1) % _ridge.sides.size();
+      if (side < _edges.size()) add(side, true);
+      if (on_right < _edges.size()) add(on_right, false);
+      if (lean == Vec3{}) continue;
+      Vec3& column = _ridge.sides[side];
+      column = normalized(column + lean);
+      for (const Vec3 normal : normals[side]) _ridge.cone = std::min(_ridge.cone, dot(column, normal));
+    }
+  }
+
   /// One turn, from side to side: on a plane about the edge, else at right angles to the bisector of both.
   bool turn_along() {
-    constexpr double least_passing = 0.3;  // cosine between edge and plane's normal
-    constexpr double least_mitre = 0.5;    // cosine of half the bend; columns get twice as long at most
+    constexpr double least_passing = 0.02;  // cosine between edge and plane's normal
+    constexpr double least_mitre = 0.5;     // cosine of half the bend; columns get twice as long at most
     if (_ridge.on_plane) {
       const Vec3 first = _ridge.edges[0].direction;
       _ridge.plane = _plane;
-      _ridge.turns.push_back(turn_about(first, _ridge.sides[0], _ridge.sides[1]));
-      return is_sound(_ridge.turns[0]) && std::abs(dot(first, _plane)) > least_passing;
+      const double passing = dot(first, _plane);
+      Vec3 about = first;
+      if (std::abs(passing) < least_mitre) {
+        // As if its mirror image went on beyond the plane.
+        about = passing < 0 ? -_plane : _plane;
+        _ridge.mitre = std::sqrt(1 / least_mitre - 1) * normalized(first - passing * _plane);
+      }
+      _ridge.turns.push_back(turn_about(about, _ridge.sides[0], _ridge.sides[1]));
+      return is_sound(_ridge.turns[0]) && std::abs(passing) > least_passing;
     }
     // Of a ridge that a path meets, the two edges and sides without it.
     const bool joins = _ridge.joint >= 0;
@@ -193,7 +226,17 @@ private:
     if (norm(bend) > 0) _ridge.mitre = std::sqrt(1 / std::max(cosine, least_mitre) - 1) * normalized(bend);
     _ridge.turns.push_back(
         turn_about(normalized(first - second), joins ? _joint_side : _ridge.sides[0], _ridge.sides[to]));
+    if (!joins && _is_path[0] != _is_path[1]) lean_along(normalized(first - second));
     return is_sound(_ridge.turns[0]);
+  }
+
+  /// Where a ridge ends in a corner of the wall, sides do not stand at right angles to it.
+  void lean_along(Vec3 along) {
+    constexpr double most_ahead = 1;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double ahead = dot(_ridge.sides[side], along), across = norm(_ridge.sides[side] - ahead * along);
+      _ridge.ahead[side] = std::clamp(ahead / across, -most_ahead, most_ahead);
+    }
   }
 
   bool turn_by_edge() {

@@ -3,6 +3,7 @@
 
 #include "layers/star_triangle.hpp"
 
+#include <array>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -39,6 +40,8 @@ struct Ridge {
   /// Of a ridge that passes: column c is longer by (c . mitre) mitre, so that it is as high seen along both
   /// edges.
   geometry::Vec3 mitre;
+  /// Where a ridge goes over to a path: tangents of the angles by which the outer columns lean along it.
+  std::array<double, 2> ahead{};
   geometry::Vec3 plane;  ///< unit normal, where the ridge ends on a plane
   double cone = 1;       ///< least cosine of the angle between a side's mean normal and the normals there
   TrianglePlace lowest;  ///< of the star

@@ -15,7 +15,8 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double widest_sector = 35 * std::numbers::pi / 180;
+/// Wider ones are flat triangles, invalid where the fans of neighbours are twisted.
+constexpr double widest_sector = 35 * std::numbers::pi / 180, widest_of_all = 75 * std::numbers::pi / 180;
 /// Keys of columns have eight bits for their number; a corner of three ridges has about as many columns as a
 /// disc around which 60 sectors lie.
 constexpr std::int32_t most_sectors = 24, most_columns = 255;
@@ -25,8 +26,11 @@ constexpr double widest_end = 2.5, narrowest_end = 0.3;
 constexpr auto more = [](auto a, auto b) { return std::max(a, b); };
 constexpr auto fewer = [](auto a, auto b) { return std::min(a, b); };
 
-std::int32_t sectors_by_turn(double turn) {
-  return static_cast<std::int32_t>(std::clamp(std::ceil(turn / widest_sector), 1.0, double{most_sectors}));
+std::int32_t sectors_by_turn(double turn, double widest) {
+  return static_cast<std::int32_t>(std::clamp(std::ceil(turn / widest), 1.0, double{most_sectors}));
+}
+std::int32_t least_at(double turn) {
+  return sectors_by_turn(turn, widest_of_all);
 }
 std::int32_t sectors_by_front(double turn, double height, double width) {
   return static_cast<std::int32_t>(std::clamp(std::ceil(turn * height / width), 1.0, double{most_sectors}));
@@ -34,13 +38,13 @@ std::int32_t sectors_by_front(double turn, double height, double width) {
 
 class SectorCounter {
 public:
-  SectorCounter(const LocalWall& wall, const VertexStars& stars, const std::vector<VertexLayers>& wanted,
-                const std::vector<double>& edges, const std::vector<double>& reached)
+  SectorCounter(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs)
       : _wall(wall),
         _stars(stars),
-        _wanted(wanted),
-        _edges(edges),
-        _reached(reached),
+        _wanted(needs.wanted),
+        _edges(needs.edges),
+        _reached(needs.reached),
+        _halvings(needs.halvings),
         _names(wall.vertex_names()) {}
 
   Sectors count() {
@@ -48,9 +52,9 @@ public:
     ask();
     drop_open_rims();
     drop_all_if_one_is_open();
-    agree_along_ridges();
-    go_on_along_paths();
-    fit_to_heights();
+    agree_along_ridges(more);
+    halve();
+    agree_along_ridges(fewer);
     make_fans();
     return std::move(_sectors);
   }
@@ -98,8 +102,10 @@ private:
           continue;
         }
         const double turn = turn_at(*ridge, e);
-        _by_slot[e][v] =
-            std::max(sectors_by_turn(turn), sectors_by_front(turn, height, widest_end * _edges[v]));
+        const std::int32_t full = std::max(sectors_by_turn(turn, widest_sector),
+                                           sectors_by_front(turn, height, widest_end * _edges[v]));
+        _by_slot[e][v] = std::min(
+            full, std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _edges[v])));
       }
     }
   }
@@ -111,13 +117,14 @@ private:
   bool has_fan(const RidgeEdge& edge, int end) const {
     return edge.slots[end] >= 0 && _by_slot[edge.slots[end]][edge.ends[end]] > 0;
   }
-  /// Along a ridge that passes, both its edges; a path that goes on there does not count.
-  void raise(std::int32_t vertex, std::int32_t slot, std::int32_t count) {
+  /// Along a ridge that passes, and where it goes on along a path, both edges; a path that meets a ridge has
+  /// a number of its own.
+  void set(std::int32_t vertex, std::int32_t slot, std::int32_t count) {
     const Ridge& ridge = *_stars.ridge_at(vertex);
-    const bool is_alone = ridge.is_corner() || ridge.edges[slot].is_path;
+    const bool is_alone = ridge.is_corner() || slot == ridge.joint;
     for (std::size_t e = 0; e < ridge.edges.size(); ++e) {
       const auto other = static_cast<std::int32_t>(e);
-      if (other == slot || (!is_alone && !ridge.edges[e].is_path)) count_of(vertex, other) = count;
+      if (other == slot || (!is_alone && other != ridge.joint)) count_of(vertex, other) = count;
     }
   }
 
@@ -162,97 +169,36 @@ private:
     }
   }
 
-  /// All edges of a ridge as many as that with most.
-  void agree_along_ridges() {
+  /// All edges of a ridge as many as that with most, or with fewest.
+  template <class Op>
+  void agree_along_ridges(const Op& op) {
     repeat_over_edges(
         [&](const RidgeEdge& edge) {
           if (!has_fan(edge, 0) || !has_fan(edge, 1)) return false;
           const std::int32_t a = count_of(edge.ends[0], edge.slots[0]),
                              b = count_of(edge.ends[1], edge.slots[1]);
-          for (int end = 0; end < 2; ++end) raise(edge.ends[end], edge.slots[end], std::max(a, b));
+          for (int end = 0; end < 2; ++end) set(edge.ends[end], edge.slots[end], op(a, b));
           return a != b;
         },
-        more);
+        op);
   }
 
-  /// A path has as many sectors as the ridge that it starts at, then half of them, and so on.
-  void go_on_along_paths() {
-    const auto is_path = [&](std::int32_t v, std::int32_t slot) {
-      return _stars.ridge_at(v)->edges[slot].is_path;
-    };
+  /// Halves numbers where they are to be fewer, down to the least.
+  void halve() {
     for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
       const Ridge* ridge = _stars.ridge_at(v);
-      if (ridge == nullptr) continue;
+      if (ridge == nullptr || _halvings[v] == 0) continue;
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
-        if (ridge->edges[e].is_path && _by_slot[e][v] > 0) _by_slot[e][v] = 1;
+        std::int32_t& count = _by_slot[e][v];
+        if (ridge->edges[e].is_path || count == 0) continue;
+        const std::int32_t least = std::min(count, least_at(turn_at(*ridge, e)));
+        for (std::int32_t i = 0; i < _halvings[v]; ++i) count = halved(count);
+        count = std::max(count, least);
       }
     }
-    repeat_over_edges(
-        [&](const RidgeEdge& edge) {
-          if (!has_fan(edge, 0) || !has_fan(edge, 1) || !is_path(edge.ends[0], edge.slots[0])) return false;
-          std::int32_t most = 0, least = most_sectors;
-          for (int end = 0; end < 2; ++end) {
-            const std::int32_t v = edge.ends[end], slot = edge.slots[end], here = count_of(v, slot);
-            most = std::max(most, here), least = std::min(least, here);
-            const Ridge& ridge = *_stars.ridge_at(v);
-            if (ridge.edges.size() != 2) continue;
-            const std::int32_t before = count_of(v, 1 - slot);
-            most = std::max(most, is_path(v, 1 - slot) ? halved(before) : before);
-          }
-          for (int end = 0; end < 2; ++end) count_of(edge.ends[end], edge.slots[end]) = most;
-          return most != least;
-        },
-        more);
-    _full = _by_slot;
-  }
-  /// Numbers along a ridge are the full one, half of it, and so on, so that most vertices have as many on
-  /// both sides.
-  static std::int32_t halved(std::int32_t count) { return (count + 1) / 2; }
-  /// The least of these numbers from `count` on.
-  std::int32_t level_from(std::int32_t v, std::int32_t slot, std::int32_t count) const {
-    std::int32_t level = _full[slot][v];
-    while (level > 1 && halved(level) >= count) level = halved(level);
-    return level;
-  }
-  /// The largest of them up to `count`, at least 1.
-  std::int32_t level_up_to(std::int32_t v, std::int32_t slot, std::int32_t count) const {
-    std::int32_t level = _full[slot][v];
-    while (level > count) level = halved(level);
-    return level;
   }
 
-  /// Fewer where columns are low: the largest number that the heights ask for at both ends.
-  void fit_to_heights() {
-    const auto lower = [&](std::int32_t v, std::int32_t slot, std::int32_t count) {
-      std::int32_t& present = count_of(v, slot);
-      if (present <= count) return false;
-      present = count;
-      return true;
-    };
-    repeat_over_edges(
-        [&](const RidgeEdge& edge) {
-          bool changes = false;
-          for (int end = 0; end < 2; ++end) {
-            const std::int32_t v = edge.ends[end], slot = edge.slots[end];
-            if (!has_fan(edge, end)) continue;
-            const Ridge& ridge = *_stars.ridge_at(v);
-            const double turn = turn_at(ridge, static_cast<std::size_t>(slot));
-            const std::int32_t wanted =
-                std::min(count_of(edge.ends[1 - end], edge.slots[1 - end]),
-                         sectors_by_front(turn, _reached[v], narrowest_end * _edges[v]));
-            changes = lower(v, slot, level_from(v, slot, wanted)) || changes;
-            if (ridge.is_corner() || ridge.on_plane) continue;
-            if (ridge.joint >= 0) {
-              const std::int32_t other = 3 - slot - ridge.joint;
-              if (slot != ridge.joint) changes = lower(v, other, count_of(v, slot)) || changes;
-              continue;
-            }
-            changes = lower(v, 1 - slot, level_up_to(v, 1 - slot, 2 * count_of(v, slot))) || changes;
-          }
-          return changes;
-        },
-        fewer);
-  }
+  static std::int32_t halved(std::int32_t count) { return (count + 1) / 2; }
 
   /// Where columns of a vertex cannot see each other, its ridges have no fans.
   void make_fans() {
@@ -272,7 +218,7 @@ private:
     if (ridge == nullptr || _by_slot[0][v] == 0) return true;
     std::vector<std::int32_t> sectors;
     for (std::size_t e = 0; e < ridge->edges.size(); ++e) sectors.push_back(_by_slot[e][v]);
-    std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors, spread_at(v));
+    std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors);
     if (!fan || static_cast<std::int32_t>(fan->directions.size()) > most_columns) {
       for (std::vector<std::int32_t>& counts : _by_slot) counts[v] = 0;
       return false;
@@ -284,20 +230,14 @@ private:
     return true;
   }
 
-  /// The angle over which the outer columns of a path are about an edge apart at their ends, in radians.
-  double spread_at(std::int32_t v) const {
-    constexpr double width = 0.7, least = 0.1, most = 0.8;  // in edges, radians; chosen, not measured
-    const double height = std::min(_reached[v], wanted_height(_wanted[v], _edges[v]));
-    return height > 0 ? std::clamp(width * _edges[v] / height, least, most) : most;
-  }
-
   const LocalWall& _wall;
   const VertexStars& _stars;
   const std::vector<VertexLayers>& _wanted;
   const std::vector<double>&_edges, &_reached;
+  const std::vector<std::int32_t>& _halvings;
   std::vector<mesh::VertexName> _names;
   /// By place among Ridge::edges and by vertex: the number over that edge; 0: no fan.
-  std::vector<std::vector<std::int32_t>> _by_slot, _full;  // _full: before numbers fall
+  std::vector<std::vector<std::int32_t>> _by_slot;
   Sectors _sectors;
 };
 
@@ -312,10 +252,8 @@ double wanted_height(const VertexLayers& asked, double edge) {
       fitted.count);
 }
 
-Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
-                      const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
-                      const std::vector<double>& reached) {
-  return SectorCounter(wall, stars, wanted, edges, reached).count();
+Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs) {
+  return SectorCounter(wall, stars, needs).count();
 }
 
 }  // namespace aeroloom::layers

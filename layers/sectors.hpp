@@ -31,16 +31,23 @@ struct Sectors {
   }
 };
 
-/// Edges of a ridge have as many sectors as the turn asks for where it is largest, at most 35 degrees each,
-/// and as the front: over columns of the wanted heights a sector is at most two and a half edges wide.
-/// `reached`: by vertex, the height that limits leave to columns much lower than wanted, else infinite; where
-/// sectors would be too narrow over these there is a half, a quarter and so on. Along paths their number is
-/// halved from edge to edge. Ridges must close, end on planes, or go on along paths: a sector cannot end on a
-/// wall, as the first layer would need cells with faces along it. Where one ridge does not, none has sectors;
-/// where the free rim of a baffle does not, it has none. Collective.
-Sectors count_sectors(const LocalWall& wall, const VertexStars& stars,
-                      const std::vector<VertexLayers>& wanted, const std::vector<double>& edges,
-                      const std::vector<double>& reached);
+/// What numbers of sectors follow from, by vertex.
+struct FanNeeds {
+  const std::vector<VertexLayers>& wanted;
+  const std::vector<double>& edges;  ///< smooth_mean_edges()
+  /// The height that limits leave to columns much lower than wanted, else infinite.
+  const std::vector<double>& reached;
+  const std::vector<std::int32_t>& halvings;  ///< how often the number is to be halved
+};
+
+/// Edges of a ridge have all as many sectors, as the turn asks for where it is largest, at most 35 degrees
+/// each, and as the front: over columns of the wanted heights a sector is at most two and a half edges wide,
+/// and where the whole ridge is low, over those that are reached, at least 0.3 edges. Never is a sector wider
+/// than 75 degrees. Paths have as many as the ridges that they join. Ridges must close, end on planes, or go
+/// on along paths: a sector cannot end on a wall, as the first layer would need cells with faces along
+/// it. Where one ridge does not, none has sectors; where the free rim of a baffle does not, it has none.
+/// Collective.
+Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs);
 
 /// The height of a column that is as high as wanted.
 double wanted_height(const VertexLayers& asked, double edge);

@@ -4,11 +4,17 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <numeric>
 
 namespace aeroloom::layers {
 namespace {
 
 using geometry::Vec3;
+
+/// Of a sector on a path, in radians: half an edge wide at the height of isotropic layers; chosen, not
+/// measured. The same everywhere: long cells that taper and are twisted have their centres elsewhere along
+/// the edge than their neighbours.
+constexpr double path_sector = 0.1;
 
 /// Along the arc from a unit vector to another.
 Vec3 between(Vec3 a, Vec3 b, double at) {
@@ -80,6 +86,24 @@ private:
   std::vector<std::int32_t> _outer;
 };
 
+/// The angles between rays of these lengths whose ends, with the centre, span triangles of equal areas.
+template <class Radius>
+std::vector<double> equal_triangles(const Radius& radius, std::int32_t sectors, double turn) {
+  std::vector<double> products(sectors), angles(sectors);
+  for (std::int32_t i = 0; i < sectors; ++i) products[i] = radius(i) * radius(i + 1);
+  double low = 0, high = *std::min_element(products.begin(), products.end());
+  for (int halving = 0; halving < 60; ++halving) {
+    const double doubled_area = 0.5 * (low + high);
+    double sum = 0;
+    for (std::int32_t i = 0; i < sectors; ++i) sum += angles[i] = std::asin(doubled_area / products[i]);
+    (sum < turn ? low : high) = doubled_area;
+  }
+  // Where no sector may be as wide as a right angle the areas stay unequal.
+  const double sum = std::accumulate(angles.begin(), angles.end(), 0.0);
+  for (double& angle : angles) angle *= turn / sum;
+  return angles;
+}
+
 /// Parts an edge's turn into sectors, from the column of the left side to that of the right, both included.
 /// Seen along the edge the triangles between them have equal areas: over a long flat cell the centres of
 /// neighbours would else lie apart along the edge by more than the cells are wide.
@@ -105,13 +129,11 @@ std::optional<std::vector<Vec3>> part_turn(const Ridge::Turn& turn, Vec3 left, V
   const auto radius = [&](std::int32_t i) {
     return first.radius + (last.radius - first.radius) * i / sectors;
   };
-  double sum = 0;
-  for (std::int32_t i = 0; i < sectors; ++i) sum += 1 / (radius(i) * radius(i + 1));
+  const std::vector<double> angles = equal_triangles(radius, sectors, last.angle - first.angle);
   std::vector<Vec3> directions{left};
-  double part = 0;
+  double angle = first.angle;
   for (std::int32_t i = 1; i < sectors; ++i) {
-    part += 1 / (radius(i - 1) * radius(i)) / sum;
-    const double angle = first.angle + part * (last.angle - first.angle);
+    angle += angles[i - 1];
     directions.push_back(radius(i) * turn.direction(angle) +
                          (first.ahead + (last.ahead - first.ahead) * i / sectors) * along);
   }
@@ -165,65 +187,17 @@ std::optional<VertexFan> fill_corner(const Ridge& ridge, std::span<const std::in
 /// The column at a part of a turn, as long as the ridge's mitre makes it.
 Vec3 mitred(const Ridge& ridge, const Ridge::Turn& turn, double part) {
   const Vec3 column = turn.direction(part * turn.angle);
-  return column + dot(column, ridge.mitre) * ridge.mitre;
-}
-
-/// Where the numbers of sectors differ, each edge has a row of columns of its own between those of both
-/// sides, which lean towards it, and triangles lie between the rows. Each lies beside two others: a cell with
-/// three neighbours along the edge would leave solvers no gradient across.
-void join_rows(const Ridge& ridge, const Ridge::Turn& turn, std::span<const std::int32_t> sectors,
-               VertexFan& fan) {
-  constexpr double lean = 0.4;  // of a sector's width; chosen, not measured
-  const double slope = std::tan(lean * turn.angle / std::max(sectors[0], sectors[1]));
-  fan.directions = {mitred(ridge, turn, 0), mitred(ridge, turn, 1)};
-  fan.of_side = {0, 1};
-  std::array<std::vector<std::int32_t>, 2> rows;  // by edge, both from the left of the first
-  for (const std::size_t e : {0, 1}) {
-    rows[e].push_back(0);
-    for (std::int32_t i = 1; i < sectors[e]; ++i) {
-      rows[e].push_back(static_cast<std::int32_t>(fan.directions.size()));
-      fan.directions.push_back(mitred(ridge, turn, static_cast<double>(i) / sectors[e]) +
-                               slope * ridge.edges[e].direction);
-    }
-    rows[e].push_back(1);
-  }
-  const std::vector<std::int32_t>&ahead = rows[0], &behind = rows[1];
-  const std::size_t last_ahead = ahead.size() - 1, last_behind = behind.size() - 1;
-  if (last_ahead == 1 || last_behind == 1) {
-    std::vector<std::int32_t> ring(behind);
-    ring.insert(ring.end(), ahead.rbegin() + 1, ahead.rend() - 1);
-    Vec3 sum;
-    for (const std::int32_t c : ring) sum += fan.directions[c];
-    const auto middle = static_cast<std::int32_t>(fan.directions.size());
-    fan.directions.push_back(sum / static_cast<double>(ring.size()));
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      fan.triangles.push_back({ring[i], ring[(i + 1) % ring.size()], middle});
-  } else {
-    std::size_t i = 1, j = 1;
-    fan.triangles.push_back({behind[0], behind[1], ahead[1]});
-    while (i + 1 < last_ahead || j + 1 < last_behind) {
-      if (i + 1 == last_ahead ||
-          (j + 1 < last_behind && (2 * j + 1) * last_ahead <= (2 * i + 1) * last_behind)) {
-        fan.triangles.push_back({behind[j], behind[j + 1], ahead[i]});
-        ++j;
-      } else {
-        fan.triangles.push_back({ahead[i + 1], ahead[i], behind[j]});
-        ++i;
-      }
-    }
-    fan.triangles.push_back({behind[j], behind[j + 1], ahead[i]});
-  }
-  fan.across[0] = rows[0];
-  fan.across[1] = {rows[1].rbegin(), rows[1].rend()};
+  const double ahead = (1 - part) * ridge.ahead[0] + part * ridge.ahead[1];
+  return column + dot(column, ridge.mitre) * ridge.mitre + ahead * cross(turn.normal, turn.across);
 }
 
 /// Where a path meets a ridge that passes: the first column becomes a row of them along the ridge, from the
 /// side on the right of the path to that on its left, and triangles lie between these and the next column.
-void part_side(const Ridge& ridge, std::int32_t sectors, double spread, VertexFan& fan) {
+void part_side(const Ridge& ridge, std::int32_t sectors, VertexFan& fan) {
   const auto joint = static_cast<std::size_t>(ridge.joint), from = (joint + 2) % 3, to = (from + 2) % 3;
   const Vec3 along = normalized(ridge.edges[from].direction - ridge.edges[to].direction),
              column = fan.directions[0];
-  const double reach = std::tan(0.5 * spread);
+  const double reach = std::tan(0.5 * std::max(sectors * path_sector, ridge.path_turn));
   std::vector<std::int32_t>& across = fan.across[joint];
   for (std::int32_t i = 0; i <= sectors; ++i) {
     const std::int32_t at = i == 0 ? 0 : static_cast<std::int32_t>(fan.directions.size());
@@ -242,8 +216,7 @@ void part_side(const Ridge& ridge, std::int32_t sectors, double spread, VertexFa
 
 }  // namespace
 
-std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors,
-                                         double spread) {
+std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors) {
   if (ridge.is_corner()) {
     std::optional<VertexFan> fan = fill_corner(ridge, sectors);
     if (!fan || !is_good(*fan)) return std::nullopt;
@@ -254,27 +227,27 @@ std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std
   const std::size_t from = is_joint ? (static_cast<std::size_t>(ridge.joint) + 2) % 3 : 0,
                     to = is_joint ? (from + 2) % 3 : 1;
   const bool passes = ridge.edges.size() > 1;
-  const std::int32_t most = passes ? std::max(sectors[from], sectors[to]) : sectors[0];
-  const double wide = std::max(spread, ridge.path_turn);
+  if (passes && sectors[from] != sectors[to]) return std::nullopt;
+  const std::int32_t most = sectors[from];
+  const double wide = std::max(most * path_sector, ridge.path_turn);
   const Ridge::Turn turn = ridge.is_on_path() && !is_joint ? ridge.turns[0].widened(wide) : ridge.turns[0];
   VertexFan fan;
   std::vector<std::int32_t> all;
   for (std::int32_t i = 0; i <= most; ++i) {
     all.push_back(i);
     const Vec3 column = turn.direction(i * turn.angle / most), edge = ridge.edges[0].direction;
-    fan.directions.push_back(passes ? mitred(ridge, turn, static_cast<double>(i) / most)
-                                    : column - dot(column, ridge.plane) / dot(edge, ridge.plane) * edge);
+    const bool is_in_plane = passes || !(ridge.mitre == Vec3{});
+    fan.directions.push_back(is_in_plane ? mitred(ridge, turn, static_cast<double>(i) / most)
+                                         : column - dot(column, ridge.plane) / dot(edge, ridge.plane) * edge);
   }
   fan.across.resize(ridge.edges.size());
   fan.across[from] = all;
   if (passes) fan.across[to] = {all.rbegin(), all.rend()};
   fan.visibility = ridge.cone * std::cos(0.5 * std::max(0.0, turn.angle - ridge.turns[0].angle));
   if (is_joint) {
-    if (sectors[from] != sectors[to]) return std::nullopt;
-    part_side(ridge, sectors[ridge.joint], wide, fan);
+    part_side(ridge, sectors[ridge.joint], fan);
   } else {
     fan.of_side = {0, most};
-    if (passes && sectors[0] != sectors[1]) join_rows(ridge, turn, sectors, fan);
   }
   return is_good(fan) ? std::optional(fan) : std::nullopt;
 }

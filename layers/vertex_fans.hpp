@@ -12,8 +12,7 @@
 namespace aeroloom::layers {
 
 /// Columns over the sides of a ridge, those that part the turn over each of its edges into sectors, and,
-/// where the numbers of two edges differ or more than two meet, triangles between columns, whose cells fill
-/// what the sectors leave.
+/// where more than two edges meet, triangles between columns, whose cells fill what the sectors leave.
 struct VertexFan {
   std::vector<geometry::Vec3> directions;  ///< seen along an edge, of about unit length
   std::vector<std::int32_t> of_side;
@@ -22,10 +21,8 @@ struct VertexFan {
   double visibility = 1;  ///< least dot product of the outer columns with the normals of their sides
 };
 
-/// `sectors`: by edge, at least 1; of two edges they are equal or one is twice the other; at a joint those of
-/// the ridge are equal. `spread`: least angle between the outer columns of a path, in radians. Nothing where
-/// columns cannot see each other.
-std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors,
-                                         double spread);
+/// `sectors`: by edge, at least 1; equal on both edges of a ridge that passes. Nothing where columns cannot
+/// see each other.
+std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors);
 
 }  // namespace aeroloom::layers

@@ -253,9 +253,8 @@ std::vector<FoamSetting> foam_dictionaries(bool has_fans) {
   const std::string first = fmt::format(schemes, "default cellLimited Gauss linear 1;", "upwind"),
                     gradients = fmt::format(
                         "default cellLimited Gauss linear 1;\n"
-                        "                  grad(p) cellLimited {} 0.5;\n"
-                        "                  convected cellLimited {} 0.5;",
-                        has_fans ? "leastSquares" : "Gauss pointLinear",
+                        "                  grad(p) cellLimited {0} 0.5;\n"
+                        "                  convected cellLimited {0} 0.5;",
                         has_fans ? "Gauss linear" : "Gauss pointLinear"),
                     second = fmt::format(schemes, gradients, "linearUpwind convected");
   add("system", "fvSchemes", first);

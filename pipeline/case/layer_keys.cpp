@@ -88,6 +88,14 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
                              {{"prisms", LayerElements::prisms}, {"tets", LayerElements::tets}},
                              "Cells of the layers. `prisms`: also pyramids and tetrahedra where neighbours "
                              "have different numbers of layers. `tets`: all of these cut into tetrahedra.");
+  using layers::FanPlaces;
+  keys.choice<FanPlaces>(
+      "fans", request.fans,
+      {{"none", FanPlaces::none}, {"closed", FanPlaces::closed}, {"all", FanPlaces::all}},
+      "Where sharp edges have several columns with hexahedra between. `closed`: where all of them close, "
+      "meet "
+      "in corners or end on planes. `all`: also where they go on along paths on the wall, as a wing's "
+      "trailing edge on a fuselage; for vertex-centred solvers.");
 }
 
 void declare_layer_gate(KeyTable& keys, LayerGate& gate) {

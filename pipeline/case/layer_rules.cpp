@@ -177,6 +177,7 @@ layers::LayerOptions layer_options(const LayerRequest& request, const SizingRequ
   options.patches.resize(patches.size());
   options.ends_on_planes = true;
   options.elements = request.elements;
+  options.fans = request.fans;
   if (!request.given) return options;
   const layers::WallLayers wanted = wanted_layers(request, sizing);
   for (std::size_t p = 0; p < patches.size() && request.walls == LayeredWalls::all; ++p) {

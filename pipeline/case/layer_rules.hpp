@@ -50,6 +50,7 @@ struct LayerRequest {
   LayerEnd until = LayerEnd::isotropic;
   LayerFit fit = LayerFit::none;
   layers::LayerElements elements = layers::LayerElements::prisms;
+  layers::FanPlaces fans = layers::FanPlaces::closed;
   LayerGate gate;
   std::vector<LayerRule> patches;
 };

@@ -5,8 +5,10 @@
 #include "tests/layers/checked_layers.hpp"
 #include "tests/several_ranks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace aeroloom::layers {
 namespace {
@@ -110,6 +112,7 @@ TEST(Fans, GoOnWhereARidgeIsOpen) {
   LayerOptions options = options_for({0, 1e-4});
   options.edges.assign(edge_number + 1, EdgeTurn::sharp);
   options.edges[edge_number] = EdgeTurn::smooth;
+  options.fans = FanPlaces::all;
   const Layers layers = build(mesh, options);
   expect_valid(mesh, layers);
   EXPECT_GT(layers.report.patches[1].hexahedra, 1000);
@@ -147,6 +150,77 @@ TEST(Fans, HaveFewerSectorsWhereColumnsAreLow) {
   };
   EXPECT_LT(fewest(true), fewest(false));
   EXPECT_GE(fewest(true), 2);
+}
+
+/// A box with a nose of 37 degrees before it, along which the CAD is smooth. The edges of its flat ends bend
+/// there by 143 degrees.
+mesh::DistributedMesh nosed_box(const Communicator& communicator) {
+  mesh::DistributedMesh mesh = Shapes()
+                                   .add_sphere({0, 0.5, 0.5}, 12, 8, Fluid::inside)
+                                   .add_box({0, 0, 0}, {2, 1, 1}, {4, 4, 2}, Fluid::outside)
+                                   .distribute(communicator, 5);
+  for (mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
+      const Vec3 p = piece.point(v);
+      if (norm(p) > 3) continue;
+      const int at = is_end(p.y) + is_end(p.z) + (p.x == 0 || p.x == 2 ? 1 : 0);
+      const bool is_nose = p.x == 0 && p.z == 0.5;
+      if (is_nose) piece.set_point(v, {-1.5, p.y, p.z});
+      if (at < 2 && !is_nose) continue;
+      piece.vertex_dimension[v] = at == 3 ? mesh::CadDimension::vertex : mesh::CadDimension::edge;
+      piece.vertex_entity[v] = is_nose && !is_end(p.y) ? edge_number : 0;
+    }
+  }
+  return mesh;
+}
+
+TEST(Fans, HaveFewerSectorsWhereTheirFirstLayerIsTwisted) {
+  const auto world = Communicator::world();
+  const mesh::DistributedMesh mesh = nosed_box(world);
+  LayerOptions options = options_for({0, 1e-4});
+  options.edges.assign(edge_number + 1, EdgeTurn::sharp);
+  options.edges[edge_number] = EdgeTurn::smooth;
+  const Layers layers = build(mesh, options);
+  expect_valid(mesh, layers);
+  std::int64_t fans = 0, empty = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const PieceColumns& columns = layers.columns.pieces[p];
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      if (columns.columns_at(v) == 1) continue;
+      ++fans;
+      empty += columns.counts[v] == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(world.sum(fans), 20);
+  EXPECT_EQ(world.sum(empty), 0);
+}
+
+// Between upright columns the front over it would be as narrow as the plate.
+TEST(Fans, LeanApartOverStrips) {
+  const auto world = Communicator::world();
+  mesh::DistributedMesh mesh = Shapes()
+                                   .add_sphere({0.5, 0.5, 0}, 10, 8, Fluid::inside)
+                                   .add_box({0, 0, 0}, {1, 1, 0.02}, {8, 8, 1}, Fluid::outside)
+                                   .distribute(world, 5);
+  for (mesh::Piece& piece : mesh.pieces)
+    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+  const Layers layers = build(mesh, options_for({0, 1e-4}));
+  expect_valid(mesh, layers);
+  EXPECT_GT(layers.report.patches[1].hexahedra, 1000);
+  std::int64_t seen = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const PieceColumns& columns = layers.columns.pieces[p];
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 at = mesh.pieces[p].point(v);
+      if (at.x != 1 || at.z == 0 || ends(at) > 1) continue;
+      double outermost = 0;
+      for (std::int32_t c = columns.first_column[v]; c < columns.first_column[v + 1]; ++c)
+        outermost = std::max(outermost, columns.directions[c].x);
+      EXPECT_NEAR(outermost, std::cos(20 * std::numbers::pi / 180), 1e-3);
+      ++seen;
+    }
+  }
+  EXPECT_GT(world.sum(seen), 0);
 }
 
 TEST(Fans, AreTheSameOnAnyNumberOfRanks) {

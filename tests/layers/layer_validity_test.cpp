@@ -1,7 +1,9 @@
 #include "layers/layer_validity.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -99,6 +101,25 @@ TEST(FittingHeightLocal, IsZeroWhereNoLayerIsGood) {
     const double height = fitting_height(columns);
     for (CornerColumn& column : columns) column.count = static_cast<std::int32_t>(height / 0.1);
   }
+}
+
+/// A sector along the x axis between columns at these angles, in degrees, at both its ends.
+FanColumns sector(std::array<double, 2> first, std::array<double, 2> second) {
+  FanColumns fan{{true, {1, 1}}, {}};
+  const auto column = [](double x, double angle) {
+    const double radians = angle * std::numbers::pi / 180;
+    return CornerColumn{{x, 0, 0}, {0, std::cos(radians), std::sin(radians)}, {1e-4, 1, 1}, 1};
+  };
+  fan.columns = {column(0, first[0]), column(0, first[1]), column(1, second[1]), column(1, second[0])};
+  return fan;
+}
+
+TEST(FanColumnsLocal, AreBadWhereTheFirstLayerIsTwisted) {
+  EXPECT_TRUE(has_good_first_layer(sector({0, 30}, {0, 30})));
+  EXPECT_TRUE(has_good_first_layer(sector({0, 30}, {20, 50})));
+  EXPECT_FALSE(has_good_first_layer(sector({0, 30}, {35, 65})));
+  EXPECT_TRUE(has_good_first_layer(sector({0, 60}, {35, 95})));
+  EXPECT_FALSE(has_good_first_layer(sector({0, 165}, {30, 195}))) << "a flat triangle";
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ LayerOptions layers_on_cube() {
   LayerOptions options = options_for({0, 1e-4});
   options.edges.assign(sharp_edge + 1, EdgeTurn::smooth);
   options.edges[sharp_edge] = EdgeTurn::sharp;
+  options.fans = FanPlaces::all;
   return options;
 }
 

@@ -48,7 +48,8 @@ TEST_F(LayerKeys, ComeBack) {
   const Case input = with_layers(
       "walls: none, first: 1e-5, constant: 3, growth: 1.3, count: 20, total: 0.5, patches: {wing: {first: "
       "2e-5, "
-      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}, elements: tets, fit: count, gate: "
+      "growth: 1.1, constant: 1, count: 7, total: 0.25}, fan: {count: 0}}, elements: tets, fans: all, fit: "
+      "count, gate: "
       "{full_area: "
       "0.9}");
   const Case again = case_of_resolved(resolved_yaml(input));
@@ -56,6 +57,7 @@ TEST_F(LayerKeys, ComeBack) {
   EXPECT_EQ(again.layers.walls, LayeredWalls::none);
   ASSERT_EQ(again.layers.patches.size(), 2u);
   EXPECT_EQ(again.layers.elements, layers::LayerElements::tets);
+  EXPECT_EQ(again.layers.fans, layers::FanPlaces::all);
   EXPECT_EQ(again.layers.fit, LayerFit::count);
   EXPECT_EQ(again.layers.gate.full_area, 0.9);
   EXPECT_EQ(again.layers.patches[0].first, 2e-5);
