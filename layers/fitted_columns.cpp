@@ -123,7 +123,7 @@ public:
   /// Fans with a valid first layer, where there are any, and with as many sectors as the needs ask for on
   /// other ridges.
   Fans find(const std::vector<double>& reached) {
-    constexpr int most_halvings = 3, most_starts = 2;
+    constexpr int most_halvings = 3, most_starts = 2;  // the second leaves out what no number mends
     for (int start = 1;; ++start) {
       std::fill(_halvings.begin(), _halvings.end(), 0);
       for (int halving = 0;; ++halving) {
@@ -165,7 +165,8 @@ private:
 }  // namespace
 
 FittedColumns fit_columns(const LayerInput& in) {
-  constexpr double many_fewer = 0.9;  // of the columns of fans; a second attempt costs as much as the first
+  // Of the columns of fans; chosen. A second attempt costs as much as the first.
+  constexpr double many_fewer = 0.9;
   if (!in.may_have_fans) return limit_columns(in, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
   std::optional columns(limit_columns(in, SectorHalving(in).find(reached)));

@@ -95,7 +95,7 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
       "Where sharp edges have several columns with hexahedra between. `closed`: where all of them close, "
       "meet "
       "in corners or end on planes. `all`: also where they go on along paths on the wall, as a wing's "
-      "trailing edge on a fuselage; for vertex-centred solvers.");
+      "trailing edge on a fuselage, which cell-centred solvers do not run well on.");
 }
 
 void declare_layer_gate(KeyTable& keys, LayerGate& gate) {
