@@ -153,6 +153,14 @@ inline double check_fan(const mesh::Piece& piece, const PieceColumns& columns, c
   return volume;
 }
 
+/// Calls visit(piece, vertex, point) for all vertices.
+template <class Visit>
+void for_each_vertex(mesh::DistributedMesh& mesh, const Visit& visit) {
+  for (mesh::Piece& piece : mesh.pieces) {
+    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) visit(piece, v, piece.point(v));
+  }
+}
+
 /// All cells are valid and fill what lies between wall and cap, which is free of intersections.
 inline void expect_valid(const mesh::DistributedMesh& wall, const Layers& layers) {
   const Communicator& communicator = wall.communicator;

@@ -35,15 +35,13 @@ mesh::DistributedMesh cube(const Communicator& communicator) {
                                    .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
                                    .add_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, Fluid::outside)
                                    .distribute(communicator, 5);
-  for (mesh::Piece& piece : mesh.pieces) {
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      const int at = ends(piece.point(v));
-      if (norm(piece.point(v)) > 3 || at < 2) continue;
-      piece.vertex_dimension[v] = at == 2 ? mesh::CadDimension::edge : mesh::CadDimension::vertex;
-      const bool is_chosen = piece.point(v).x == 0 && (piece.point(v).y == 0 || piece.point(v).z == 0);
-      piece.vertex_entity[v] = at == 2 && is_chosen ? edge_number : 0;
-    }
-  }
+  for_each_vertex(mesh, [](mesh::Piece& piece, mesh::LocalIndex v, Vec3 p) {
+    const int at = ends(p);
+    if (norm(p) > 3 || at < 2) return;
+    piece.vertex_dimension[v] = at == 2 ? mesh::CadDimension::edge : mesh::CadDimension::vertex;
+    const bool is_chosen = p.x == 0 && (p.y == 0 || p.z == 0);
+    piece.vertex_entity[v] = at == 2 && is_chosen ? edge_number : 0;
+  });
   return mesh;
 }
 
@@ -105,6 +103,13 @@ TEST(Fans, AreMissingInLayersOfTetrahedra) {
     EXPECT_EQ(columns.column_count(), static_cast<std::int32_t>(columns.counts.size()));
 }
 
+TEST(Fans, AreMissingOnRequest) {
+  const mesh::DistributedMesh mesh = cube(Communicator::world());
+  LayerOptions options = options_for({0, 1e-4});
+  options.fans = FanPlaces::none;
+  EXPECT_EQ(build(mesh, options).report.patches[1].hexahedra, 0);
+}
+
 // Two of the three edges at a corner are smooth, so the ridge along the third ends there.
 TEST(Fans, GoOnWhereARidgeIsOpen) {
   const auto world = Communicator::world();
@@ -159,18 +164,15 @@ mesh::DistributedMesh nosed_box(const Communicator& communicator) {
                                    .add_sphere({0, 0.5, 0.5}, 12, 8, Fluid::inside)
                                    .add_box({0, 0, 0}, {2, 1, 1}, {4, 4, 2}, Fluid::outside)
                                    .distribute(communicator, 5);
-  for (mesh::Piece& piece : mesh.pieces) {
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      const Vec3 p = piece.point(v);
-      if (norm(p) > 3) continue;
-      const int at = is_end(p.y) + is_end(p.z) + (p.x == 0 || p.x == 2 ? 1 : 0);
-      const bool is_nose = p.x == 0 && p.z == 0.5;
-      if (is_nose) piece.set_point(v, {-1.5, p.y, p.z});
-      if (at < 2 && !is_nose) continue;
-      piece.vertex_dimension[v] = at == 3 ? mesh::CadDimension::vertex : mesh::CadDimension::edge;
-      piece.vertex_entity[v] = is_nose && !is_end(p.y) ? edge_number : 0;
-    }
-  }
+  for_each_vertex(mesh, [](mesh::Piece& piece, mesh::LocalIndex v, Vec3 p) {
+    if (norm(p) > 3) return;
+    const int at = is_end(p.y) + is_end(p.z) + (p.x == 0 || p.x == 2 ? 1 : 0);
+    const bool is_nose = p.x == 0 && p.z == 0.5;
+    if (is_nose) piece.set_point(v, {-1.5, p.y, p.z});
+    if (at < 2 && !is_nose) return;
+    piece.vertex_dimension[v] = at == 3 ? mesh::CadDimension::vertex : mesh::CadDimension::edge;
+    piece.vertex_entity[v] = is_nose && !is_end(p.y) ? edge_number : 0;
+  });
   return mesh;
 }
 

@@ -32,13 +32,11 @@ mesh::DistributedMesh creased_cube(const Communicator& communicator) {
                                    .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
                                    .add_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, Fluid::outside)
                                    .distribute(communicator, 5);
-  for (mesh::Piece& piece : mesh.pieces) {
-    for (mesh::LocalIndex v = 0; v < piece.vertex_count(); ++v) {
-      if (!is_sharp(piece.point(v))) continue;
-      piece.vertex_dimension[v] = mesh::CadDimension::edge;
-      piece.vertex_entity[v] = sharp_edge;
-    }
-  }
+  for_each_vertex(mesh, [](mesh::Piece& piece, mesh::LocalIndex v, Vec3 p) {
+    if (!is_sharp(p)) return;
+    piece.vertex_dimension[v] = mesh::CadDimension::edge;
+    piece.vertex_entity[v] = sharp_edge;
+  });
   return mesh;
 }
 
@@ -87,6 +85,15 @@ TEST(RidgePaths, MakeFansValid) {
   }
   EXPECT_GE(world.sum(on_edge), 5);
   EXPECT_GE(world.sum(beyond), 2) << "two columns and more along paths";
+}
+
+TEST(RidgePaths, AreMadeOnRequestAlone) {
+  const mesh::DistributedMesh mesh = creased_cube(Communicator::world());
+  LayerOptions options = layers_on_cube();
+  for (const FanPlaces fans : {FanPlaces::closed, FanPlaces::none}) {
+    options.fans = fans;
+    EXPECT_EQ(build(mesh, options).report.patches[1].hexahedra, 0);
+  }
 }
 
 TEST(RidgePaths, AreTheSameOnAnyNumberOfRanks) {
