@@ -157,8 +157,8 @@ TEST(Fans, HaveFewerSectorsWhereColumnsAreLow) {
   EXPECT_GE(fewest(true), 2);
 }
 
-/// A box with a nose of 37 degrees before it, along which the CAD is smooth. The edges of its flat ends bend
-/// there by 143 degrees.
+/// A box with a nose before it, along which the CAD is smooth. The edges of its flat ends bend there by 143
+/// degrees, and the nose sticks out in the middle, so that the walls beside it face the ends.
 mesh::DistributedMesh nosed_box(const Communicator& communicator) {
   mesh::DistributedMesh mesh = Shapes()
                                    .add_sphere({0, 0.5, 0.5}, 12, 8, Fluid::inside)
@@ -168,7 +168,7 @@ mesh::DistributedMesh nosed_box(const Communicator& communicator) {
     if (norm(p) > 3) return;
     const int at = is_end(p.y) + is_end(p.z) + (p.x == 0 || p.x == 2 ? 1 : 0);
     const bool is_nose = p.x == 0 && p.z == 0.5;
-    if (is_nose) piece.set_point(v, {-1.5, p.y, p.z});
+    if (is_nose) piece.set_point(v, {-1.5 - 1.5 * std::min(p.y, 1 - p.y), p.y, p.z});
     if (at < 2 && !is_nose) return;
     piece.vertex_dimension[v] = at == 3 ? mesh::CadDimension::vertex : mesh::CadDimension::edge;
     piece.vertex_entity[v] = is_nose && !is_end(p.y) ? edge_number : 0;
