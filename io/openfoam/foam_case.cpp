@@ -110,7 +110,8 @@ bool holds_results(const fs::path& processor) {
     if (entry.path().filename() != "constant") return true;
     for (const auto& inner : fs::directory_iterator(entry.path())) {
       const fs::path name = inner.path().filename();
-      if (name != "polyMesh" && name != "polyMesh.unfinished") return true;
+      if (name != "polyMesh" && name != "polyMesh.unfinished" && name != FoamCase::sharp_edges_name)
+        return true;
     }
   }
   return false;
@@ -220,6 +221,7 @@ void retire_meshes(const FoamCase& foam_case) {
   const auto retire = [](const fs::path& place) {
     remove_own_fields(place / "0");
     fs::remove_all(place / "constant" / "polyMesh");
+    fs::remove(place / "constant" / FoamCase::sharp_edges_name);
   };
   for (const auto& [processor, number] : processors_of(foam_case)) {
     retire(processor);
@@ -228,6 +230,32 @@ void retire_meshes(const FoamCase& foam_case) {
   }
   retire(foam_case.folder);
   warn_of_fields(foam_case);
+}
+
+bool asks_for_sharp_edges(const FoamCase& foam_case) {
+  return dictionary_text(foam_case.folder / "system" / "controlDict").find(FoamCase::sharp_edges_name) !=
+         std::string::npos;
+}
+
+void remove_unfit_dictionaries(const FoamCase& foam_case, bool has_fans) {
+  const std::vector<FoamSetting> wanted = foam_dictionaries(has_fans), others = foam_dictionaries(!has_fans);
+  std::vector<fs::path> unfit;
+  std::string of_users;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const fs::path path = foam_case.folder / wanted[i].path;
+    if (wanted[i].text == others[i].text || !fs::exists(path)) continue;
+    const std::string text = dictionary_text(path);
+    if (text == others[i].text) unfit.push_back(path);
+    if (text != others[i].text && text != wanted[i].text) of_users += " '" + path.string() + "'";
+  }
+  if (of_users.empty()) {
+    for (const fs::path& path : unfit) fs::remove(path);
+  } else if (has_fans && !asks_for_sharp_edges(foam_case)) {
+    parallel::log_warning(fmt::format(
+        "{} stay as they are, but are not for layers with several columns at sharp edges, on which a run may "
+        "die. Remedy: remove them, mesh again, and change the new ones",
+        of_users.substr(1)));
+  }
 }
 
 bool write_settings(const FoamCase& foam_case, const FoamFlow& flow) {

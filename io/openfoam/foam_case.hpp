@@ -21,11 +21,19 @@ struct FoamCase {
   std::filesystem::path constant(std::int32_t part) const { return root(part) / "constant"; }
   std::filesystem::path mesh(std::int32_t part) const { return constant(part) / "polyMesh"; }
   std::filesystem::path unfinished(std::int32_t part) const { return constant(part) / "polyMesh.unfinished"; }
+  /// A field that is 0 in the cells at sharp edges of layers, of a mesh that has such cells.
+  std::filesystem::path sharp_edges(std::int32_t part) const { return constant(part) / sharp_edges_name; }
+  static constexpr const char* sharp_edges_name = "sharpEdges";
 };
 
 /// Makes the folder, and removes unfinished files of an earlier run. Throws filesystem_error where a surplus
 /// processor folder holds results. One rank calls it.
 void prepare_case(const FoamCase& foam_case);
+/// Removes the dictionaries of a mesh with fans where this one has none, or the other way round, where all
+/// are as they were written; otherwise a warning follows where they do not fit. One rank calls it.
+void remove_unfit_dictionaries(const FoamCase& foam_case, bool has_fans);
+/// Whether settings there refer to sharp_edges().
+bool asks_for_sharp_edges(const FoamCase& foam_case);
 /// Removes meshes of earlier runs, and unchanged files of write_fields(). One rank calls it.
 void retire_meshes(const FoamCase& foam_case);
 

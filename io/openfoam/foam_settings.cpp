@@ -17,6 +17,7 @@ std::string with_header(std::string_view kind, std::string_view folder, std::str
       kind, folder, name, content);
 }
 
+/// `{}`: functions of meshes with fans.
 constexpr std::string_view control = R"foam(application     simpleFoam;
 startFrom       latestTime;
 startTime       0;
@@ -30,14 +31,14 @@ writeFormat     binary;
 writePrecision  12;
 timeFormat      general;
 runTimeModifiable true;
-OptimisationSwitches { fileModificationSkew 0; }    // new schemes are read at once
+OptimisationSwitches {{ fileModificationSkew 0; }}    // new schemes are read at once
 
 #include "../0.orig/conditions"
 functions
-{
-    // The first iterations are of first order, those that follow of second.
+{{
+{}    // The first iterations are of first order, those that follow of second.
     order
-    {
+    {{
         type            timeActivatedFileUpdate;
         libs            ("libutilityFunctionObjects.so");
         fileToUpdate    "$FOAM_CASE/system/fvSchemes";
@@ -46,9 +47,9 @@ functions
             (0 "$FOAM_CASE/system/fvSchemes.first")
             (50 "$FOAM_CASE/system/fvSchemes.second")
         );
-    }
+    }}
     relaxation
-    {
+    {{
         type            timeActivatedFileUpdate;
         libs            ("libutilityFunctionObjects.so");
         fileToUpdate    "$FOAM_CASE/system/fvSolution";
@@ -57,10 +58,10 @@ functions
             (0 "$FOAM_CASE/system/fvSolution.first")
             (50 "$FOAM_CASE/system/fvSolution.second")
         );
-    }
+    }}
     // Of all walls; postProcessing/forces has the table.
     forces
-    {
+    {{
         type            forceCoeffs;
         libs            ("libforces.so");
         writeControl    timeStep;
@@ -76,24 +77,50 @@ functions
         dragDir         $drag_direction;
         liftDir         $lift_direction;
         pitchAxis       $pitch_axis;
-    }
+    }}
     extremes
-    {
+    {{
         type            fieldMinMax;
         libs            ("libfieldFunctionObjects.so");
         fields          (U p k omega);
         writeControl    timeStep;
         writeInterval   10;
         log             no;
-    }
+    }}
     wall_distance
-    {
+    {{
         type            yPlus;
         libs            ("libfieldFunctionObjects.so");
         writeControl    writeTime;
         log             no;
-    }
-}
+    }}
+}}
+)foam";
+
+/// `{0}`: a field. Of constant/sharpEdges, which is 0 in cells at sharp edges, it makes how much of its first
+/// scheme a `localBlended` one takes at each face.
+constexpr std::string_view blending =
+    R"foam(    // Which scheme {0} has at sharp edges of layers with fans: constant/sharpEdges.
+    {0}_at_sharp_edges
+    {{
+        type            stabilityBlendingFactor;
+        libs            ("libfieldFunctionObjects.so");
+        field           {0};
+        result          {0}BlendingFactor;
+        faceWeight      sharpEdges;
+        switchFaceWeight yes;
+        minFaceWeight   1;
+        maxFaceWeight   0;
+        switchNonOrtho  no;
+        switchGradCc    no;
+        switchSkewness  no;
+        switchResiduals no;
+        switchCo        no;
+        writeToFile     no;
+        log             no;
+        executeControl  none;
+        writeControl    none;
+    }}
 )foam";
 
 /// `{}`: gradients and convection of the velocity.
@@ -249,14 +276,17 @@ std::vector<FoamSetting> foam_dictionaries(bool has_fans) {
   const auto add = [&all](const char* folder, const char* name, std::string_view content) {
     all.push_back({std::filesystem::path(folder) / name, with_header("dictionary", folder, name, content)});
   };
-  add("system", "controlDict", control);
+  add("system", "controlDict",
+      fmt::format(control, has_fans ? fmt::format(blending, "U") + fmt::format(blending, "p") : ""));
   const std::string first = fmt::format(schemes, "default cellLimited Gauss linear 1;", "upwind"),
                     gradients = fmt::format(
                         "default cellLimited Gauss linear 1;\n"
-                        "                  grad(p) cellLimited {0} 0.5;\n"
-                        "                  convected cellLimited {0} 0.5;",
-                        has_fans ? "Gauss linear" : "Gauss pointLinear"),
-                    second = fmt::format(schemes, gradients, "linearUpwind convected");
+                        "                  grad(p) cellLimited Gauss {0} 0.5;\n"
+                        "                  convected cellLimited Gauss {0} 0.5;",
+                        has_fans ? "localBlended linear pointLinear" : "pointLinear"),
+                    second = fmt::format(
+                        schemes, gradients,
+                        has_fans ? "localBlended upwind linearUpwind convected" : "linearUpwind convected");
   add("system", "fvSchemes", first);
   add("system", "fvSchemes.first", first);
   add("system", "fvSchemes.second", second);

@@ -21,8 +21,9 @@ struct FoamSetting {
 };
 
 /// All dictionaries but decomposeParDict. `has_fans`: several columns of layers stand on a wall's vertices.
-/// The value at such a corner is then a mean over the wall on both sides, and that above it of one side:
-/// gradients at second order come from cells, not from corners.
+/// The value at such a corner is then a mean over the wall on both sides, and that above it of one side; and
+/// the cells of a sector are much narrower than those beside. So in the cells of constant/sharpEdges
+/// gradients at second order come from cells, not from corners, and the convection of U stays of first order.
 std::vector<FoamSetting> foam_dictionaries(bool has_fans);
 /// The values that the fields use. The viscosity follows from the Reynolds number; without one it is that of
 /// air in the unit of the mesh. `is_external`: with a far field, the flow starts with its state; otherwise at

@@ -3,6 +3,7 @@
 #include "io/openfoam/foam_case.hpp"
 #include "io/openfoam/foam_faces.hpp"
 #include "io/openfoam/foam_file.hpp"
+#include "io/openfoam/sharp_edges.hpp"
 #include "parallel/communication/collective_error.hpp"
 
 #include <algorithm>
@@ -295,17 +296,25 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
   flow.is_external = std::any_of(mesh.patches.begin(), mesh.patches.end(), [](const mesh::Patch& patch) {
     return patch.type == mesh::PatchType::farfield;
   });
-  const bool has_fans_here = std::any_of(mesh.pieces->pieces.begin(), mesh.pieces->pieces.end(),
-                                         [](const mesh::Piece& piece) { return !piece.hexahedra.empty(); });
-  flow.has_fans = communicator.maximum(std::int64_t{has_fans_here}) > 0;
-  parallel::on_root(communicator, [&] { prepare_case(foam_case); });
-  bool has_fields = true;
+  const std::optional<SharpEdgeCells> sharp = find_sharp_edge_cells(mesh);
+  flow.has_fans = sharp.has_value();
+  bool has_fields = true, has_sharp_edges = flow.has_fans;
+  parallel::on_root(communicator, [&] {
+    prepare_case(foam_case);
+    remove_unfit_dictionaries(foam_case, flow.has_fans);
+    has_sharp_edges = has_sharp_edges || asks_for_sharp_edges(foam_case);
+  });
+  has_sharp_edges = communicator.maximum(std::int64_t{has_sharp_edges}) > 0;
   try {
     parallel::agree(communicator, [&] {
       for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
         const MeshPart& part = mesh.parts[i];
         const FoamFaces order = order_faces(mesh, part, links.pieces[i], plan);
         FoamPartWriter(whole, part, order, foam_case.unfinished(part.id)).write();
+        if (has_sharp_edges)
+          write_sharp_edges(
+              foam_case.unfinished(part.id) / FoamCase::sharp_edges_name,
+              sharp ? std::span<const std::uint8_t>((*sharp)[i]) : std::span<const std::uint8_t>());
       }
       if (communicator.is_root()) has_fields = write_settings(foam_case, flow);
     });
@@ -320,6 +329,8 @@ void write_openfoam(const FileMesh& mesh, const std::string& folder, const OpenF
     for (const MeshPart& part : mesh.parts) {
       if (has_fields) write_fields(foam_case, part.id);
       fs::rename(foam_case.unfinished(part.id), foam_case.mesh(part.id));
+      if (has_sharp_edges)
+        fs::rename(foam_case.mesh(part.id) / FoamCase::sharp_edges_name, foam_case.sharp_edges(part.id));
     }
   });
 }
