@@ -2,7 +2,6 @@
 #include "layers/layer_cap.hpp"
 #include "layers/layer_report.hpp"
 #include "layers/opened_wall.hpp"
-#include "layers/ridge_paths.hpp"
 #include "layers/side_layers.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/observation/timers.hpp"
@@ -16,11 +15,7 @@ namespace {
 Layers build_on(const mesh::NumberedMesh& wall, const LayerOptions& options, const OpenedWall* opened,
                 const PlaneRemesher& remesh_planes) {
   const LocalWall walls(wall, options);
-  VertexStars stars = gather_stars(walls);
-  if (options.fans == FanPlaces::all) {
-    if (const PathEdges paths = find_ridge_paths(walls, stars); !paths.empty())
-      stars = gather_stars(walls, paths);
-  }
+  const VertexStars stars = gather_stars(walls);
   const std::vector<VertexLayers> wanted = gather_wanted_layers(walls, options);
   const std::vector<double> edges = smooth_mean_edges(walls, wanted);
   const bool may_have_fans = options.fans != FanPlaces::none && options.elements != LayerElements::tets;

@@ -34,9 +34,8 @@ struct WallLayers {
 
 /// The cells made from layers: prisms, with pyramids and tetrahedra where counts differ; or tetrahedra only.
 enum class LayerElements : std::uint8_t { prisms, tets };
-/// Where sharp edges have fans. `closed`: where they close, meet in corners or end on planes; `all`: where
-/// they go on along paths on the wall too.
-enum class FanPlaces : std::uint8_t { none, closed, all };
+/// Which sharp edges have fans.
+enum class FanPlaces : std::uint8_t { none, all };
 
 /// How the CAD surface turns over an edge.
 enum class EdgeTurn : std::uint8_t {
@@ -61,7 +60,7 @@ struct LayerOptions {
   /// them; nothing: on none.
   std::shared_ptr<const CurvedEnds> curved_ends;
   LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
-  FanPlaces fans = FanPlaces::closed;
+  FanPlaces fans = FanPlaces::all;
   std::vector<EdgeTurn> edges;  ///< by CAD edge; missing ones are unknown
 };
 

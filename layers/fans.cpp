@@ -22,6 +22,7 @@ public:
     std::stable_sort(_fans.faces.begin(), _fans.faces.end(),
                      [](const FanFace& a, const FanFace& b) { return a.triangle < b.triangle; });
     for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) add_rim(v);
+    _fans.is_end = _sectors.is_end;
     list_around();
     return std::move(_fans);
   }
@@ -69,8 +70,11 @@ private:
 
   void add_faces(const RidgeEdge& edge) {
     const std::vector<std::int32_t> from = columns_across(edge, 0), to = columns_across(edge, 1);
-    for (std::size_t i = 0; i + 1 < from.size(); ++i)
-      add_sector(edge, {from[i], from[i + 1], to[i + 1], to[i]});
+    const auto column = [](const std::vector<std::int32_t>& columns, std::size_t i) {
+      return columns[std::min(i, columns.size() - 1)];  // one where the fan ends
+    };
+    for (std::size_t i = 0; i + 1 < std::max(from.size(), to.size()); ++i)
+      add_sector(edge, {column(from, i), column(from, i + 1), column(to, i + 1), column(to, i)});
   }
 
   void add_sector(const RidgeEdge& edge, const std::array<std::int32_t, 4>& columns) {
@@ -141,6 +145,7 @@ Fans without_fans(const LocalWall& wall) {
   for (std::size_t v = 0; v <= n; ++v) fans.first.push_back(static_cast<std::int32_t>(v));
   fans.directions.assign(n, {}), fans.visibility.assign(n, 0), fans.leans.assign(n, 0);
   fans.columns = wall.triangles;
+  fans.is_end.assign(n, 0);
   fans.first_around.assign(n + 1, 0);
   return fans;
 }

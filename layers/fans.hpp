@@ -19,6 +19,7 @@ struct Fans {
   std::vector<LocalWall::Corners> columns;  ///< by triangle: of its corners
   std::vector<FanFace> faces;               ///< by triangle
   std::vector<RimTriangle> rims;            ///< by triangle
+  std::vector<std::int32_t> is_end;         ///< by vertex: 1 where a fan ends on a wall, without layers
   std::vector<std::int32_t> first_around, around;  ///< faces by vertex, as LocalWall has triangles
 
   std::int32_t column_count() const { return first.back(); }

@@ -49,6 +49,11 @@ void limit_by_gaps(const LocalWall& wall, const Fans& fans, const Directions& di
 FittedColumns limit_columns(const LayerInput& in, Fans fans) {
   Directions directions = find_directions(in.wall, in.stars, fans);
   ColumnLimits limits(in.wall, in.wanted, in.edges, in.stars, directions);
+  std::vector<std::int32_t> counts(in.wall.points.size(), most_layers);
+  for (std::size_t v = 0; v < counts.size(); ++v) {
+    if (fans.is_end[v] != 0) counts[v] = 0;
+  }
+  limits.limit_counts(std::move(counts), LayerLimit::no_direction);
   limits.converge();
   limit_by_gaps(in.wall, fans, directions, limits);
   limits.converge();
@@ -79,39 +84,17 @@ double fan_columns(const LayerInput& in, const Fans& fans) {
   return static_cast<double>(in.wall.mesh.communicator.sum(columns));
 }
 
-/// By vertex: 1 where a path or the free rim of a baffle is, or some edges from there. Collective.
-std::vector<std::int32_t> find_excused(const LayerInput& in) {
-  constexpr int rings = 3;  // chosen, not measured
-  const auto is_excused = [](const Ridge::Edge& edge) { return edge.is_rim || edge.is_path; };
-  std::vector<std::int32_t> excused(in.wall.points.size(), 0);
-  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
-    const Ridge* ridge = in.stars.ridge_at(v);
-    if (ridge != nullptr && std::any_of(ridge->edges.begin(), ridge->edges.end(), is_excused)) excused[v] = 1;
-  }
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::vector<std::int32_t> before = excused;
-    for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
-      if (before[v] != 0) in.wall.for_each_neighbour(v, [&](std::int32_t other) { excused[other] = 1; });
-    }
-    in.wall.combine(excused, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
-  }
-  return excused;
-}
-
-/// Whether a ridge has a fan without layers, which is an end on a wall. Paths and the free rims of baffles
-/// may, unless most of all fans are so: in a narrow duct they would only make the front finer. Collective.
+/// Whether most fans have no layers: in a duct that is narrow all over they would only make the front finer.
+/// Collective.
 bool has_empty_fans(const LayerInput& in, const FittedColumns& columns) {
-  const std::vector<std::int32_t> excused = find_excused(in);
-  std::int64_t fans = 0, empty = 0, not_excused = 0;
+  std::int64_t fans = 0, empty = 0;
   for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
     if (columns.fans.count_at(v) == 1 || in.wall.owned[v] == 0) continue;
     ++fans;
-    if (columns.limits.count(v) > 0) continue;
-    ++empty;
-    not_excused += excused[v] == 0 ? 1 : 0;
+    empty += columns.limits.count(v) == 0 ? 1 : 0;
   }
   const parallel::Communicator& ranks = in.wall.mesh.communicator;
-  return 2 * ranks.sum(empty) > ranks.sum(fans) || ranks.sum(not_excused) > 0;
+  return 2 * ranks.sum(empty) > ranks.sum(fans);
 }
 
 /// How often numbers of sectors are to be halved so that first layers are valid.

@@ -26,53 +26,22 @@ public:
   RidgeFinder(const StarCentre& centre, std::span<const StarTriangle> star)
       : _centre(centre), _vertex(centre.point), _star(star), _plane(centre.plane) {}
 
-  RidgeSearch find(std::vector<RidgeSide>& sides) {
-    RidgeSearch found = find_any(sides);
-    const bool are_rims =
-        std::all_of(_edges.begin(), _edges.end(), [&](std::size_t edge) { return is_rim(edge); });
-    return found.ridge || !are_rims ? std::move(found) : RidgeSearch();
-  }
-
-private:
-  RidgeSearch find_any(std::vector<RidgeSide>& sides) {
+  std::optional<Ridge> find(std::vector<RidgeSide>& sides) {
     for (std::size_t i = 0; i < _star.size(); ++i) {
-      const bool is_path = path_along(i) != nullptr;
-      if (!is_path && !is_sharp(i)) continue;
-      _edges.push_back(i);
-      _is_path.push_back(is_path ? 1 : 0);
+      if (is_sharp(i)) _edges.push_back(i);
     }
-    if (_edges.empty()) return {};
-    sides.assign(_star.size(), 0);
     _ridge.on_plane = !(_plane == Vec3{});
-    if (!_ridge.on_plane && _edges.size() == 1) return {std::nullopt, true, left(_edges[0]).next};
-    if (!has_ridge(sides)) return {std::nullopt, true, std::nullopt};
-    return {std::move(_ridge), false, std::nullopt};
-  }
-
-  bool has_ridge(std::vector<RidgeSide>& sides) {
-    const auto paths = static_cast<std::size_t>(std::count(_is_path.begin(), _is_path.end(), 1));
-    if (_edges.size() > most_edges || (_ridge.on_plane && _edges.size() > 1)) return false;
-    if (_edges.size() > 2 && paths > 0) {
-      if (_edges.size() > 3 || paths > 1) return false;
-      _ridge.joint =
-          static_cast<std::int32_t>(std::find(_is_path.begin(), _is_path.end(), 1) - _is_path.begin());
-    }
+    const bool goes_on = _ridge.on_plane ? _edges.size() == 1 : _edges.size() > 1;
+    if (!goes_on || _edges.size() > most_edges) return std::nullopt;
     _ridge.lowest = {_star[0].piece, _star[0].cell};
     for (const StarTriangle& t : _star)
       _ridge.lowest = std::min(_ridge.lowest, TrianglePlace{t.piece, t.cell});
-    if (!part(sides)) return false;
-    if (paths > 0) {
-      for (const PathEdge& path : _centre.paths) _ridge.path_turn = std::max(_ridge.path_turn, path.turn);
-    }
-    return _ridge.is_corner() ? turn_by_edge() : turn_along();
+    sides.assign(_star.size(), 0);
+    if (!part(sides) || !(_ridge.is_corner() ? turn_by_edge() : turn_along())) return std::nullopt;
+    return std::move(_ridge);
   }
 
-  const PathEdge* path_along(std::size_t edge) const {
-    const auto found = std::find_if(_centre.paths.begin(), _centre.paths.end(),
-                                    [&](const PathEdge& path) { return path.to == left(edge).next; });
-    return found == _centre.paths.end() ? nullptr : &*found;
-  }
-
+private:
   /// Edge i starts before triangle i.
   const StarTriangle& left(std::size_t edge) const { return _star[edge]; }
   const StarTriangle& right(std::size_t edge) const {
@@ -124,16 +93,7 @@ private:
     if (turn.angle < 0) turn.angle += 2 * std::numbers::pi;
     return turn;
   }
-  /// Paths lie on walls that may turn by little, or to the other side, and ridges may end so.
-  bool is_sound(Ridge::Turn& turn) {
-    constexpr double most_concave = std::numbers::pi / 6;
-    if (!_ridge.is_on_path() && !_ridge.is_corner() && _ridge.joint < 0 &&
-        (turn.angle < 0.5 * least_turn || turn.angle > 2 * std::numbers::pi - most_concave))
-      _ridge.path_turn = 0.01;
-    if (_ridge.is_on_path() && _ridge.joint < 0) {
-      if (turn.angle > std::numbers::pi) turn.angle -= 2 * std::numbers::pi;
-      return std::abs(turn.angle) <= most_turn;
-    }
+  static bool is_sound(const Ridge::Turn& turn) {
     return turn.angle >= 0.5 * least_turn && turn.angle <= most_turn;
   }
 
@@ -165,17 +125,7 @@ private:
     lean_over_strips(normals);
     for (std::size_t e = 0; e < _edges.size(); ++e) {
       const StarTriangle &l = left(_edges[e]), &r = right(_edges[e]);
-      _ridge.edges.push_back({l.next,
-                              {r.piece, r.cell},
-                              {l.piece, l.cell},
-                              along(_edges[e]),
-                              is_rim(_edges[e]),
-                              _is_path[e] != 0});
-    }
-    if (_ridge.joint >= 0) {
-      const auto at = static_cast<std::size_t>(_ridge.joint), before = (at + 2) % 3;
-      normals[at].insert(normals[at].end(), normals[before].begin(), normals[before].end());
-      _joint_side = smallest_cone(normals[at]).axis;
+      _ridge.edges.push_back({l.next, {r.piece, r.cell}, {l.piece, l.cell}, along(_edges[e])});
     }
     return _ridge.cone >= least_cone;
   }
@@ -185,7 +135,7 @@ private:
     for (std::size_t side = 0; side < _ridge.sides.size(); ++side) {
       Vec3 lean;
       const auto add = [&](std::size_t edge, bool on_left) {
-        const Vec3 here = _is_path[edge] != 0 ? Vec3{} : lean_at(_edges[edge], on_left);
+        const Vec3 here = lean_at(_edges[edge], on_left);
         if (norm(here) > norm(lean)) lean = here;
       };
       const std::size_t on_right = (side + 1) % _ridge.sides.size();
@@ -215,28 +165,12 @@ private:
       _ridge.turns.push_back(turn_about(about, _ridge.sides[0], _ridge.sides[1]));
       return is_sound(_ridge.turns[0]) && std::abs(passing) > least_passing;
     }
-    // Of a ridge that a path meets, the two edges and sides without it.
-    const bool joins = _ridge.joint >= 0;
-    const std::size_t from = joins ? (static_cast<std::size_t>(_ridge.joint) + 2) % 3 : 0,
-                      to = joins ? (from + 2) % 3 : 1;
-    const Vec3 first = _ridge.edges[from].direction, second = _ridge.edges[to].direction,
-               bend = first + second;
+    const Vec3 first = _ridge.edges[0].direction, second = _ridge.edges[1].direction, bend = first + second;
     const double cosine = std::sqrt(std::max(0.0, 1 - 0.25 * dot(bend, bend)));
     if (cosine == 0) return false;
     if (norm(bend) > 0) _ridge.mitre = std::sqrt(1 / std::max(cosine, least_mitre) - 1) * normalized(bend);
-    _ridge.turns.push_back(
-        turn_about(normalized(first - second), joins ? _joint_side : _ridge.sides[0], _ridge.sides[to]));
-    if (!joins && _is_path[0] != _is_path[1]) lean_along(normalized(first - second));
+    _ridge.turns.push_back(turn_about(normalized(first - second), _ridge.sides[0], _ridge.sides[1]));
     return is_sound(_ridge.turns[0]);
-  }
-
-  /// Where a ridge ends in a corner of the wall, sides do not stand at right angles to it.
-  void lean_along(Vec3 along) {
-    constexpr double most_ahead = 1;
-    for (std::size_t side = 0; side < 2; ++side) {
-      const double ahead = dot(_ridge.sides[side], along), across = norm(_ridge.sides[side] - ahead * along);
-      _ridge.ahead[side] = std::clamp(ahead / across, -most_ahead, most_ahead);
-    }
   }
 
   bool turn_by_edge() {
@@ -251,9 +185,7 @@ private:
   Vec3 _vertex;
   std::span<const StarTriangle> _star;
   Vec3 _plane;
-  std::vector<std::size_t> _edges;     // in order from the first
-  std::vector<std::uint8_t> _is_path;  // of each
-  Vec3 _joint_side;                    // of both sides that a path parts
+  std::vector<std::size_t> _edges;  // in order from the first
   Ridge _ridge;
 };
 
@@ -263,18 +195,8 @@ Vec3 Ridge::Turn::direction(double at) const {
   return std::cos(at) * normal + std::sin(at) * across;
 }
 
-Ridge::Turn Ridge::Turn::widened(double least_angle) const {
-  if (angle >= least_angle) return *this;
-  const Vec3 along = cross(normal, across), bisector = direction(0.5 * angle);
-  Turn wide;
-  wide.angle = least_angle;
-  wide.normal = std::cos(0.5 * least_angle) * bisector - std::sin(0.5 * least_angle) * cross(along, bisector);
-  wide.across = cross(along, wide.normal);
-  return wide;
-}
-
-RidgeSearch find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
-                       std::vector<RidgeSide>& sides) {
+std::optional<Ridge> find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
+                                std::vector<RidgeSide>& sides) {
   return RidgeFinder(centre, star).find(sides);
 }
 

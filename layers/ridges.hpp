@@ -23,16 +23,12 @@ struct Ridge {
     mesh::VertexName end;       ///< its other vertex
     TrianglePlace right, left;  ///< seen from the fluid and from the vertex
     geometry::Vec3 direction;   ///< unit, from the vertex
-    bool is_rim;                ///< the free rim of a baffle
-    bool is_path;               ///< of a path, where the ridge itself has ended
   };
   /// How directions turn over an edge, from its left to its right through the fluid.
   struct Turn {
     geometry::Vec3 normal, across;  ///< unit vectors: the first direction, and the one it turns towards
     double angle = 0;               ///< in radians
     geometry::Vec3 direction(double at) const;
-    /// About the same bisector.
-    Turn widened(double least_angle) const;
   };
   std::vector<Edge> edges;            ///< counter-clockwise
   std::vector<geometry::Vec3> sides;  ///< unit mean normals; side i lies on the left of edge i
@@ -40,8 +36,6 @@ struct Ridge {
   /// Of a ridge that passes: column c is longer by (c . mitre) mitre, so that it is as high seen along both
   /// edges.
   geometry::Vec3 mitre;
-  /// Where a ridge goes over to a path: tangents of the angles by which the outer columns lean along it.
-  std::array<double, 2> ahead{};
   geometry::Vec3 plane;  ///< unit normal, where the ridge ends on a plane
   double cone = 1;       ///< least cosine of the angle between a side's mean normal and the normals there
   TrianglePlace lowest;  ///< of the star
@@ -49,11 +43,8 @@ struct Ridge {
   std::int32_t plane_face = -1, plane_patch = -1;  ///< CAD face and patch
   TrianglePlace last_of_plane;                     ///< the plane's triangle beside the second side
   mesh::VertexName rim;                            ///< the other vertex of that edge
-  double path_turn = 0;                            ///< where an edge is of a path: PathEdge::turn
-  std::int32_t joint = -1;  ///< where a path ends at a ridge that passes: its place among the edges
 
-  bool is_corner() const { return edges.size() > 2 && joint < 0; }
-  bool is_on_path() const { return path_turn > 0; }
+  bool is_corner() const { return edges.size() > 2; }
   /// The side on the right of an edge.
   std::size_t right_of(std::size_t edge) const { return (edge + sides.size() - 1) % sides.size(); }
 };
@@ -66,21 +57,13 @@ inline constexpr RidgeSide side_of_plane = 255;
 struct StarCentre {
   geometry::Vec3 point;
   EdgeTurn turn;
-  geometry::Vec3 plane;             ///< normal of the plane there that layers end on, or zero
-  std::span<const PathEdge> paths;  ///< those from the vertex
+  geometry::Vec3 plane;  ///< normal of the plane there that layers end on, or zero
 };
 
-/// What is known of the ridges at a vertex.
-struct RidgeSearch {
-  std::optional<Ridge> ridge;
-  bool is_lost = false;                  ///< sharp edges meet, but have no ridge
-  std::optional<mesh::VertexName> open;  ///< lost, for a ridge ends off planes: the other vertex of its edge
-};
-
-/// The ridges at a vertex, and by triangle of the star its side. They are lost where one ends off planes,
-/// runs beside a strip, or sides have no direction; free rims of baffles alone are not. The star is closed
-/// and in order, counter-clockwise seen from the fluid.
-RidgeSearch find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
-                       std::vector<RidgeSide>& sides);
+/// The ridges at a vertex, and by triangle of the star its side. Nothing where no edge is sharp, one ends off
+/// planes, or sides have no direction. The star is closed and in order, counter-clockwise seen from the
+/// fluid.
+std::optional<Ridge> find_ridge(const StarCentre& centre, std::span<const StarTriangle> star,
+                                std::vector<RidgeSide>& sides);
 
 }  // namespace aeroloom::layers

@@ -23,6 +23,8 @@ constexpr std::int32_t most_sectors = 24, most_columns = 255;
 /// At the ends of columns, in edges; chosen: with one edge a coarse wing had twice the cells, and no better
 /// ones.
 constexpr double widest_end = 2.5, narrowest_end = 0.3;
+/// Edges from the end of a fan to where a ridge is longest; chosen, not measured.
+constexpr std::int32_t least_depth = 2;
 constexpr auto more = [](auto a, auto b) { return std::max(a, b); };
 constexpr auto fewer = [](auto a, auto b) { return std::min(a, b); };
 
@@ -50,12 +52,12 @@ public:
   Sectors count() {
     list_edges();
     ask();
-    drop_open_rims();
-    drop_all_if_one_is_open();
+    drop_short();
     agree_along_ridges(more);
     halve();
     agree_along_ridges(fewer);
     make_fans();
+    mark_ends();
     return std::move(_sectors);
   }
 
@@ -80,7 +82,7 @@ private:
         if (slots[0] < 0 && slots[1] < 0) continue;
         const Ridge::Edge& edge =
             slots[0] >= 0 ? _stars.ridge_at(a)->edges[slots[0]] : _stars.ridge_at(b)->edges[slots[1]];
-        _sectors.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here), edge.is_rim});
+        _sectors.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here)});
       }
     }
   }
@@ -97,10 +99,6 @@ private:
       if (_names[v].piece < 0 && !mesh::can_name_columns(_names[v].id)) continue;
       const double height = wanted_height(_wanted[v], _edges[v]);
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
-        if (ridge->edges[e].is_path) {
-          _by_slot[e][v] = 1;
-          continue;
-        }
         const double turn = turn_at(*ridge, e);
         const std::int32_t full = std::max(sectors_by_turn(turn, widest_sector),
                                            sectors_by_front(turn, height, widest_end * _edges[v]));
@@ -111,47 +109,90 @@ private:
   }
 
   static double turn_at(const Ridge& ridge, std::size_t edge) {
-    return std::max(ridge.path_turn, ridge.turns[ridge.is_corner() ? edge : 0].angle);
+    return ridge.turns[ridge.is_corner() ? edge : 0].angle;
   }
   std::int32_t& count_of(std::int32_t vertex, std::int32_t slot) { return _by_slot[slot][vertex]; }
   bool has_fan(const RidgeEdge& edge, int end) const {
     return edge.slots[end] >= 0 && _by_slot[edge.slots[end]][edge.ends[end]] > 0;
   }
-  /// Along a ridge that passes, and where it goes on along a path, both edges; a path that meets a ridge has
-  /// a number of its own.
+  /// Along a ridge that passes, both edges.
   void set(std::int32_t vertex, std::int32_t slot, std::int32_t count) {
     const Ridge& ridge = *_stars.ridge_at(vertex);
-    const bool is_alone = ridge.is_corner() || slot == ridge.joint;
-    for (std::size_t e = 0; e < ridge.edges.size(); ++e) {
-      const auto other = static_cast<std::int32_t>(e);
-      if (other == slot || (!is_alone && other != ridge.joint)) count_of(vertex, other) = count;
+    if (ridge.is_corner()) {
+      count_of(vertex, slot) = count;
+      return;
+    }
+    for (std::size_t e = 0; e < ridge.edges.size(); ++e) _by_slot[e][vertex] = count;
+  }
+
+  std::int32_t& fans_at(std::int32_t v) { return _by_slot[0][v]; }
+  void drop(std::int32_t v) {
+    for (std::vector<std::int32_t>& counts : _by_slot) counts[v] = 0;
+  }
+  /// Whether sectors over an edge end at one of its ends, where there is no fan or one of other edges alone.
+  bool ends_at(const RidgeEdge& edge, int end) const { return has_fan(edge, 1 - end) && !has_fan(edge, end); }
+
+  /// Removes the fans of vertices at which those of another edge end, and of ridges that are short: nowhere
+  /// some edges away from such an end.
+  void drop_short() {
+    for (bool changes = true; changes;) {
+      repeat_over_edges(
+          [&](const RidgeEdge& edge) {
+            bool changed = false;
+            for (int end = 0; end < 2; ++end) {
+              const std::int32_t v = edge.ends[end];
+              if (!ends_at(edge, end) || fans_at(v) == 0) continue;
+              drop(v);
+              changed = true;
+            }
+            return changed;
+          },
+          fewer);
+      std::vector<std::int32_t> depths(_wall.points.size(), 0);
+      for (std::size_t v = 0; v < depths.size(); ++v) depths[v] = _by_slot[0][v] > 0 ? least_depth : 0;
+      spread(depths, fewer, 1);
+      spread(depths, more, 0);
+      std::int64_t dropped = 0;
+      for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+        if (fans_at(v) == 0 || depths[v] >= least_depth) continue;
+        drop(v);
+        ++dropped;
+      }
+      changes = _wall.mesh.communicator.sum(dropped) > 0;
     }
   }
 
-  /// Sectors over an edge must be sectors at both its ends. Where one ridge is open, none has fans: solvers
-  /// need other settings on walls with fans, under which a single column at a sharp edge is worse than
-  /// without.
-  void drop_all_if_one_is_open() {
-    std::int64_t open = _stars.lost_ridges;
-    for (const RidgeEdge& edge : _sectors.edges)
-      open += edge.is_rim || (has_fan(edge, 0) && has_fan(edge, 1)) ? 0 : 1;
-    if (_wall.mesh.communicator.sum(open) == 0) return;
-    for (std::vector<std::int32_t>& counts : _by_slot) std::fill(counts.begin(), counts.end(), 0);
+  /// Along edges from fan to fan, and from ends for `step` 1: values become at least or at most those beside.
+  template <class Op>
+  void spread(std::vector<std::int32_t>& values, const Op& op, std::int32_t step) {
+    for (bool changes = true; changes;) {
+      const std::vector<std::int32_t> before = values;
+      for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        for (const RidgeEdge& edge : _sectors.edges) {
+          if (!has_fan(edge, 0) && !has_fan(edge, 1)) continue;
+          for (int end = 0; end < 2; ++end) {
+            std::int32_t &here = values[edge.ends[end]], beside = values[edge.ends[1 - end]] + step;
+            if (!has_fan(edge, end) || (step == 0 && !has_fan(edge, 1 - end)) || op(here, beside) == here)
+              continue;
+            here = beside;
+            goes_on = true;
+          }
+        }
+      }
+      _wall.combine(values, op);
+      changes = _wall.mesh.communicator.sum(std::int64_t{before != values}) > 0;
+    }
   }
 
-  /// Without fans the free rim of a baffle has no columns at all, which is no worse where others have fans.
-  void drop_open_rims() {
-    repeat_over_edges(
-        [&](const RidgeEdge& edge) {
-          if (!edge.is_rim || (has_fan(edge, 0) && has_fan(edge, 1))) return false;
-          bool changes = false;
-          for (const std::int32_t v : edge.ends) {
-            for (std::vector<std::int32_t>& counts : _by_slot)
-              changes = std::exchange(counts[v], 0) > 0 || changes;
-          }
-          return changes;
-        },
-        fewer);
+  void mark_ends() {
+    _sectors.is_end.assign(_wall.points.size(), 0);
+    for (const RidgeEdge& edge : _sectors.edges) {
+      for (int end = 0; end < 2; ++end) {
+        if (ends_at(edge, end)) _sectors.is_end[edge.ends[end]] = 1;
+      }
+    }
+    _wall.combine(_sectors.is_end, more);
   }
 
   /// Calls visit(edge) for all edges with fans at both ends until it changes nothing, here and, once values
@@ -190,7 +231,7 @@ private:
       if (ridge == nullptr || _halvings[v] == 0) continue;
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
         std::int32_t& count = _by_slot[e][v];
-        if (ridge->edges[e].is_path || count == 0) continue;
+        if (count == 0) continue;
         const std::int32_t least = std::min(count, least_at(turn_at(*ridge, e)));
         for (std::int32_t i = 0; i < _halvings[v]; ++i) count = halved(count);
         count = std::max(count, least);
@@ -200,16 +241,14 @@ private:
 
   static std::int32_t halved(std::int32_t count) { return (count + 1) / 2; }
 
-  /// Where columns of a vertex cannot see each other, its ridges have no fans.
+  /// Where columns of a vertex cannot see each other, fans end.
   void make_fans() {
     for (std::int64_t failed = 1; failed > 0;) {
       _sectors.fans.clear();
       failed = 0;
       for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) failed += make_fan(v) ? 0 : 1;
       failed = _wall.mesh.communicator.sum(failed);
-      if (failed == 0) continue;
-      drop_open_rims();
-      drop_all_if_one_is_open();
+      if (failed > 0) drop_short();
     }
   }
 
@@ -220,7 +259,7 @@ private:
     for (std::size_t e = 0; e < ridge->edges.size(); ++e) sectors.push_back(_by_slot[e][v]);
     std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors);
     if (!fan || static_cast<std::int32_t>(fan->directions.size()) > most_columns) {
-      for (std::vector<std::int32_t>& counts : _by_slot) counts[v] = 0;
+      drop(v);
       return false;
     }
     if (ridge->on_plane) {

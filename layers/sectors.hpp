@@ -18,12 +18,12 @@ struct RidgeEdge {
   std::array<std::int32_t, 2> ends;   ///< counter-clockwise in the triangle
   std::array<std::int32_t, 2> slots;  ///< by end: its place among Ridge::edges there; -1: none
   bool is_owned;                      ///< no lower triangle has it
-  bool is_rim;                        ///< the free rim of a baffle
 };
 
 struct Sectors {
   std::vector<RidgeEdge> edges;            ///< by triangle
   std::map<std::int32_t, VertexFan> fans;  ///< by vertex
+  std::vector<std::int32_t> is_end;        ///< by vertex: 1 where a fan ends on a wall
 
   const VertexFan* fan_at(std::int32_t vertex) const {
     const auto found = fans.find(vertex);
@@ -43,10 +43,9 @@ struct FanNeeds {
 /// Edges of a ridge have all as many sectors, as the turn asks for where it is largest, at most 35 degrees
 /// each, and as the front: over columns of the wanted heights a sector is at most two and a half edges wide,
 /// and where the whole ridge is low, over those that are reached, at least 0.3 edges. Never is a sector wider
-/// than 75 degrees. Paths have as many as the ridges that they join. Ridges must close, end on planes, or go
-/// on along paths: a sector cannot end on a wall, as the first layer would need cells with faces along
-/// it. Where one ridge does not, none has sectors; where the free rim of a baffle does not, it has none.
-/// Collective.
+/// than 75 degrees. Where a ridge ends on a wall, or its columns cannot see each other, sectors end at a
+/// vertex that is to have no layers: with layers there the first one would need cells with faces along the
+/// wall. Ridges with no vertex two edges away from such ends have no sectors. Collective.
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs);
 
 /// The height of a column that is as high as wanted.

@@ -5,21 +5,8 @@
 #include "mesh/checks/intersection.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace aeroloom::layers {
-
-/// An edge of a path (ridge_paths.hpp), seen from one of its ends.
-struct PathEdge {
-  mesh::VertexName from, to;
-  double turn = 0;  ///< least angle between the outer columns at `from`, in radians
-};
-/// By `from`, then `to`: of each path both directions of its edges.
-using PathEdges = std::vector<PathEdge>;
-
-inline bool precedes(const mesh::VertexName& a, const mesh::VertexName& b) {
-  return a.piece != b.piece ? a.piece < b.piece : a.id < b.id;
-}
 
 struct StarTriangle {
   geometry::Vec3 normal;      ///< unit, into the fluid

@@ -11,11 +11,6 @@ namespace {
 
 using geometry::Vec3;
 
-/// Of a sector on a path, in radians: half an edge wide at the height of isotropic layers; chosen, not
-/// measured. The same everywhere: long cells that taper and are twisted have their centres elsewhere along
-/// the edge than their neighbours.
-constexpr double path_sector = 0.1;
-
 /// Along the arc from a unit vector to another.
 Vec3 between(Vec3 a, Vec3 b, double at) {
   const double angle = std::acos(std::clamp(dot(a, b), -1.0, 1.0));
@@ -184,36 +179,6 @@ std::optional<VertexFan> fill_corner(const Ridge& ridge, std::span<const std::in
   return fan;
 }
 
-/// The column at a part of a turn, as long as the ridge's mitre makes it.
-Vec3 mitred(const Ridge& ridge, const Ridge::Turn& turn, double part) {
-  const Vec3 column = turn.direction(part * turn.angle);
-  const double ahead = (1 - part) * ridge.ahead[0] + part * ridge.ahead[1];
-  return column + dot(column, ridge.mitre) * ridge.mitre + ahead * cross(turn.normal, turn.across);
-}
-
-/// Where a path meets a ridge that passes: the first column becomes a row of them along the ridge, from the
-/// side on the right of the path to that on its left, and triangles lie between these and the next column.
-void part_side(const Ridge& ridge, std::int32_t sectors, VertexFan& fan) {
-  const auto joint = static_cast<std::size_t>(ridge.joint), from = (joint + 2) % 3, to = (from + 2) % 3;
-  const Vec3 along = normalized(ridge.edges[from].direction - ridge.edges[to].direction),
-             column = fan.directions[0];
-  const double reach = std::tan(0.5 * std::max(sectors * path_sector, ridge.path_turn));
-  std::vector<std::int32_t>& across = fan.across[joint];
-  for (std::int32_t i = 0; i <= sectors; ++i) {
-    const std::int32_t at = i == 0 ? 0 : static_cast<std::int32_t>(fan.directions.size());
-    if (i > 0) {
-      fan.directions.emplace_back();
-      fan.triangles.push_back({across.back(), at, 1});
-    }
-    fan.directions[at] = column + reach * (1 - 2.0 * i / sectors) * along;
-    across.push_back(at);
-  }
-  fan.of_side.resize(3);
-  fan.of_side[from] = 0, fan.of_side[joint] = across.back(), fan.of_side[to] = fan.across[from].back();
-  fan.across[to].back() = across.back();
-  std::reverse(across.begin(), across.end());
-}
-
 }  // namespace
 
 std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std::int32_t> sectors) {
@@ -223,33 +188,24 @@ std::optional<VertexFan> make_vertex_fan(const Ridge& ridge, std::span<const std
     fan->visibility = ridge.cone;
     return fan;
   }
-  const bool is_joint = ridge.joint >= 0;
-  const std::size_t from = is_joint ? (static_cast<std::size_t>(ridge.joint) + 2) % 3 : 0,
-                    to = is_joint ? (from + 2) % 3 : 1;
   const bool passes = ridge.edges.size() > 1;
-  if (passes && sectors[from] != sectors[to]) return std::nullopt;
-  const std::int32_t most = sectors[from];
-  const double wide = std::max(most * path_sector, ridge.path_turn);
-  const Ridge::Turn turn = ridge.is_on_path() && !is_joint ? ridge.turns[0].widened(wide) : ridge.turns[0];
+  if (passes && sectors[0] != sectors[1]) return std::nullopt;
+  const std::int32_t most = sectors[0];
+  const Ridge::Turn& turn = ridge.turns[0];
   VertexFan fan;
   std::vector<std::int32_t> all;
   for (std::int32_t i = 0; i <= most; ++i) {
     all.push_back(i);
     const Vec3 column = turn.direction(i * turn.angle / most), edge = ridge.edges[0].direction;
-    const bool is_in_plane = passes || !(ridge.mitre == Vec3{});
-    fan.directions.push_back(is_in_plane ? mitred(ridge, turn, static_cast<double>(i) / most)
-                                         : column - dot(column, ridge.plane) / dot(edge, ridge.plane) * edge);
+    const bool has_mitre = passes || !(ridge.mitre == Vec3{});
+    fan.directions.push_back(has_mitre ? column + dot(column, ridge.mitre) * ridge.mitre
+                                       : column - dot(column, ridge.plane) / dot(edge, ridge.plane) * edge);
   }
-  fan.across.resize(ridge.edges.size());
-  fan.across[from] = all;
-  if (passes) fan.across[to] = {all.rbegin(), all.rend()};
-  fan.visibility = ridge.cone * std::cos(0.5 * std::max(0.0, turn.angle - ridge.turns[0].angle));
-  if (is_joint) {
-    part_side(ridge, sectors[ridge.joint], fan);
-  } else {
-    fan.of_side = {0, most};
-  }
-  return is_good(fan) ? std::optional(fan) : std::nullopt;
+  fan.across.push_back(all);
+  if (passes) fan.across.emplace_back(all.rbegin(), all.rend());
+  fan.visibility = ridge.cone;
+  fan.of_side = {0, most};
+  return fan;
 }
 
 }  // namespace aeroloom::layers

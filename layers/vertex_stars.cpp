@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace aeroloom::layers {
 namespace {
@@ -57,8 +58,6 @@ public:
             _wall.patches[t],
             static_cast<std::int32_t>(_wall.turn_at(_position, corners[(at + 1) % 3] - base))};
   }
-
-  VertexName name(std::int32_t vertex) const { return _names[vertex - _wall.first_vertex[_position]]; }
 
 private:
   const LocalWall& _wall;
@@ -184,23 +183,14 @@ std::vector<StarAnswer> meet_at_shared_vertices(const LocalWall& wall) {
   return answers;
 }
 
-std::span<const PathEdge> paths_from(const PathEdges& paths, VertexName vertex) {
-  const auto [first, last] =
-      std::equal_range(paths.begin(), paths.end(), PathEdge{vertex, {}},
-                       [](const PathEdge& a, const PathEdge& b) { return precedes(a.from, b.from); });
-  return {first, last};
-}
-
 /// Adds the ridge of a plain star, if it has one.
 void add_ridge(const StarCentre& centre, std::int32_t v, std::span<const StarTriangle> ordered,
                const LocalWall& wall, VertexStars& stars) {
   std::vector<RidgeSide> sides;
-  const RidgeSearch found = find_ridge(centre, ordered, sides);
-  stars.lost_ridges += found.is_lost ? 1 : 0;
-  if (found.open) stars.open_ends.emplace_back(v, *found.open);
-  if (!found.ridge) return;
+  std::optional<Ridge> ridge = find_ridge(centre, ordered, sides);
+  if (!ridge) return;
   stars.ridge_of[v] = static_cast<std::int32_t>(stars.ridges.size());
-  stars.ridges.push_back(*found.ridge);
+  stars.ridges.push_back(std::move(*ridge));
   for (const std::int32_t t : wall.triangles_around(v)) {
     const TrianglePlace place = wall.place_of(t);
     const auto at = std::find_if(ordered.begin(), ordered.end(), [&](const StarTriangle& other) {
@@ -238,7 +228,7 @@ std::vector<Vec3> find_planes(const LocalWall& wall, std::int32_t v, std::span<c
 
 }  // namespace
 
-VertexStars gather_stars(const LocalWall& wall, const PathEdges& paths) {
+VertexStars gather_stars(const LocalWall& wall) {
   const std::vector<StarAnswer> met = meet_at_shared_vertices(wall);
   VertexStars stars;
   stars.first.reserve(wall.points.size() + 1);
@@ -261,18 +251,9 @@ VertexStars gather_stars(const LocalWall& wall, const PathEdges& paths) {
       stars.kinds.push_back(kind_of(star, !ordered.empty()));
       std::vector<Vec3> planes = find_planes(wall, v, star, stars);
       const EdgeTurn turn = wall.turn_at(p, v - wall.first_vertex[p]);
-      const auto from_here = paths_from(paths, of_piece.name(v));
-      const bool may_have = turn != EdgeTurn::smooth || !from_here.empty();
-      if (stars.kinds.back() == StarKind::plain && planes.size() < 2 && may_have) {
-        const StarCentre centre{wall.points[v], turn, planes.empty() ? Vec3{} : planes[0], from_here};
-        if (stars.ends.at(v) == nullptr) {
-          add_ridge(centre, v, ordered, wall, stars);
-        } else {
-          std::vector<RidgeSide> sides;
-          const RidgeSearch found = find_ridge(centre, ordered, sides);
-          stars.lost_ridges += found.ridge || found.is_lost ? 1 : 0;
-        }
-      }
+      const bool may_have = turn != EdgeTurn::smooth && planes.size() < 2 && stars.ends.at(v) == nullptr;
+      if (stars.kinds.back() == StarKind::plain && may_have)
+        add_ridge({wall.points[v], turn, planes.empty() ? Vec3{} : planes[0]}, v, ordered, wall, stars);
       append_normals(star, planes, stars.normals);
       stars.plane_normals.insert(stars.plane_normals.end(), planes.begin(), planes.end());
       stars.first.push_back(static_cast<std::int64_t>(stars.normals.size()));

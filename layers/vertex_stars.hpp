@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace aeroloom::layers {
@@ -33,9 +32,6 @@ struct VertexStars {
   EndPlaces ends;
 
   std::vector<Ridge> ridges;
-  std::int64_t lost_ridges = 0;  ///< vertices of this rank that sharp edges meet and that have no ridge
-  /// Those of them at which a ridge ends off planes, with the other vertex of its edge.
-  std::vector<std::pair<std::int32_t, mesh::VertexName>> open_ends;
   std::vector<std::int32_t> ridge_of;  ///< by vertex: its ridge, or -1
   std::vector<RidgeSide> sides;        ///< by triangle and corner: the side of the ridge there
 
@@ -51,8 +47,7 @@ struct VertexStars {
   }
 };
 
-/// Collects the stars, with triangles of other pieces. `paths`: edges that are like those of ridges.
-/// Collective.
-VertexStars gather_stars(const LocalWall& wall, const PathEdges& paths = {});
+/// Collects the stars, with triangles of other pieces. Collective.
+VertexStars gather_stars(const LocalWall& wall);
 
 }  // namespace aeroloom::layers

@@ -90,12 +90,9 @@ void declare_stops(KeyTable& keys, LayerRequest& request) {
                              "have different numbers of layers. `tets`: all of these cut into tetrahedra.");
   using layers::FanPlaces;
   keys.choice<FanPlaces>(
-      "fans", request.fans,
-      {{"none", FanPlaces::none}, {"closed", FanPlaces::closed}, {"all", FanPlaces::all}},
-      "Where sharp edges have several columns with hexahedra between. `closed`: where all of them close, "
-      "meet "
-      "in corners or end on planes. `all`: also where they go on along paths on the wall, as a wing's "
-      "trailing edge on a fuselage, which cell-centred solvers do not run well on.");
+      "fans", request.fans, {{"none", FanPlaces::none}, {"all", FanPlaces::all}},
+      "Where sharp edges have several columns with hexahedra between. `all`: everywhere; where such an edge "
+      "ends on a wall layers step down to zero at this point.");
 }
 
 void declare_layer_gate(KeyTable& keys, LayerGate& gate) {

@@ -50,7 +50,7 @@ struct LayerRequest {
   LayerEnd until = LayerEnd::isotropic;
   LayerFit fit = LayerFit::none;
   layers::LayerElements elements = layers::LayerElements::prisms;
-  layers::FanPlaces fans = layers::FanPlaces::closed;
+  layers::FanPlaces fans = layers::FanPlaces::all;
   LayerGate gate;
   std::vector<LayerRule> patches;
 };
