@@ -100,10 +100,9 @@ private:
       const double height = wanted_height(_wanted[v], _edges[v]);
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
         const double turn = turn_at(*ridge, e);
-        const std::int32_t full = std::max(sectors_by_turn(turn, widest_sector),
-                                           sectors_by_front(turn, height, widest_end * _edges[v]));
         _by_slot[e][v] = std::min(
-            full, std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _edges[v])));
+            wanted_sectors(turn, height, _edges[v]),
+            std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _edges[v])));
       }
     }
   }
@@ -281,6 +280,10 @@ private:
 };
 
 }  // namespace
+
+std::int32_t wanted_sectors(double turn, double height, double edge) {
+  return std::max(sectors_by_turn(turn, widest_sector), sectors_by_front(turn, height, widest_end * edge));
+}
 
 double wanted_height(const VertexLayers& asked, double edge) {
   const double total = asked.total < std::numeric_limits<double>::infinity() ? asked.total : 0;

@@ -48,6 +48,10 @@ struct FanNeeds {
 /// wall. Ridges with no vertex two edges away from such ends have no sectors. Collective.
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs);
 
+/// The sectors that a turn, in radians, asks for, and the front over columns of this height. `edge`: mean
+/// edge length there.
+std::int32_t wanted_sectors(double turn, double height, double edge);
+
 /// The height of a column that is as high as wanted.
 double wanted_height(const VertexLayers& asked, double edge);
 

@@ -31,6 +31,7 @@ std::vector<std::vector<std::pair<cad::FaceId, cad::Coedge>>> uses_of_edges(cons
 /// The turns at some places along an edge, in radians; negative where they are not known.
 struct Turns {
   double least = -1, largest = -1;
+  bool is_convex = false;  ///< somewhere, seen from the front regions of the faces
 };
 
 Turns turns_along(const cad::Model& model, cad::EdgeId id,
@@ -50,6 +51,9 @@ Turns turns_along(const cad::Model& model, cad::EdgeId id,
     const double turn = std::acos(std::clamp(dot(one, other), -1.0, 1.0));
     turns.least = std::min(turns.least, turn);
     turns.largest = std::max(turns.largest, turn);
+    const geometry::Vec3 along = model.edge_tangent(id, parameter),
+                         into_face = cross(one, uses[0].second.reversed ? -along : along);
+    turns.is_convex = turns.is_convex || dot(into_face, other) > 0;
   }
   return turns;
 }
@@ -81,6 +85,18 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model) {
       make_sharp(e);
       goes_on = true;
     }
+  }
+  return found;
+}
+
+std::vector<double> find_ridge_turns(const cad::Model& model) {
+  const auto uses = uses_of_edges(model);
+  const std::vector<layers::EdgeTurn> kinds = find_edge_turns(model);
+  std::vector<double> found(kinds.size(), 0);
+  for (std::size_t e = 0; e < kinds.size(); ++e) {
+    if (kinds[e] != layers::EdgeTurn::sharp) continue;
+    const Turns turns = turns_along(model, static_cast<cad::EdgeId>(e), uses[e]);
+    if (turns.is_convex) found[e] = turns.largest;
   }
   return found;
 }

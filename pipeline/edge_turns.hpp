@@ -13,4 +13,8 @@ namespace aeroloom::pipeline {
 /// edges of faceted faces, are unknown: facets are what turns there.
 std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model);
 
+/// By edge: the largest angle in radians by which the walls turn over it at one of some places, where it is
+/// sharp and convex seen from the fluid; else 0.
+std::vector<double> find_ridge_turns(const cad::Model& model);
+
 }  // namespace aeroloom::pipeline

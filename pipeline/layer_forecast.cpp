@@ -2,8 +2,10 @@
 
 #include "geometry/place_text.hpp"
 #include "layers/column_heights.hpp"
+#include "layers/sectors.hpp"
 #include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/layer_rules.hpp"
+#include "pipeline/edge_turns.hpp"
 #include "pipeline/report/change_json.hpp"
 #include "sizing/choice/predict_counts.hpp"
 #include "sizing/features/model_sources.hpp"
@@ -81,6 +83,28 @@ public:
     for_each_part(patch, sides, [&](const WallFacet& facet, Vec3 middle, double size, double area) {
       add_part(facet, middle, size, area, sum);
     });
+  }
+
+  /// Over an edge that turns by this much, in radians: the sectors of its fans, as many as where they are
+  /// most.
+  void add_fans(cad::EdgeId id, double turn, PatchLayerForecast& sum) const {
+    constexpr int parts = 64;  // chosen, not measured
+    const cad::Edge& edge = _model.edge(id);
+    const layers::Heights heights{sum.asked.first, sum.asked.growth, sum.asked.constant};
+    const auto point = [&](int i) {
+      return _model.edge_point(
+          id, edge.first_parameter + (edge.last_parameter - edge.first_parameter) * i / parts);
+    };
+    std::int32_t sectors = 1;
+    double layers_along = 0;
+    for (int i = 0; i < parts; ++i) {
+      const Vec3 a = point(i), b = point(i + 1);
+      const double size = _field(0.5 * (a + b));
+      const std::int32_t count = layers::wanted_count(sum.asked, size);
+      sectors = std::max(sectors, layers::wanted_sectors(turn, heights.total(count), size));
+      layers_along += distance(a, b) / size * (count + 1);  // a pyramid ends each sector
+    }
+    sum.cells += sectors * layers_along;
   }
 
   /// Of the sizes on the patch, weighted by area; 0 for a patch without facets.
@@ -257,6 +281,12 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
   const layers::LayerOptions options = cases::layer_options(
       cases::without_missing_patches(input.layers, model.patches()), input.sizing, model.patches(), types);
   const LayerCount count(model, field, types, options.elements);
+  const bool has_fans =
+      options.fans != layers::FanPlaces::none && options.elements != layers::LayerElements::tets;
+  const std::vector<double> turns = has_fans ? find_ridge_turns(model) : std::vector<double>();
+  const auto has_layers = [&](cad::FaceId face) {
+    return options.patches.at(static_cast<std::size_t>(model.face(face).patch)).first > 0;
+  };
   LayerForecast forecast{{}, input.layers.reynolds, input.layers.length};
   if (options.elements == layers::LayerElements::tets) forecast.cells_of_prism = 3;
   for (std::size_t p = 0; p < options.patches.size(); ++p) {
@@ -266,6 +296,12 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
     if (input.layers.fit != cases::LayerFit::none)
       fit_patch(input.layers, count.mean_size(static_cast<std::int32_t>(p), sides), patch);
     count.add_patch(static_cast<std::int32_t>(p), sides, patch);
+    for (std::size_t e = 0; e < turns.size(); ++e) {
+      const auto id = static_cast<cad::EdgeId>(e);
+      const std::vector<cad::FaceId>& faces = model.edge(id).faces;
+      const bool is_here = turns[e] > 0 && model.face(faces[0]).patch == static_cast<std::int32_t>(p);
+      if (is_here && std::all_of(faces.begin(), faces.end(), has_layers)) count.add_fans(id, turns[e], patch);
+    }
     if (patch.area > 0) forecast.patches.push_back(std::move(patch));
   }
   return forecast;

@@ -44,9 +44,10 @@ struct LayerForecast {
   double tetrahedra_off_layers(double everywhere) const;
 };
 
-/// The wanted layers follow from the sizes. A gap is the distance along the normal to the first wall; walls
-/// that meet at an edge count where they face each other. Other limits (invalid cells, stairs) are known only
-/// in a run. Not collective. Throws std::invalid_argument as cases::layer_options().
+/// The wanted layers, and the sectors over sharp CAD edges, follow from the sizes. A gap is the distance
+/// along the normal to the first wall; walls that meet at an edge count where they face each other. Other
+/// limits (invalid cells, stairs) are known only in a run. Not collective. Throws std::invalid_argument as
+/// cases::layer_options().
 LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::PatchType>& types,
                               const cases::Case& input, const sizing::SizeField& field);
 

@@ -176,6 +176,27 @@ TEST_F(CheckCommandLocal, TellsOfLayersAndOfRoomForThem) {
   EXPECT_GT(cells, 1000);
 }
 
+// Sectors over sharp edges are a fifth of the cells here.
+TEST_F(CheckCommandLocal, CountsFansOfSharpEdges) {
+  const std::string layered = fmt::format(
+      "geometry: {{file: '{}/configs/geometry/wing.step'}}\n"
+      "farfield: {{shape: box, extent: 3}}\n"
+      "sizing: {{target_tetrahedra: 20000, solver: cell}}\n"
+      "layers:\n  first: 1e-4\n  count: 10\n",
+      source_tree().string());
+  const double with_fans = check(0, layered)["forecast"]["layers"]["cells"];
+  expect(0, "run case.yaml --set improve.enabled=false --set output.pictures=false");
+  double made = 0;
+  const Json rows = read_json("out/report.json")["layers"]["patches"];
+  for (const Json& row : rows) {
+    for (const char* cells : {"prisms", "hexahedra", "pyramids", "tetrahedra"})
+      made += row[cells].get<double>();
+  }
+  EXPECT_NEAR(with_fans / made, 1, 0.15);
+  EXPECT_GT(with_fans,
+            1.15 * check(0, layered + "  fans: none\n")["forecast"]["layers"]["cells"].get<double>());
+}
+
 // As a run, which has edges for sizes.
 TEST_F(CheckCommandLocal, FitsLayersThatTheirCountEndsEarly) {
   const std::string layered = coarse_duct() + "layers: {first: 1e-3, growth: 1.1, count: 30}\n";

@@ -29,5 +29,11 @@ TEST(EdgeTurnsLocal, AreSmoothAtASeam) {
   EXPECT_GE(count(turns, EdgeTurn::smooth), 1);
 }
 
+// Its edges are concave seen from the fluid.
+TEST(EdgeTurnsLocal, AreNoRidgesInABoxOfFluid) {
+  const std::vector<double> inside = find_ridge_turns(cad::make_primitive_domain(cad::PrimitiveKind::box));
+  EXPECT_EQ(std::count(inside.begin(), inside.end(), 0), 12);
+}
+
 }  // namespace
 }  // namespace aeroloom::pipeline
