@@ -41,28 +41,34 @@ void for_each_first_prism(const Piece& piece, const std::vector<std::uint8_t>& o
   }
 }
 
-/// The vertices of sharp edges under sectors. Collective.
-VertexFlags find_edge_vertices(const mesh::DistributedMesh& mesh) {
-  VertexFlags of_hexahedra = no_flags(mesh), on_walls = no_flags(mesh), on_edges = no_flags(mesh);
+/// The vertices of sectors; none where hexahedra are others. Collective.
+VertexFlags find_sector_vertices(const mesh::DistributedMesh& mesh) {
+  VertexFlags of_sectors = no_flags(mesh), on_walls = no_flags(mesh);
   const mesh::SharedVertices shared(mesh);
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
     const Piece& piece = mesh.pieces[p];
-    for (const LocalIndex v : piece.hexahedra) of_hexahedra[p][v] = 1;
+    for (const LocalIndex v : piece.hexahedra) of_sectors[p][v] = 1;
     for (LocalIndex f = 0; f < mesh::boundary_face_count(piece); ++f) {
       if (mesh.type_of_patch(mesh::patch_of(piece, f)) != mesh::PatchType::wall) continue;
       for (const LocalIndex v : mesh::corners_of_boundary(piece, f)) on_walls[p][v] = 1;
     }
   }
-  share(shared, of_hexahedra);
+  share(shared, of_sectors);
   share(shared, on_walls);
+  VertexFlags on_edges = no_flags(mesh);
+  std::int64_t found = 0;
   for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
-    for_each_first_prism(mesh.pieces[p], of_hexahedra[p], on_walls[p], [&](const LocalIndex* prism) {
-      for (std::size_t i = 0; i < corners_of(CellShape::prism); ++i)
-        on_edges[p][prism[i]] |= on_walls[p][prism[i]];
+    for_each_first_prism(mesh.pieces[p], of_sectors[p], on_walls[p], [&](const LocalIndex* prism) {
+      for (std::size_t i = 0; i < corners_of(CellShape::prism); ++i) on_edges[p][prism[i]] = 1;
+      ++found;
     });
   }
+  if (mesh.communicator.sum(found) == 0) return {};
   share(shared, on_edges);
-  return on_edges;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    for (std::size_t v = 0; v < on_edges[p].size(); ++v) of_sectors[p][v] |= on_edges[p][v];
+  }
+  return of_sectors;
 }
 
 }  // namespace
@@ -73,23 +79,21 @@ std::optional<SharpEdgeCells> find_sharp_edge_cells(const FileMesh& mesh) {
   const auto any = [&](bool here) { return communicator.maximum(std::int64_t{here}) > 0; };
   if (!any(std::any_of(pieces.begin(), pieces.end(), [](const Piece& p) { return !p.hexahedra.empty(); })))
     return std::nullopt;
-  const VertexFlags on_edges = find_edge_vertices(*mesh.pieces);
+  const VertexFlags of_sectors = find_sector_vertices(*mesh.pieces);
+  if (!any(!of_sectors.empty())) return std::nullopt;
   SharpEdgeCells cells(mesh.parts.size());
-  bool found = false;
   for (std::size_t p = 0; p < cells.size(); ++p) {
-    const std::vector<std::uint8_t>& flags = on_edges[p];
+    const std::vector<std::uint8_t>& flags = of_sectors[p];
     for (const CellShape shape : cell_shapes) {
       const Block& block = mesh.parts[p].cells[static_cast<std::size_t>(shape)];
       for (LocalIndex c = 0; c < block.count(); ++c) {
         const LocalIndex* corners = block.item(c);
-        const bool is_at_edge =
-            std::any_of(corners, corners + block.corners, [&](LocalIndex v) { return flags[v] != 0; });
-        cells[p].push_back(is_at_edge || shape == CellShape::hexahedron ? 1 : 0);
-        found = found || is_at_edge;
+        cells[p].push_back(
+            std::any_of(corners, corners + block.corners, [&](LocalIndex v) { return flags[v] != 0; }) ? 1
+                                                                                                       : 0);
       }
     }
   }
-  if (!any(found)) return std::nullopt;
   return cells;
 }
 

@@ -11,8 +11,8 @@
 
 namespace aeroloom::io {
 
-/// By part on this rank and cell in the order of the file: 1 for cells of sectors, and for those at the
-/// vertices of a sharp edge, else 0.
+/// By part on this rank and cell in the order of the file: 1 for cells of sectors, and for all that share a
+/// vertex with them, else 0.
 using SharpEdgeCells = std::vector<std::vector<std::uint8_t>>;
 
 /// Nothing where no part of the whole mesh has such cells. A sector begins with a prism along the edge, of

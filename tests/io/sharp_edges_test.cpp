@@ -20,7 +20,7 @@ using examples::MixedMesh;
 using examples::WholeFace;
 using parallel::Communicator;
 
-/// The faces of one cell alone: walls where all corners are among the first four points.
+/// The faces of one cell alone: walls where all corners are among the first six points.
 void add_boundary(MixedMesh& whole) {
   std::map<std::vector<int>, std::vector<WholeFace>> met;
   for (std::size_t c = 0; c < whole.cells.size(); ++c) {
@@ -31,7 +31,7 @@ void add_boundary(MixedMesh& whole) {
       }
       std::vector<int> key = found.corners;
       std::sort(key.begin(), key.end());
-      if (key.back() < 4) found.patch = MixedMesh::wall;
+      if (key.back() < 6) found.patch = MixedMesh::wall;
       met[key].push_back(found);
     }
   }
@@ -41,36 +41,38 @@ void add_boundary(MixedMesh& whole) {
 }
 
 /// Two layers at an edge from (0, 0, 0) to (0, 1, 0): over the wall on its right, z = 0, over that on its
-/// left, x = 0, and in a sector between. The cells, of each place the first layer's before the second's, are
-/// dealt to pieces in turn.
+/// left, x = 0, and in a sector between; and one farther on the right. The cells, of each place the first
+/// layer's before the second's, are dealt to pieces in turn.
 FileMesh layers_at_an_edge(const Communicator& communicator, int pieces) {
   MixedMesh whole(1, mesh::examples::SquareColumns{0, 0});
-  whole.points = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {0, 0.5, -1}};
+  whole.points = {{0, 0, 0}, {0, 1, 0}, {1, 0.5, 0}, {0, 0.5, -1}, {2, 0, 0}, {2, 1, 0}};
   // Over both ends of the edge, in both layers, on the right and on the left.
-  const std::array r1 = {4, 5}, r2 = {6, 7}, l1 = {8, 9}, l2 = {10, 11};
+  const std::array r1 = {6, 7}, r2 = {8, 9}, l1 = {10, 11}, l2 = {12, 13};
   for (const geometry::Vec3 up : {geometry::Vec3{0, 0, 0.1}, {0, 0, 0.3}, {-0.1, 0, 0}, {-0.3, 0, 0}}) {
     for (const int v : {0, 1}) whole.points.push_back(whole.points[v] + up);
   }
-  for (const double up : {0.1, 0.3}) whole.points.push_back({1, 0.5, up});    // 12, 13
-  for (const double up : {0.1, 0.3}) whole.points.push_back({-up, 0.5, -1});  // 14, 15
+  for (const double up : {0.1, 0.3}) whole.points.push_back({1, 0.5, up});    // 14, 15
+  for (const double up : {0.1, 0.3}) whole.points.push_back({-up, 0.5, -1});  // 16, 17
+  for (const double y : {0.0, 1.0}) whole.points.push_back({2, y, 0.1});      // 18, 19
   using enum mesh::CellShape;
-  whole.cells = {{prism, {0, 2, 1, r1[0], 12, r1[1]}, 0, 0},
-                 {prism, {r1[0], 12, r1[1], r2[0], 13, r2[1]}, 0, 0},
-                 {prism, {0, 1, 3, l1[0], l1[1], 14}, 0, 0},
-                 {prism, {l1[0], l1[1], 14, l2[0], l2[1], 15}, 0, 0},
+  whole.cells = {{prism, {0, 2, 1, r1[0], 14, r1[1]}, 0, 0},
+                 {prism, {r1[0], 14, r1[1], r2[0], 15, r2[1]}, 0, 0},
+                 {prism, {0, 1, 3, l1[0], l1[1], 16}, 0, 0},
+                 {prism, {l1[0], l1[1], 16, l2[0], l2[1], 17}, 0, 0},
                  {prism, {0, r1[0], l1[0], 1, r1[1], l1[1]}, 0, 0},
-                 {hexahedron, {r1[0], l1[0], l1[1], r1[1], r2[0], l2[0], l2[1], r2[1]}, 0, 0}};
+                 {hexahedron, {r1[0], l1[0], l1[1], r1[1], r2[0], l2[0], l2[1], r2[1]}, 0, 0},
+                 {prism, {2, 4, 5, 14, 18, 19}, 0, 0}};
   for (std::size_t c = 0; c < whole.cells.size(); ++c)
     whole.cells[c].piece = static_cast<std::int32_t>(c) % pieces;
   add_boundary(whole);
   return examples::distribute(communicator, whole, pieces);
 }
 
-TEST(SharpEdges, AreThoseOfSectorsAndBesideTheirEdge) {
+TEST(SharpEdges, AreThoseOfSectorsAndThatTouchThem) {
   const auto world = Communicator::world();
   // By piece: prisms in their order, then hexahedra.
-  const std::vector<std::vector<std::uint8_t>> in_one = {{1, 0, 1, 0, 1, 1}},
-                                               in_three = {{1, 0}, {0, 1}, {1, 1}};
+  const std::vector<std::vector<std::uint8_t>> in_one = {{1, 1, 1, 1, 1, 0, 1}},
+                                               in_three = {{1, 1, 0}, {1, 1}, {1, 1}};
   for (const auto& expected : {in_one, in_three}) {
     const FileMesh mesh = layers_at_an_edge(world, static_cast<int>(expected.size()));
     const auto found = find_sharp_edge_cells(mesh);
@@ -92,7 +94,7 @@ protected:
 
 TEST_F(SharpEdgesInFiles, HaveSchemesOfTheirOwn) {
   write_openfoam(layers_at_an_edge(world, 1), path("case"));
-  EXPECT_NE(read("case/constant/sharpEdges").find("nonuniform List<scalar> 6\n(\n0\n1\n0\n1\n0\n0\n);"),
+  EXPECT_NE(read("case/constant/sharpEdges").find("nonuniform List<scalar> 7\n(\n0\n0\n0\n0\n0\n1\n0\n);"),
             std::string::npos);
   EXPECT_NE(read("case/system/fvSchemes.second").find("localBlended upwind linearUpwind convected"),
             std::string::npos);
@@ -100,7 +102,7 @@ TEST_F(SharpEdgesInFiles, HaveSchemesOfTheirOwn) {
   world.barrier();
   // By part; the settings of before stay where they are as they were written.
   write_openfoam(layers_at_an_edge(world, 3), path("case"));
-  EXPECT_NE(read("case/processor1/constant/sharpEdges").find("nonuniform List<scalar> 2\n(\n1\n0\n);"),
+  EXPECT_NE(read("case/processor0/constant/sharpEdges").find("nonuniform List<scalar> 3\n(\n0\n0\n1\n);"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(path("case/constant/sharpEdges")));
   world.barrier();
