@@ -61,13 +61,28 @@ FittedColumns limit_columns(const LayerInput& in, Fans fans) {
   return {std::move(fans), std::move(directions), std::move(limits), rounds};
 }
 
-/// Notes the heights of fans that are much lower than those their sectors were counted for. Returns whether
-/// there are any on any rank. Collective.
+/// By vertex: 1 at the ends of fans, and some edges from there. Collective.
+std::vector<std::int32_t> find_near_ends(const LayerInput& in, const Fans& fans) {
+  constexpr int rings = 3;  // chosen, not measured
+  std::vector<std::int32_t> near = fans.is_end;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<std::int32_t> before = near;
+    for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
+      if (before[v] != 0) in.wall.for_each_neighbour(v, [&](std::int32_t other) { near[other] = 1; });
+    }
+    in.wall.combine(near, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
+  }
+  return near;
+}
+
+/// Notes the heights of fans that are much lower than those their sectors were counted for, but not near
+/// their ends, where heights rise from zero. Returns whether there are any on any rank. Collective.
 bool find_low_fans(const LayerInput& in, const FittedColumns& columns, std::vector<double>& reached) {
   constexpr double low = 0.6;  // chosen, not measured
+  const std::vector<std::int32_t> near_ends = find_near_ends(in, columns.fans);
   std::int64_t found = 0;
   for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
-    if (columns.fans.count_at(v) == 1) continue;
+    if (columns.fans.count_at(v) == 1 || near_ends[v] != 0) continue;
     const double height = columns.limits.total(v);
     if (height >= low * std::min(reached[v], wanted_height(in.wanted[v], in.edges[v]))) continue;
     reached[v] = height;
@@ -76,12 +91,20 @@ bool find_low_fans(const LayerInput& in, const FittedColumns& columns, std::vect
   return in.wall.mesh.communicator.sum(found) > 0;
 }
 
-/// Those of all fans. Collective.
-double fan_columns(const LayerInput& in, const Fans& fans) {
-  std::int64_t columns = 0;
-  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v)
-    columns += fans.count_at(v) > 1 && in.wall.owned[v] != 0 ? fans.count_at(v) : 0;
-  return static_cast<double>(in.wall.mesh.communicator.sum(columns));
+/// Of all fans.
+struct FanCounts {
+  std::int64_t vertices = 0, columns = 0;
+};
+/// Collective.
+FanCounts count_fans(const LayerInput& in, const Fans& fans) {
+  FanCounts counts;
+  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
+    if (fans.count_at(v) == 1 || in.wall.owned[v] == 0) continue;
+    ++counts.vertices;
+    counts.columns += fans.count_at(v);
+  }
+  const parallel::Communicator& ranks = in.wall.mesh.communicator;
+  return {ranks.sum(counts.vertices), ranks.sum(counts.columns)};
 }
 
 /// Whether most fans have no layers: in a duct that is narrow all over they would only make the front finer.
@@ -100,23 +123,23 @@ bool has_empty_fans(const LayerInput& in, const FittedColumns& columns) {
 /// How often numbers of sectors are to be halved so that first layers are valid.
 class SectorHalving {
 public:
-  explicit SectorHalving(const LayerInput& in)
-      : _in(in), _halvings(in.wall.points.size(), 0), _hopeless(in.wall.points.size(), 0) {}
+  explicit SectorHalving(const LayerInput& in) : _in(in), _halvings(in.wall.points.size(), 0) {}
 
-  /// Fans with a valid first layer, where there are any, and with as many sectors as the needs ask for on
-  /// other ridges.
-  Fans find(const std::vector<double>& reached) {
-    constexpr int most_halvings = 3, most_starts = 2;  // the second leaves out what no number mends
-    for (int start = 1;; ++start) {
+  /// Fans with a valid first layer, and with as many sectors as the needs ask for on other ridges. Where no
+  /// number mends it there are none.
+  Fans find(std::vector<double> reached) {
+    constexpr int most_halvings = 3;
+    for (;;) {
       std::fill(_halvings.begin(), _halvings.end(), 0);
       for (int halving = 0;; ++halving) {
         Fans fans = find_fans(_in.wall, _in.stars, {_in.wanted, _in.edges, reached, _halvings});
         const std::vector<std::int32_t> bad = find_bad(fans);
-        const bool is_good = _in.wall.mesh.communicator.sum(std::count(bad.begin(), bad.end(), 1)) == 0;
-        if (is_good || (halving == most_halvings && start == most_starts)) return fans;
-        std::vector<std::int32_t>& noted = halving == most_halvings ? _hopeless : _halvings;
-        for (std::size_t v = 0; v < bad.size(); ++v) noted[v] += bad[v];
-        if (halving == most_halvings) break;
+        if (_in.wall.mesh.communicator.sum(std::count(bad.begin(), bad.end(), 1)) == 0) return fans;
+        if (halving == most_halvings) {
+          for (std::size_t v = 0; v < bad.size(); ++v) reached[v] = bad[v] == 0 ? reached[v] : 0;
+          break;
+        }
+        for (std::size_t v = 0; v < bad.size(); ++v) _halvings[v] += bad[v];
       }
     }
   }
@@ -129,20 +152,21 @@ private:
       if (!face.is_sector()) continue;
       const std::array<std::int32_t, 2> ends{fans.vertex_of(face.columns[0]),
                                              fans.vertex_of(face.columns[2])};
+      if (fans.is_end[ends[0]] + fans.is_end[ends[1]] > 0) continue;
       FanColumns first{{true, {1, 1}}, {}};
       for (int i = 0; i < 4; ++i) {
         const std::int32_t v = ends[i / 2];
         first.columns[i] = {_in.wall.points[v], fans.directions[face.columns[i]], {_in.wanted[v].first}, 1};
       }
       if (has_good_first_layer(first)) continue;
-      for (const std::int32_t v : ends) bad[v] = 1 - _hopeless[v];
+      for (const std::int32_t v : ends) bad[v] = 1;
     }
     _in.wall.combine(bad, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
     return bad;
   }
 
   const LayerInput& _in;
-  std::vector<std::int32_t> _halvings, _hopeless;  // by vertex; hopeless: no number is good
+  std::vector<std::int32_t> _halvings;  // by vertex
 };
 
 }  // namespace
@@ -155,7 +179,9 @@ FittedColumns fit_columns(const LayerInput& in) {
   std::optional columns(limit_columns(in, SectorHalving(in).find(reached)));
   if (find_low_fans(in, *columns, reached)) {
     Fans fans = SectorHalving(in).find(reached);
-    if (fan_columns(in, fans) < many_fewer * fan_columns(in, columns->fans))
+    const FanCounts before = count_fans(in, columns->fans), now = count_fans(in, fans);
+    if (now.vertices < before.vertices ||
+        static_cast<double>(now.columns) < many_fewer * static_cast<double>(before.columns))
       columns.emplace(limit_columns(in, std::move(fans)));
   }
   if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, without_fans(in.wall)));

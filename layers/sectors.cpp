@@ -22,7 +22,7 @@ constexpr double widest_sector = 35 * std::numbers::pi / 180, widest_of_all = 75
 constexpr std::int32_t most_sectors = 24, most_columns = 255;
 /// At the ends of columns, in edges; chosen: with one edge a coarse wing had twice the cells, and no better
 /// ones.
-constexpr double widest_end = 2.5, narrowest_end = 0.3;
+constexpr double widest_end = 2.5, narrowest_end = 0.3, least_end = 0.2;
 /// Edges from the end of a fan to where a ridge is longest; chosen, not measured.
 constexpr std::int32_t least_depth = 2;
 constexpr auto more = [](auto a, auto b) { return std::max(a, b); };
@@ -97,6 +97,7 @@ private:
       const Ridge* ridge = _stars.ridge_at(v);
       if (ridge == nullptr || _wanted[v].edges == 0 || _edges[v] <= 0) continue;
       if (_names[v].piece < 0 && !mesh::can_name_columns(_names[v].id)) continue;
+      if (is_low(v)) continue;
       const double height = wanted_height(_wanted[v], _edges[v]);
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
         const double turn = turn_at(*ridge, e);
@@ -105,6 +106,17 @@ private:
             std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _edges[v])));
       }
     }
+  }
+
+  /// Whether even the fewest sectors would be narrow at the ends of columns: tetrahedra on them are flat.
+  bool is_low(std::int32_t v) const {
+    const Ridge& ridge = *_stars.ridge_at(v);
+    double widest = 0;
+    for (std::size_t e = 0; e < ridge.edges.size(); ++e) {
+      const double turn = turn_at(ridge, e);
+      widest = std::max(widest, turn * _reached[v] / least_at(turn));
+    }
+    return widest < least_end * _edges[v];
   }
 
   static double turn_at(const Ridge& ridge, std::size_t edge) {

@@ -35,7 +35,7 @@ struct Sectors {
 struct FanNeeds {
   const std::vector<VertexLayers>& wanted;
   const std::vector<double>& edges;  ///< smooth_mean_edges()
-  /// The height that limits leave to columns much lower than wanted, else infinite.
+  /// The height that limits leave to columns much lower than wanted, else infinite; 0: no fan.
   const std::vector<double>& reached;
   const std::vector<std::int32_t>& halvings;  ///< how often the number is to be halved
 };
