@@ -1,6 +1,5 @@
 /// Fans of sharp edges that end on a wall.
 #include "layers/fans.hpp"
-
 #include "mesh/data/cad_dimension.hpp"
 #include "tests/layers/checked_layers.hpp"
 #include "tests/several_ranks.hpp"

@@ -54,7 +54,8 @@ std::vector<StarTriangle> star_on_plane(double angle) {
 TEST(RidgesLocal, EndOnPlanesThatTheyMeetObliquely) {
   for (const double angle : {90.0, 60.0, 29.0, 14.0}) {
     std::vector<RidgeSide> sides;
-    const std::optional<Ridge> ridge = find_ridge({{}, EdgeTurn::sharp, {0, 1, 0}}, star_on_plane(angle), sides);
+    const std::optional<Ridge> ridge =
+        find_ridge({{}, EdgeTurn::sharp, {0, 1, 0}}, star_on_plane(angle), sides);
     ASSERT_TRUE(ridge) << angle;
     const std::array<std::int32_t, 1> sectors{3};
     const std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors);
