@@ -126,7 +126,7 @@ geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::i
 /// Why a column has fewer or lower layers than requested.
 enum class LayerLimit : std::int32_t {
   none,
-  no_direction,  ///< no direction sees all triangles of the vertex star, or that is no closed fan
+  no_direction,  ///< no direction sees all triangles of the star, that is not closed, or a fan ends there
   ending,        ///< a face beside the vertex does not let layers end on it
   gap,           ///< another part of the boundary is too near
   validity,      ///< cells or cap triangles would be bad

@@ -27,7 +27,8 @@ struct LayerInput {
 };
 
 /// Columns with fans whose sectors fit the heights that are reached, fewer along ridges on which the first
-/// layer would be invalid; without any fan where one would have no layers. Collective.
+/// layer would be invalid; one column at vertices where fans would be low, and at all where most fans would
+/// have no layers. Collective.
 FittedColumns fit_columns(const LayerInput& in);
 
 }  // namespace aeroloom::layers

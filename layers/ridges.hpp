@@ -3,7 +3,6 @@
 
 #include "layers/star_triangle.hpp"
 
-#include <array>
 #include <cstdint>
 #include <numbers>
 #include <optional>
