@@ -58,10 +58,8 @@ private:
   /// The columns at an end of an edge, from the left to the right seen from the first end.
   std::vector<std::int32_t> columns_across(const RidgeEdge& edge, int end) const {
     const std::int32_t v = edge.ends[end], slot = edge.slots[end];
-    const LocalWall::Corners& corners = _wall.triangles[edge.triangle];
-    const auto corner = std::find(corners.begin(), corners.end(), v) - corners.begin();
     const VertexFan* fan = _sectors.fan_at(v);
-    if (slot < 0 || fan == nullptr) return {_fans.columns[edge.triangle][corner]};
+    if (slot < 0 || fan == nullptr) return {_fans.columns[edge.triangle][_wall.corner_of(edge.triangle, v)]};
     std::vector<std::int32_t> columns = fan->across[slot];
     if (end == 1) std::reverse(columns.begin(), columns.end());  // seen from there the sides are exchanged
     for (std::int32_t& c : columns) c += _fans.first[v];

@@ -123,7 +123,7 @@ bool has_empty_fans(const LayerInput& in, const FittedColumns& columns) {
 /// How often numbers of sectors are to be halved so that first layers are valid.
 class SectorHalving {
 public:
-  explicit SectorHalving(const LayerInput& in) : _in(in), _halvings(in.wall.points.size(), 0) {}
+  explicit SectorHalving(const LayerInput& in) : _in(in), _halvings(3 * in.wall.triangles.size(), 0) {}
 
   /// Fans with a valid first layer, and with as many sectors as the needs ask for on other ridges. Where no
   /// number mends it there are none.
@@ -136,18 +136,18 @@ public:
         const std::vector<std::int32_t> bad = find_bad(fans);
         if (_in.wall.mesh.communicator.sum(std::count(bad.begin(), bad.end(), 1)) == 0) return fans;
         if (halving == most_halvings) {
-          for (std::size_t v = 0; v < bad.size(); ++v) reached[v] = bad[v] == 0 ? reached[v] : 0;
+          leave_out(bad, reached);
           break;
         }
-        for (std::size_t v = 0; v < bad.size(); ++v) _halvings[v] += bad[v];
+        for (std::size_t e = 0; e < bad.size(); ++e) _halvings[e] += bad[e];
       }
     }
   }
 
 private:
-  /// By vertex: 1 at both ends of a sector whose first layer is bad. Collective.
+  /// By edge of a triangle, as FanNeeds::halvings: 1 where the first layer over a sector is bad.
   std::vector<std::int32_t> find_bad(const Fans& fans) const {
-    std::vector<std::int32_t> bad(_in.wall.points.size(), 0);
+    std::vector<std::int32_t> bad(_halvings.size(), 0);
     for (const FanFace& face : fans.faces) {
       if (!face.is_sector()) continue;
       const std::array<std::int32_t, 2> ends{fans.vertex_of(face.columns[0]),
@@ -159,14 +159,23 @@ private:
         first.columns[i] = {_in.wall.points[v], fans.directions[face.columns[i]], {_in.wanted[v].first}, 1};
       }
       if (has_good_first_layer(first)) continue;
-      for (const std::int32_t v : ends) bad[v] = 1;
+      bad[3 * static_cast<std::size_t>(face.triangle) + _in.wall.corner_of(face.triangle, ends[0])] = 1;
     }
-    _in.wall.combine(bad, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
     return bad;
   }
 
+  /// No fans at both ends of these edges. Collective.
+  void leave_out(const std::vector<std::int32_t>& bad, std::vector<double>& reached) const {
+    for (std::size_t e = 0; e < bad.size(); ++e) {
+      if (bad[e] == 0) continue;
+      const LocalWall::Corners& corners = _in.wall.triangles[e / 3];
+      for (const std::size_t i : {e % 3, (e + 1) % 3}) reached[corners[i]] = 0;
+    }
+    _in.wall.combine(reached, [](double a, double b) { return std::min(a, b); });
+  }
+
   const LayerInput& _in;
-  std::vector<std::int32_t> _halvings;  // by vertex
+  std::vector<std::int32_t> _halvings;  // FanNeeds::halvings
 };
 
 }  // namespace

@@ -136,6 +136,8 @@ double gap_before(const TouchingBall& ball, const NearTriangle& triangle) {
 
 double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
   constexpr int most_steps = 30;
+  // Sine of half the turn of a concave edge.
+  constexpr double least_ahead = 0.4;
   constexpr double converged = 1 - 1e-6;  // of the diameter before: a gap is no exact measure
   double diameter = ball.diameter;
   for (int step = 0; step < most_steps; ++step) {
@@ -144,6 +146,7 @@ double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
     if (!(ahead > 0)) return diameter;
     const double through = dot(way, way) / ahead;
     if (!(through < diameter)) return diameter;
+    if (ahead < least_ahead * norm(way)) return ball.diameter;
     const bool last = through > converged * diameter;
     diameter = through;
     if (last) return diameter;

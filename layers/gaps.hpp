@@ -18,7 +18,8 @@ struct TouchingBall {
 /// no point of other boundary triangles. Triangles around the vertex do not count. The result is at most
 /// ball.diameter (Ma, Bae and Choi, 3D medial axis point approximation using nearest neighbors and the normal
 /// field, The Visual Computer 28, 2012, doi:10.1007/s00371-011-0594-7). Between parallel walls it is their
-/// distance; in a corner of 90 degrees, twice the distance to the other side. Triangles are sent to the ranks
+/// distance; in a corner of 90 degrees, twice the distance to the other side. Walls that turn by less than 47
+/// degrees, where columns of both sides rise together, are no gap. Triangles are sent to the ranks
 /// whose balls they may meet. Independent of the number of ranks. Collective.
 std::vector<double> find_gaps(const LocalWall& wall, const std::vector<TouchingBall>& balls);
 

@@ -5,6 +5,7 @@
 #include "mesh/checks/intersection.hpp"
 #include "mesh/exchange/shared_vertices.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,11 @@ struct LocalWall {
   std::vector<mesh::VertexName> vertex_names() const;
   /// The piece and the number in it of a triangle.
   TrianglePlace place_of(std::int32_t triangle) const;
+  /// Which corner of a triangle a vertex is: 0 to 2.
+  std::size_t corner_of(std::int32_t triangle, std::int32_t vertex) const {
+    const Corners& corners = triangles[triangle];
+    return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
+  }
   bool is_curved_end(std::int32_t face) const { return curved_ends[face] != 0; }
   /// How the surface turns over the CAD edge of a vertex of a piece at a position; smooth within faces.
   EdgeTurn turn_at(std::size_t position, mesh::LocalIndex vertex) const;

@@ -51,6 +51,7 @@ public:
 
   Sectors count() {
     list_edges();
+    smooth_lengths();
     ask();
     drop_short();
     agree_along_ridges(more);
@@ -87,6 +88,43 @@ private:
     }
   }
 
+  /// Lengths of a ridge's edges, as smooth along it as mean edges are over the wall: these are longer where
+  /// the wall is fine along its edges alone.
+  void smooth_lengths() {
+    constexpr int sweeps = 8;  // as many as mean edges have; chosen, not measured
+    struct Around {
+      double sum;
+      std::int64_t count;
+      double mean() const { return sum / static_cast<double>(count); }
+    };
+    std::vector<Around> around(_wall.points.size());
+    const auto average = [&](const auto& value) {
+      std::fill(around.begin(), around.end(), Around{});
+      for (const RidgeEdge& edge : _sectors.edges) {
+        if (!edge.is_owned) continue;
+        for (int end = 0; end < 2; ++end) {
+          Around& here = around[edge.ends[end]];
+          here.sum += value(edge, end);
+          ++here.count;
+        }
+      }
+      _wall.combine(around, [](Around a, Around b) { return Around{a.sum + b.sum, a.count + b.count}; });
+    };
+    _lengths = _edges;
+    average([&](const RidgeEdge& edge, int) {
+      return distance(_wall.points[edge.ends[0]], _wall.points[edge.ends[1]]);
+    });
+    for (std::size_t v = 0; v < around.size(); ++v) {
+      if (around[v].count > 0) _lengths[v] = around[v].mean();
+    }
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      average([&](const RidgeEdge& edge, int end) { return _lengths[edge.ends[1 - end]]; });
+      for (std::size_t v = 0; v < around.size(); ++v) {
+        if (around[v].count > 0) _lengths[v] = 0.5 * (_lengths[v] + around[v].mean());
+      }
+    }
+  }
+
   void ask() {
     std::size_t most_slots = 2;
     for (const Ridge& ridge : _stars.ridges) most_slots = std::max(most_slots, ridge.edges.size());
@@ -102,8 +140,8 @@ private:
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
         const double turn = turn_at(*ridge, e);
         _by_slot[e][v] = std::min(
-            wanted_sectors(turn, height, _edges[v]),
-            std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _edges[v])));
+            wanted_sectors(turn, height, _lengths[v]),
+            std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _lengths[v])));
       }
     }
   }
@@ -116,7 +154,7 @@ private:
       const double turn = turn_at(ridge, e);
       widest = std::max(widest, turn * _reached[v] / least_at(turn));
     }
-    return widest < least_end * _edges[v];
+    return widest < least_end * _lengths[v];
   }
 
   static double turn_at(const Ridge& ridge, std::size_t edge) {
@@ -237,17 +275,21 @@ private:
 
   /// Halves numbers where they are to be fewer, down to the least.
   void halve() {
-    for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
-      const Ridge* ridge = _stars.ridge_at(v);
-      if (ridge == nullptr || _halvings[v] == 0) continue;
-      for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
-        std::int32_t& count = _by_slot[e][v];
-        if (count == 0) continue;
-        const std::int32_t least = std::min(count, least_at(turn_at(*ridge, e)));
-        for (std::int32_t i = 0; i < _halvings[v]; ++i) count = halved(count);
-        count = std::max(count, least);
+    const std::vector<std::vector<std::int32_t>> before = _by_slot;
+    for (const RidgeEdge& edge : _sectors.edges) {
+      const std::int32_t halvings = _halvings[3 * static_cast<std::size_t>(edge.triangle) +
+                                              _wall.corner_of(edge.triangle, edge.ends[0])];
+      if (halvings == 0) continue;
+      for (int end = 0; end < 2; ++end) {
+        if (!has_fan(edge, end)) continue;
+        const std::int32_t v = edge.ends[end], slot = edge.slots[end];
+        const std::int32_t least = std::min(before[slot][v], least_at(turn_at(*_stars.ridge_at(v), slot)));
+        std::int32_t count = before[slot][v];
+        for (std::int32_t i = 0; i < halvings; ++i) count = halved(count);
+        set(v, slot, std::min(count_of(v, slot), std::max(count, least)));
       }
     }
+    for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, fewer);
   }
 
   static std::int32_t halved(std::int32_t count) { return (count + 1) / 2; }
@@ -286,6 +328,7 @@ private:
   const std::vector<double>&_edges, &_reached;
   const std::vector<std::int32_t>& _halvings;
   std::vector<mesh::VertexName> _names;
+  std::vector<double> _lengths;  ///< of edges along ridges, by vertex
   /// By place among Ridge::edges and by vertex: the number over that edge; 0: no fan.
   std::vector<std::vector<std::int32_t>> _by_slot;
   Sectors _sectors;

@@ -31,13 +31,15 @@ struct Sectors {
   }
 };
 
-/// What numbers of sectors follow from, by vertex.
+/// What numbers of sectors follow from, by vertex if nothing else is said.
 struct FanNeeds {
   const std::vector<VertexLayers>& wanted;
   const std::vector<double>& edges;  ///< smooth_mean_edges()
   /// The height that limits leave to columns much lower than wanted, else infinite; 0: no fan.
   const std::vector<double>& reached;
-  const std::vector<std::int32_t>& halvings;  ///< how often the number is to be halved
+  /// By edge of a triangle that a fan's face lies beside, three a triangle: how often the number is to be
+  /// halved.
+  const std::vector<std::int32_t>& halvings;
 };
 
 /// Edges of a ridge have all as many sectors, as the turn asks for where it is largest, at most 35 degrees

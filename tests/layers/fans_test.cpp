@@ -92,6 +92,31 @@ TEST(Fans, HaveEqualSectors) {
   }
 }
 
+// Of 1/16 along y, of 1/4 along x and z. Sectors as wide as those would be four times as wide as long.
+TEST(Fans, AreNotMuchWiderThanTheEdgesAlongThem) {
+  const auto world = Communicator::world();
+  mesh::DistributedMesh mesh = Shapes()
+                                   .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
+                                   .add_box({0, 0, 0}, {1, 1, 1}, {4, 16, 4}, Fluid::outside)
+                                   .distribute(world, 5);
+  for (mesh::Piece& piece : mesh.pieces)
+    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+  const Layers layers = build(mesh, options_for({0, 1e-4}));
+  expect_valid(mesh, layers);
+  const auto sectors_at = [&](Vec3 place) {
+    std::int64_t sectors = 0;
+    for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+      const PieceColumns& columns = layers.columns.pieces[p];
+      for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+        if (mesh.pieces[p].point(v) == place) sectors = columns.columns_at(v) - 1;
+      }
+    }
+    return world.maximum(sectors);
+  };
+  EXPECT_GE(sectors_at({0, 0.5, 0}), 2 * sectors_at({0.5, 0, 0}));
+  EXPECT_GE(sectors_at({0.5, 0, 0}), 3);
+}
+
 TEST(Fans, AreMissingInLayersOfTetrahedra) {
   const auto world = Communicator::world();
   const mesh::DistributedMesh mesh = cube(world);

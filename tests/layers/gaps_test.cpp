@@ -3,6 +3,9 @@
 #include "tests/meshes/wall_meshes.hpp"
 #include "tests/several_ranks.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 namespace aeroloom::layers {
@@ -25,6 +28,17 @@ TEST(TouchingBallsLocal, AreTwiceTheDistanceFromTheOtherSideOfACorner) {
 TEST(TouchingBallsLocal, DoNotMindAFlatOrConvexWall) {
   EXPECT_EQ(diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}}), 10);
   EXPECT_EQ(diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, {{1, 0, -0.1}, {2, 0, -0.5}, {1, 1, -0.2}}), 10);
+}
+
+// It rises from a distance of 1. The ball touches it as far up from there.
+TEST(TouchingBallsLocal, DoNotMindAWallThatTurnsALittle) {
+  const auto beside = [](double degrees) {
+    const double turn = degrees * std::numbers::pi / 180, x = 1 + 30 * std::cos(turn),
+                 z = 30 * std::sin(turn);
+    return diameter_beside({{0, 0, 0}, {0, 0, 1}, 10}, {{1, -9, 0}, {1, 9, 0}, {x, 0, z}});
+  };
+  EXPECT_NEAR(beside(60), 2 / std::tan(std::numbers::pi / 6), 1e-5);
+  EXPECT_EQ(beside(30), 10);
 }
 
 /// Plates of thickness 1 with a slit of 0.25 between, in a large box.
