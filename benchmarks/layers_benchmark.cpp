@@ -100,7 +100,7 @@ void run(const Communicator& communicator, const cases::Case& input, double firs
   clock.end();
   const parallel::StageSummary stage = clock.summarise(communicator).back();
   const double cpu_used = stage.cpu_seconds_mean * communicator.size();
-  const std::string hash = mesh::hash_mesh({layers.cap, wall.numbering});
+  const std::string hash = mesh::hash_mesh(mesh::number_mesh(layers.cap));
   print_figures(communicator, {wall, layers, options});
   if (!communicator.is_root()) return;
   const layers::PatchLayers sum = sum_of(layers.report);

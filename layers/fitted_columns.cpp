@@ -18,35 +18,64 @@ double ample_gap_of(const ColumnLimits& limits, std::int32_t v) {
   return ample_gap(limits.total(v), limits.mean_edge(v));
 }
 
-/// The balls that measure the gaps of columns. Only the lowest piece with a vertex needs them.
-std::vector<TouchingBall> balls_on(const LocalWall& wall, const Fans& fans, const Directions& directions,
-                                   const ColumnLimits& limits) {
-  std::vector<TouchingBall> balls(fans.column_count());
-  for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
-    if (limits.count(v) == 0 || wall.owned[v] == 0) continue;
-    for (std::int32_t c = fans.first[v]; c < fans.first[v + 1]; ++c)
-      balls[c] = {wall.points[v], directions.most_normal[c], ample_gap_of(limits, v)};
+/// Gaps at vertices. They are measured again only where the number of columns has changed or wider ones are
+/// sought.
+class MeasuredGaps {
+public:
+  explicit MeasuredGaps(const LocalWall& wall) : _wall(wall), _known(wall.points.size()) {}
+
+  /// By vertex. Collective.
+  std::vector<double> measure(const Fans& fans, const Directions& directions, const ColumnLimits& limits) {
+    const std::vector<double> of_columns = find_gaps(_wall, unknown_balls(fans, directions, limits));
+    std::vector<double> gaps(_wall.points.size());
+    for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+      if (_known[v].is_new)
+        _known[v].gap =
+            *std::min_element(of_columns.begin() + fans.first[v], of_columns.begin() + fans.first[v + 1]);
+      _known[v].is_new = false;
+      gaps[v] = _known[v].gap;
+    }
+    _wall.spread(gaps);
+    return gaps;
   }
-  return balls;
-}
+
+private:
+  struct Known {
+    double gap = 0, sought = 0;
+    std::int32_t columns = 0;
+    bool is_new = false;
+  };
+
+  /// Only the lowest piece with a vertex needs them.
+  std::vector<TouchingBall> unknown_balls(const Fans& fans, const Directions& directions,
+                                          const ColumnLimits& limits) {
+    std::vector<TouchingBall> balls(fans.column_count());
+    for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+      if (limits.count(v) == 0 || _wall.owned[v] == 0) continue;
+      const double sought = ample_gap_of(limits, v);
+      if (_known[v].columns == fans.count_at(v) && sought <= _known[v].sought) continue;
+      _known[v] = {0, sought, fans.count_at(v), true};
+      for (std::int32_t c = fans.first[v]; c < fans.first[v + 1]; ++c)
+        balls[c] = {_wall.points[v], directions.most_normal[c], sought};
+    }
+    return balls;
+  }
+
+  const LocalWall& _wall;
+  std::vector<Known> _known;
+};
 
 /// Limits totals to the room in the gaps.
-void limit_by_gaps(const LocalWall& wall, const Fans& fans, const Directions& directions,
-                   ColumnLimits& limits) {
-  const std::vector<double> of_columns = find_gaps(wall, balls_on(wall, fans, directions, limits));
-  std::vector<double> gaps(wall.points.size());
-  for (std::int32_t v = 0; v < wall.vertex_count(); ++v)
-    gaps[v] = *std::min_element(of_columns.begin() + fans.first[v], of_columns.begin() + fans.first[v + 1]);
-  wall.spread(gaps);
+void limit_by_gaps(const std::vector<double>& gaps, const Directions& directions, ColumnLimits& limits) {
   std::vector<double> totals(gaps.size(), std::numeric_limits<double>::infinity());
-  for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(gaps.size()); ++v) {
     if (limits.count(v) == 0 || gaps[v] >= ample_gap_of(limits, v)) continue;
     totals[v] = room_in_gap(gaps[v], limits.mean_edge(v), directions.visibility[v]);
   }
   limits.limit_totals(std::move(totals), LayerLimit::gap);
 }
 
-FittedColumns limit_columns(const LayerInput& in, Fans fans) {
+FittedColumns limit_columns(const LayerInput& in, MeasuredGaps& gaps, Fans fans) {
   Directions directions = find_directions(in.wall, in.stars, fans);
   ColumnLimits limits(in.wall, in.wanted, in.edges, in.stars, directions);
   std::vector<std::int32_t> counts(in.wall.points.size(), most_layers);
@@ -55,7 +84,7 @@ FittedColumns limit_columns(const LayerInput& in, Fans fans) {
   }
   limits.limit_counts(std::move(counts), LayerLimit::no_direction);
   limits.converge();
-  limit_by_gaps(in.wall, fans, directions, limits);
+  limit_by_gaps(gaps.measure(fans, directions, limits), directions, limits);
   limits.converge();
   const int rounds = shrink_to_good(in.wall, fans, directions, limits);
   return {std::move(fans), std::move(directions), std::move(limits), rounds};
@@ -183,17 +212,18 @@ private:
 FittedColumns fit_columns(const LayerInput& in) {
   // Of the columns of fans; chosen. A second attempt costs as much as the first.
   constexpr double many_fewer = 0.9;
-  if (!in.may_have_fans) return limit_columns(in, without_fans(in.wall));
+  MeasuredGaps gaps(in.wall);
+  if (!in.may_have_fans) return limit_columns(in, gaps, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
-  std::optional columns(limit_columns(in, SectorHalving(in).find(reached)));
+  std::optional columns(limit_columns(in, gaps, SectorHalving(in).find(reached)));
   if (find_low_fans(in, *columns, reached)) {
     Fans fans = SectorHalving(in).find(reached);
     const FanCounts before = count_fans(in, columns->fans), now = count_fans(in, fans);
     if (now.vertices < before.vertices ||
         static_cast<double>(now.columns) < many_fewer * static_cast<double>(before.columns))
-      columns.emplace(limit_columns(in, std::move(fans)));
+      columns.emplace(limit_columns(in, gaps, std::move(fans)));
   }
-  if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, without_fans(in.wall)));
+  if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, gaps, without_fans(in.wall)));
   return std::move(*columns);
 }
 
