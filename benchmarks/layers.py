@@ -8,7 +8,7 @@ FOLDER is as in real_cad.py. First height 1e-5 of the longest side of the file's
 isotropic, N cells aimed at (default 300,000), those of layers included. Area: percent of the walls whose columns have all layers, a last
 layer of at least 0.35 of the mean edge, no layers, and the limit that keeps most of the rest. CHECKER is an independent checker of mixed
 meshes, called as `CHECKER mesh.pvtu --surface surface.pvtp --walls WALLS`, WALLS the surface of a run without layers and without
-improvement.
+improvement, with `--inner interfaces.pvtp --regions N` where there are several regions: tests/arbiters has one.
 """
 import argparse
 import json
@@ -42,8 +42,10 @@ def verdict(options, folder, case):
     if bare.returncode != 0:
         return "no walls"
     command = [options.arbiter, folder / "out" / "mesh.pvtu", "--surface", folder / "out" / "surface.pvtp"]
-    sizes = [json.loads((folder / run / "report.json").read_text())["sizing"] for run in ("out", "bare")]
-    if sizes[0] == sizes[1]:  # a target counts tetrahedra off the layers, so sizes may be others without
+    reports = [json.loads((folder / run / "report.json").read_text()) for run in ("out", "bare")]
+    if (inner := folder / "out" / "interfaces.pvtp").exists():
+        command += ["--inner", inner, "--regions", str(len(reports[0]["regions"]))]
+    if reports[0]["sizing"] == reports[1]["sizing"]:  # a target counts tetrahedra off the layers, so sizes may be others without
         command += ["--walls", folder / "bare" / "surface.pvtp"]
     said = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT_S).stdout
     return "yes" if "VALID yes" in said else "NO"

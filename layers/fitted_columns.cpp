@@ -90,28 +90,13 @@ FittedColumns limit_columns(const LayerInput& in, MeasuredGaps& gaps, Fans fans)
   return {std::move(fans), std::move(directions), std::move(limits), rounds};
 }
 
-/// By vertex: 1 at the ends of fans, and some edges from there. Collective.
-std::vector<std::int32_t> find_near_ends(const LayerInput& in, const Fans& fans) {
-  constexpr int rings = 3;  // chosen, not measured
-  std::vector<std::int32_t> near = fans.is_end;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::vector<std::int32_t> before = near;
-    for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
-      if (before[v] != 0) in.wall.for_each_neighbour(v, [&](std::int32_t other) { near[other] = 1; });
-    }
-    in.wall.combine(near, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
-  }
-  return near;
-}
-
-/// Notes the heights of fans that are much lower than those their sectors were counted for, but not near
-/// their ends, where heights rise from zero. Returns whether there are any on any rank. Collective.
+/// Notes the heights of fans that are much lower than those their sectors were counted for. Returns whether
+/// there are any on any rank. Collective.
 bool find_low_fans(const LayerInput& in, const FittedColumns& columns, std::vector<double>& reached) {
   constexpr double low = 0.6;  // chosen, not measured
-  const std::vector<std::int32_t> near_ends = find_near_ends(in, columns.fans);
   std::int64_t found = 0;
   for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
-    if (columns.fans.count_at(v) == 1 || near_ends[v] != 0) continue;
+    if (columns.fans.count_at(v) == 1) continue;
     const double height = columns.limits.total(v);
     if (height >= low * std::min(reached[v], wanted_height(in.wanted[v], in.edges[v]))) continue;
     reached[v] = height;
