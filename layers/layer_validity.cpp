@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace aeroloom::layers {
@@ -102,21 +103,22 @@ Level directions_at(const TriangleColumns& columns, const std::array<double, 3>&
   return directions;
 }
 
-/// The nodes of the columns layer by layer.
+/// The nodes of columns layer by layer.
+template <std::size_t N>
 class Levels {
 public:
-  explicit Levels(const TriangleColumns& columns) : _columns(columns) {
-    for (int i = 0; i < 3; ++i) {
+  explicit Levels(const std::array<CornerColumn, N>& columns) : _columns(columns) {
+    for (std::size_t i = 0; i < N; ++i) {
       _level[i] = columns[i].point;
       _layers[i] = columns[i].heights.first;
     }
   }
-  const Level& level() const { return _level; }
-  const std::array<double, 3>& heights() const { return _sums; }
+  const std::array<Vec3, N>& level() const { return _level; }
+  const std::array<double, N>& heights() const { return _sums; }
   /// Goes up by one layer; columns that end here stay.
   void advance() {
     ++_k;
-    for (int i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < N; ++i) {
       const CornerColumn& column = _columns[i];
       if (_k > column.count) continue;
       if (_k > column.heights.constant) _layers[i] *= column.heights.growth;
@@ -127,9 +129,9 @@ public:
   }
 
 private:
-  const TriangleColumns& _columns;
-  Level _level;
-  std::array<double, 3> _layers{}, _sums{};
+  const std::array<CornerColumn, N>& _columns;
+  std::array<Vec3, N> _level;
+  std::array<double, N> _layers{}, _sums{};
   std::int32_t _k = 0;
 };
 
@@ -246,19 +248,18 @@ Vec3 sector_apex(const std::array<Vec3, 4>& top, const std::array<Vec3, 4>& dire
 
 namespace {
 
-Vec3 node_of(const CornerColumn& column, std::int32_t level) {
-  return column.at(column.heights.total(level));
-}
+using FanLevel = std::array<Vec3, 4>;
 
-bool is_good_layer(const FanColumns& fan, std::int32_t k) {
+/// Whether the cells of layer k between two levels are good.
+bool is_good_layer(const LayersOverFan& over, std::int32_t k, const FanLevel& lower, const FanLevel& upper) {
   bool good = true;
-  visit_layer(fan.over, k, [&](mesh::CellShape shape, const auto& nodes) {
+  visit_layer(over, k, [&](mesh::CellShape shape, const auto& nodes) {
     std::array<Vec3, 8> points;
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      points[i] = node_of(fan.columns[static_cast<std::size_t>(nodes[i].corner)], nodes[i].level);
+      points[i] = (nodes[i].level < k ? lower : upper)[static_cast<std::size_t>(nodes[i].corner)];
     if (shape == mesh::CellShape::prism) {
-      const Level lower{points[0], points[1], points[2]}, upper{points[3], points[4], points[5]};
-      good = good && is_good_prism(lower, upper, doubled_area(lower), doubled_area(upper));
+      const Level below{points[0], points[1], points[2]}, above{points[3], points[4], points[5]};
+      good = good && is_good_prism(below, above, doubled_area(below), doubled_area(above));
     } else {
       good = good && mesh::has_positive_corners(shape, points.data());
     }
@@ -266,13 +267,26 @@ bool is_good_layer(const FanColumns& fan, std::int32_t k) {
   return good;
 }
 
+/// How many layers from the wall on are good, at most this many.
+std::int32_t good_layers(const FanColumns& fan, std::int32_t most) {
+  Levels levels(fan.columns);
+  FanLevel lower = levels.level();
+  for (std::int32_t k = 1; k <= most; ++k) {
+    levels.advance();
+    if (!is_good_layer(fan.over, k, lower, levels.level())) return k - 1;
+    lower = levels.level();
+  }
+  return most;
+}
+
 bool has_good_apex(const FanColumns& fan) {
   if (!fan.over.is_sector || fan.over.counts[0] == 0 || fan.over.counts[1] == 0) return true;
   std::array<Vec3, 4> top, directions;
   std::array<Vec3, 5> pyramid;
   for (int i = 0; i < 4; ++i) {
-    top[i] = pyramid[i] = node_of(fan.columns[i], fan.over.counts[i / 2]);
-    directions[i] = fan.columns[i].direction;
+    const CornerColumn& column = fan.columns[i];
+    top[i] = pyramid[i] = column.at(column.heights.total(fan.over.counts[i / 2]));
+    directions[i] = column.direction;
   }
   pyramid[4] = sector_apex(top, directions);
   return mesh::has_positive_corners(mesh::CellShape::pyramid, pyramid.data());
@@ -281,14 +295,13 @@ bool has_good_apex(const FanColumns& fan) {
 }  // namespace
 
 bool has_good_first_layer(const FanColumns& fan) {
-  return is_good_layer(fan, 1);
+  return good_layers(fan, 1) == 1;
 }
 
 double fitting_height(const FanColumns& fan) {
   constexpr double step = 0.95;
   const std::int32_t most = std::max(fan.over.counts[0], fan.over.counts[1]);
-  std::int32_t good = 0;
-  while (good < most && is_good_layer(fan, good + 1)) ++good;
+  const std::int32_t good = good_layers(fan, most);
   if (good == most && has_good_apex(fan)) return std::numeric_limits<double>::infinity();
   double below = 0, highest = 0;
   for (const int i : {0, 2}) {
