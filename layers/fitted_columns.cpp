@@ -105,20 +105,14 @@ bool find_low_fans(const LayerInput& in, const FittedColumns& columns, std::vect
   return in.wall.mesh.communicator.sum(found) > 0;
 }
 
-/// Of all fans.
-struct FanCounts {
-  std::int64_t vertices = 0, columns = 0;
-};
-/// Collective.
-FanCounts count_fans(const LayerInput& in, const Fans& fans) {
-  FanCounts counts;
+/// Whether a fan has at most three quarters of the sectors it had, on any rank. Collective.
+bool have_fewer(const LayerInput& in, const Fans& before, const Fans& now) {
+  std::int64_t fewer = 0;
   for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
-    if (fans.count_at(v) == 1 || in.wall.owned[v] == 0) continue;
-    ++counts.vertices;
-    counts.columns += fans.count_at(v);
+    const std::int32_t sectors = before.count_at(v) - 1;
+    if (sectors > 0 && 4 * (now.count_at(v) - 1) <= 3 * sectors) ++fewer;
   }
-  const parallel::Communicator& ranks = in.wall.mesh.communicator;
-  return {ranks.sum(counts.vertices), ranks.sum(counts.columns)};
+  return in.wall.mesh.communicator.sum(fewer) > 0;
 }
 
 /// Whether most fans have no layers: in a duct that is narrow all over they would only make the front finer.
@@ -195,18 +189,13 @@ private:
 }  // namespace
 
 FittedColumns fit_columns(const LayerInput& in) {
-  // Of the columns of fans; chosen. A second attempt costs as much as the first.
-  constexpr double many_fewer = 0.9;
   MeasuredGaps gaps(in.wall);
   if (!in.may_have_fans) return limit_columns(in, gaps, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
   std::optional columns(limit_columns(in, gaps, SectorHalving(in).find(reached)));
   if (find_low_fans(in, *columns, reached)) {
     Fans fans = SectorHalving(in).find(reached);
-    const FanCounts before = count_fans(in, columns->fans), now = count_fans(in, fans);
-    if (now.vertices < before.vertices ||
-        static_cast<double>(now.columns) < many_fewer * static_cast<double>(before.columns))
-      columns.emplace(limit_columns(in, gaps, std::move(fans)));
+    if (have_fewer(in, columns->fans, fans)) columns.emplace(limit_columns(in, gaps, std::move(fans)));
   }
   if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, gaps, without_fans(in.wall)));
   return std::move(*columns);

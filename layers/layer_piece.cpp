@@ -220,11 +220,26 @@ private:
     }
   }
 
+  /// The columns over the ends of an edge, the last ones where a fan ends in the plane beside it.
+  std::array<std::int32_t, 2> columns_over(const LateralEdge& edge) const {
+    const std::int32_t t = edge.half_edge / 3;
+    const std::array<std::int32_t, 3>& columns = _source.columns.corner_columns[t];
+    std::array<std::int32_t, 2> ends{columns[edge.half_edge % 3], columns[(edge.half_edge + 1) % 3]};
+    const std::vector<FanFace>& faces = _source.columns.fan_faces;
+    for (auto face = std::lower_bound(faces.begin(), faces.end(), t,
+                                      [](const FanFace&f, std::int32_t place) { return f.triangle < place; });
+         face != faces.end() && face->triangle == t; ++face) {
+      // A fan's edges run the other way round.
+      if (face->is_sector() && face->columns[0] == ends[1] && face->columns[3] == ends[0])
+        ends = {face->columns[2], face->columns[1]};
+    }
+    return ends;
+  }
+
   /// The lateral faces over an edge, seen from outside the cells: quadrilaterals if both columns continue,
   /// triangles if one does.
   void add_lateral(const LateralEdge& edge) {
-    const std::array<std::int32_t, 3>& columns = _source.columns.corner_columns[edge.half_edge / 3];
-    const std::int32_t p = columns[edge.half_edge % 3], q = columns[(edge.half_edge + 1) % 3];
+    const auto [p, q] = columns_over(edge);
     if (_source.elements == LayerElements::tets) return add_lateral_triangles(edge, p, q);
     for (std::int32_t k = 1; k <= std::max(count(p), count(q)); ++k) {
       if (count(p) >= k && count(q) >= k) {

@@ -30,14 +30,16 @@ public:
     for (std::size_t i = 0; i < _star.size(); ++i) {
       if (is_sharp(i)) _edges.push_back(i);
     }
-    _ridge.on_plane = !(_plane == Vec3{});
+    const bool is_half = !(_plane == Vec3{}) && _edges.empty() && find_half();
+    _ridge.on_plane = !(_plane == Vec3{}) && !is_half;
     const bool goes_on = _ridge.on_plane ? _edges.size() == 1 : _edges.size() > 1;
     if (!goes_on || _edges.size() > most_edges) return std::nullopt;
     _ridge.lowest = {_star[0].piece, _star[0].cell};
     for (const StarTriangle& t : _star)
       _ridge.lowest = std::min(_ridge.lowest, TrianglePlace{t.piece, t.cell});
     sides.assign(_star.size(), 0);
-    if (!part(sides) || !(_ridge.is_corner() ? turn_by_edge() : turn_along())) return std::nullopt;
+    if (!(is_half ? part_half(sides) : part(sides)) || !(_ridge.is_corner() ? turn_by_edge() : turn_along()))
+      return std::nullopt;
     return std::move(_ridge);
   }
 
@@ -56,14 +58,33 @@ private:
     const StarTriangle &l = left(edge), &r = right(edge);
     if (r.wall_role() != WallRole::layered || l.wall_role() != WallRole::layered) return false;
     if (is_rim(edge)) return true;
-    if (_centre.turn == EdgeTurn::smooth) return false;
-    const auto turn = static_cast<EdgeTurn>(l.edge_turn);
-    if (turn == EdgeTurn::smooth) return false;
-    // An edge within a face may lead from one sharp CAD edge to another.
-    const bool is_sharp = (turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp) && l.face != r.face;
-    return dot(r.normal, l.normal) < std::cos(is_sharp ? least_turn : sharp_turn) &&
+    return dot(r.normal, l.normal) < least_cosine(edge) &&
            dot(cross(r.normal, l.normal), l.next_point - _vertex) < 0;
   }
+
+  /// The cosine of the least turn of a ridge at an edge; -1 where none may be.
+  double least_cosine(std::size_t edge) const {
+    const auto turn = static_cast<EdgeTurn>(left(edge).edge_turn);
+    if (_centre.turn == EdgeTurn::smooth || turn == EdgeTurn::smooth) return -1;
+    // An edge within a face may lead from one sharp CAD edge to another.
+    const bool is_sharp =
+        (turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp) && left(edge).face != right(edge).face;
+    return std::cos(is_sharp ? least_turn : sharp_turn);
+  }
+
+  /// Whether the wall turns sharply into its mirror image at both edges that it has in the plane, which then
+  /// are the ridge's.
+  bool find_half() {
+    for (std::size_t i = 0; i < _star.size(); ++i) {
+      const StarTriangle &l = left(i), &r = right(i);
+      if (l.wall_role() == r.wall_role()) continue;
+      const double towards = dot((is_layered(l) ? l : r).normal, _plane);
+      if (towards >= 0 || 1 - 2 * towards * towards >= least_cosine(i)) return false;
+      _edges.push_back(i);
+    }
+    return _edges.size() == 2;
+  }
+  static bool is_layered(const StarTriangle& t) { return t.wall_role() == WallRole::layered; }
 
   /// How the column over the side on the left or right of an edge leans away from it, as a vector along the
   /// wall as long as the angle's tangent.
@@ -128,6 +149,29 @@ private:
       _ridge.edges.push_back({l.next, {r.piece, r.cell}, {l.piece, l.cell}, along(_edges[e])});
     }
     return _ridge.cone >= least_cone;
+  }
+
+  /// The same in a plane.
+  bool part_half(std::vector<RidgeSide>& sides) {
+    const std::size_t n = _star.size(), wall = is_layered(left(_edges[0])) ? 0 : 1;
+    std::vector<std::vector<Vec3>> normals(2);
+    Vec3 over_plane;
+    for (std::size_t i = 0; i < n; ++i) {
+      sides[i] = static_cast<RidgeSide>(is_layered(_star[i]) ? wall : 1 - wall);
+      if (is_layered(_star[i])) normals[wall].push_back(_star[i].normal);
+    }
+    for (const std::size_t edge : _edges) {
+      const StarTriangle& of_wall = is_layered(left(edge)) ? left(edge) : right(edge);
+      over_plane += normalized(of_wall.normal - dot(of_wall.normal, _plane) * _plane);
+      _ridge.edges.push_back(
+          {left(edge).next, {of_wall.piece, of_wall.cell}, {of_wall.piece, of_wall.cell}, along(edge)});
+    }
+    const NormalCone cone = smallest_cone(normals[wall]);
+    _ridge.cone = cone.visibility;
+    _ridge.sides.assign(2, cone.axis);
+    _ridge.sides[1 - wall] = normalized(over_plane);
+    _ridge.half_side = static_cast<std::int32_t>(1 - wall);
+    return _ridge.cone >= least_cone && norm(over_plane) > 1;
   }
 
   /// Columns over strips lean apart.

@@ -16,7 +16,9 @@ namespace aeroloom::layers {
 inline constexpr double sharp_turn = std::numbers::pi / 3, least_turn = std::numbers::pi / 36;
 
 /// The edges of ridges at a vertex, which part the triangles around it into sides. A ridge passes with two
-/// edges, or ends with one on a plane that layers end on; three and more meet in a corner.
+/// edges, or ends with one on a plane that layers end on; three and more meet in a corner. A ridge that lies
+/// in such a plane is half of one: it passes, the plane's triangles are one of its sides, and the direction
+/// over it bisects the wall and its mirror image.
 struct Ridge {
   struct Edge {
     mesh::VertexName end;       ///< its other vertex
@@ -39,6 +41,7 @@ struct Ridge {
   double cone = 1;       ///< least cosine of the angle between a side's mean normal and the normals there
   TrianglePlace lowest;  ///< of the star
   bool on_plane = false;
+  std::int32_t half_side = -1;  ///< of a ridge in a plane: the side that is the plane's, else -1
   std::int32_t plane_face = -1, plane_patch = -1;  ///< CAD face and patch
   TrianglePlace last_of_plane;                     ///< the plane's triangle beside the second side
   mesh::VertexName rim;                            ///< the other vertex of that edge

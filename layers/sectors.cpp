@@ -22,7 +22,7 @@ constexpr double widest_sector = 35 * std::numbers::pi / 180, widest_of_all = 75
 constexpr std::int32_t most_sectors = 24, most_columns = 255;
 /// At the ends of columns, in edges; chosen: with one edge a coarse wing had twice the cells, and no better
 /// ones.
-constexpr double widest_end = 2.5, narrowest_end = 0.3, least_end = 0.2;
+constexpr double widest_end = 2.5, narrowest_end = 0.3;
 /// Edges from the end of a fan to where a ridge is longest; chosen, not measured.
 constexpr std::int32_t least_depth = 2;
 constexpr auto more = [](auto a, auto b) { return std::max(a, b); };
@@ -154,7 +154,7 @@ private:
       const double turn = turn_at(ridge, e);
       widest = std::max(widest, turn * _reached[v] / least_at(turn));
     }
-    return widest < least_end * _lengths[v];
+    return widest < narrowest_end * _lengths[v];
   }
 
   static double turn_at(const Ridge& ridge, std::size_t edge) {
@@ -317,6 +317,10 @@ private:
     }
     if (ridge->on_plane) {
       for (Vec3& direction : fan->directions) direction = along_planes(direction, _stars.planes_at(v));
+    }
+    if (ridge->half_side >= 0) {
+      Vec3& last = fan->directions[fan->of_side[ridge->half_side]];
+      last = along_planes(last, _stars.planes_at(v));
     }
     _sectors.fans.emplace(v, std::move(*fan));
     return true;

@@ -35,7 +35,7 @@ struct Turns {
 };
 
 Turns turns_along(const cad::Model& model, cad::EdgeId id,
-                  const std::vector<std::pair<cad::FaceId, cad::Coedge>>& uses) {
+                  const std::vector<std::pair<cad::FaceId, cad::Coedge>>& uses, bool is_mirrored = false) {
   const cad::Edge& edge = model.edge(id);
   if (uses.size() != 2 || edge.degenerate) return {};
   if (model.is_faceted(uses[0].first) || model.is_faceted(uses[1].first)) return {};
@@ -48,7 +48,8 @@ Turns turns_along(const cad::Model& model, cad::EdgeId id,
     };
     const geometry::Vec3 one = normal(uses[0]), other = normal(uses[1]);
     if (one == geometry::Vec3{} || other == geometry::Vec3{}) continue;  // a singular point
-    const double turn = std::acos(std::clamp(dot(one, other), -1.0, 1.0));
+    const double angle = std::acos(std::clamp(dot(one, other), -1.0, 1.0)),
+                 turn = is_mirrored ? std::abs(std::numbers::pi - 2 * angle) : angle;
     turns.least = std::min(turns.least, turn);
     turns.largest = std::max(turns.largest, turn);
     const geometry::Vec3 along = model.edge_tangent(id, parameter),
@@ -60,7 +61,8 @@ Turns turns_along(const cad::Model& model, cad::EdgeId id,
 
 }  // namespace
 
-std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model) {
+std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
+                                              const std::vector<cad::FaceId>& planes) {
   using layers::EdgeTurn;
   const auto uses = uses_of_edges(model);
   std::vector<Turns> turns;
@@ -72,7 +74,10 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model) {
     ends_sharp[edge.first] = ends_sharp[edge.last] = 1;
   };
   for (std::size_t e = 0; e < uses.size(); ++e) {
-    turns.push_back(turns_along(model, static_cast<cad::EdgeId>(e), uses[e]));
+    const auto at_planes = std::count_if(uses[e].begin(), uses[e].end(), [&](const auto& use) {
+      return std::find(planes.begin(), planes.end(), use.first) != planes.end();
+    });
+    turns.push_back(turns_along(model, static_cast<cad::EdgeId>(e), uses[e], at_planes == 1));
     found.push_back(turns[e].largest < 0 ? EdgeTurn::unknown : EdgeTurn::smooth);
     if (turns[e].largest >= layers::sharp_turn && turns[e].least >= going_on) make_sharp(e);
   }

@@ -190,9 +190,9 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
       cases::layer_options(cases::without_missing_patches(input.layers, surface.patches), input.sizing,
                            surface.patches, surface.types);
   fit_layers(input.layers, surface, options);
-  options.edges = find_edge_turns(surface.model);
   options.curved_ends = curved_ends_of(surface.model);
   const EndFaces ends = find_end_faces(surface, options);
+  options.edges = find_edge_turns(surface.model, ends.planes);
   surface.bounds_volume = ends.all.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
       mesh::split_pieces(surface, layers::wall_piece_triangles, ends.all);

@@ -5,8 +5,10 @@
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -38,6 +40,13 @@ TopoDS_Shape plate() {
   return BRepBuilderAPI_MakeFace(plane, 1, 2, 0.25, 0.75).Shape();
 }
 
+/// A fin whose leading and trailing edge lie in the plane y = 0.
+TopoDS_Shape fin() {
+  BRepBuilderAPI_MakePolygon section(gp_Pnt(-1, 0, 0), gp_Pnt(0, -0.2, 0), gp_Pnt(1, 0, 0), gp_Pnt(0, 0.2, 0),
+                                     true);
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(section.Wire()).Shape(), gp_Vec(0, 0, 1)).Shape();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -49,6 +58,6 @@ int main(int argc, char** argv) {
   const TopoDS_Shape other = BRepPrimAPI_MakeBox(gp_Pnt(3, 0, 0), 1.0, 1.0, 1.0).Shape();
   const bool written = write("box", BRepPrimAPI_MakeBox(gp_Pnt(0, -0.5, 0), 1.0, 1.0, 0.5).Shape()) &&
                        write("rod", half_ball_with_rod()) && write("plate", together({duct, plate()})) &&
-                       write("boxes", together({duct, other}));
+                       write("boxes", together({duct, other})) && write("fin", fin());
   return written ? 0 : 1;
 }

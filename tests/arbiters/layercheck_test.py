@@ -125,6 +125,8 @@ def check_fans(tools):
     assert "area under prisms 4;" in text, text
     half = tools.mesh("half", BOX.replace("extent: 3", "extent: 3, symmetry: y") + LAYERS)
     tools.accept(half / "mesh.pvtu", *surface_of(half), hexahedra=500, quadrilaterals=100)
+    fin = tools.mesh("fin", BOX.replace("box", "fin", 1).replace("extent: 3", "extent: 3, symmetry: y") + LAYERS)
+    tools.accept(fin / "mesh.pvtu", *surface_of(fin), hexahedra=500, quadrilaterals=100)
     return box
 
 

@@ -51,6 +51,39 @@ std::vector<StarTriangle> star_on_plane(double angle) {
   return star;
 }
 
+/// The star of the origin, on an edge along z in the plane y = 0 from which a wall goes on to a place. The
+/// fluid has y > 0.
+std::vector<StarTriangle> star_along_plane(Vec3 wall) {
+  const std::array<Vec3, 4> spokes{{{0, 0, -1}, wall, {0, 0, 1}, {1, 0, 0}}};
+  std::vector<StarTriangle> star;
+  for (std::int32_t i = 0; i < 4; ++i) {
+    star.push_back(triangle(i, spokes[i], spokes[(i + 1) % 4], i < 2 ? WallRole::layered : WallRole::plane,
+                            i < 2 ? side_face : plane_face));
+    star.back().edge_turn = static_cast<std::int32_t>(i % 2 == 0 ? EdgeTurn::sharp : EdgeTurn::smooth);
+  }
+  star[3].previous = star[0].next;
+  return star;
+}
+
+TEST(RidgesLocal, LieInPlanesWhereAWallTurnsIntoItsMirrorImage) {
+  std::vector<RidgeSide> sides;
+  const Vec3 out_of_fluid{0, -1, 0};
+  const std::optional<Ridge> ridge =
+      find_ridge({{}, EdgeTurn::sharp, out_of_fluid}, star_along_plane({-1, 0.1, 0}), sides);
+  ASSERT_TRUE(ridge);
+  ASSERT_EQ(ridge->half_side, 1);
+  EXPECT_EQ(sides, (std::vector<RidgeSide>{0, 0, 1, 1}));
+  EXPECT_NEAR(ridge->turns[0].angle, std::atan(10), 1e-12);
+  const std::array<std::int32_t, 2> sectors{3, 3};
+  const std::optional<VertexFan> fan = make_vertex_fan(*ridge, sectors);
+  ASSERT_TRUE(fan);
+  EXPECT_EQ(fan->directions.size(), 4U);
+  EXPECT_NEAR(norm(fan->directions[fan->of_side[0]] - normalized(Vec3{0.1, 1, 0})), 0, 1e-12);
+  EXPECT_NEAR(norm(fan->directions[fan->of_side[1]] - Vec3{1, 0, 0}), 0, 1e-12);
+  for (const Vec3 none : {Vec3{0, 1, 0}, Vec3{0.5, 1, 0}})
+    EXPECT_FALSE(find_ridge({{}, EdgeTurn::sharp, out_of_fluid}, star_along_plane(none), sides));
+}
+
 TEST(RidgesLocal, EndOnPlanesThatTheyMeetObliquely) {
   for (const double angle : {90.0, 60.0, 29.0, 14.0}) {
     std::vector<RidgeSide> sides;

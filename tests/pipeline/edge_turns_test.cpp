@@ -21,6 +21,13 @@ TEST(EdgeTurnsLocal, AreSharpAtABox) {
   EXPECT_EQ(count(turns, EdgeTurn::sharp), 12);
 }
 
+// On a plane of symmetry all four walls around it are at right angles to it.
+TEST(EdgeTurnsLocal, AreThoseIntoTheMirrorImageAtPlanes) {
+  const auto turns = find_edge_turns(cad::make_primitive_domain(cad::PrimitiveKind::box), {0});
+  EXPECT_EQ(count(turns, EdgeTurn::smooth), 4);
+  EXPECT_EQ(count(turns, EdgeTurn::sharp), 8);
+}
+
 // Two circles, and the seam of the side.
 TEST(EdgeTurnsLocal, AreSmoothAtASeam) {
   const auto turns = find_edge_turns(cad::make_primitive_domain(cad::PrimitiveKind::cylinder));
