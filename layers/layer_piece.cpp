@@ -226,8 +226,8 @@ private:
     const std::array<std::int32_t, 3>& columns = _source.columns.corner_columns[t];
     std::array<std::int32_t, 2> ends{columns[edge.half_edge % 3], columns[(edge.half_edge + 1) % 3]};
     const std::vector<FanFace>& faces = _source.columns.fan_faces;
-    for (auto face = std::lower_bound(faces.begin(), faces.end(), t,
-                                      [](const FanFace&f, std::int32_t place) { return f.triangle < place; });
+    const auto is_before = [](const FanFace& face, std::int32_t place) { return face.triangle < place; };
+    for (auto face = std::lower_bound(faces.begin(), faces.end(), t, is_before);
          face != faces.end() && face->triangle == t; ++face) {
       // A fan's edges run the other way round.
       if (face->is_sector() && face->columns[0] == ends[1] && face->columns[3] == ends[0])

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aeroloom::layers {
 namespace {
@@ -75,14 +76,17 @@ private:
   /// Whether the wall turns sharply into its mirror image at both edges that it has in the plane, which then
   /// are the ridge's.
   bool find_half() {
+    std::vector<std::size_t> edges;
     for (std::size_t i = 0; i < _star.size(); ++i) {
       const StarTriangle &l = left(i), &r = right(i);
       if (l.wall_role() == r.wall_role()) continue;
       const double towards = dot((is_layered(l) ? l : r).normal, _plane);
       if (towards >= 0 || 1 - 2 * towards * towards >= least_cosine(i)) return false;
-      _edges.push_back(i);
+      edges.push_back(i);
     }
-    return _edges.size() == 2;
+    if (edges.size() != 2) return false;
+    _edges = std::move(edges);
+    return true;
   }
   static bool is_layered(const StarTriangle& t) { return t.wall_role() == WallRole::layered; }
 

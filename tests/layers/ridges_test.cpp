@@ -80,6 +80,9 @@ TEST(RidgesLocal, LieInPlanesWhereAWallTurnsIntoItsMirrorImage) {
   EXPECT_EQ(fan->directions.size(), 4U);
   EXPECT_NEAR(norm(fan->directions[fan->of_side[0]] - normalized(Vec3{0.1, 1, 0})), 0, 1e-12);
   EXPECT_NEAR(norm(fan->directions[fan->of_side[1]] - Vec3{1, 0, 0}), 0, 1e-12);
+  std::vector<StarTriangle> ends_here = star_along_plane({-1, 0.1, 0});
+  ends_here[2].edge_turn = static_cast<std::int32_t>(EdgeTurn::smooth);
+  EXPECT_FALSE(find_ridge({{}, EdgeTurn::sharp, out_of_fluid}, ends_here, sides));
   for (const Vec3 none : {Vec3{0, 1, 0}, Vec3{0.5, 1, 0}})
     EXPECT_FALSE(find_ridge({{}, EdgeTurn::sharp, out_of_fluid}, star_along_plane(none), sides));
 }
