@@ -41,8 +41,12 @@ enum class FanPlaces : std::uint8_t { none, all };
 enum class EdgeTurn : std::uint8_t {
   unknown,  ///< a ridge where the mesh turns sharply
   smooth,   ///< no ridge, however coarse its mesh is
+  upright,  ///< the same, where the wall ends on a plane
   sharp     ///< a ridge all along it, where the mesh turns at all
 };
+inline bool may_be_ridge(EdgeTurn turn) {
+  return turn == EdgeTurn::unknown || turn == EdgeTurn::sharp;
+}
 
 /// The sides on which inner faces have layers. The front of a face between two regions lies in its front
 /// region (mesh::FaceSides), that of a baffle where its normal points.

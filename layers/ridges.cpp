@@ -66,7 +66,7 @@ private:
   /// The cosine of the least turn of a ridge at an edge; -1 where none may be.
   double least_cosine(std::size_t edge) const {
     const auto turn = static_cast<EdgeTurn>(left(edge).edge_turn);
-    if (_centre.turn == EdgeTurn::smooth || turn == EdgeTurn::smooth) return -1;
+    if (!may_be_ridge(_centre.turn) || !may_be_ridge(turn)) return -1;
     // An edge within a face may lead from one sharp CAD edge to another.
     const bool is_sharp =
         (turn == EdgeTurn::sharp || _centre.turn == EdgeTurn::sharp) && left(edge).face != right(edge).face;

@@ -251,7 +251,7 @@ VertexStars gather_stars(const LocalWall& wall) {
       stars.kinds.push_back(kind_of(star, !ordered.empty()));
       std::vector<Vec3> planes = find_planes(wall, v, star, stars);
       const EdgeTurn turn = wall.turn_at(p, v - wall.first_vertex[p]);
-      const bool may_have = turn != EdgeTurn::smooth && planes.size() < 2 && stars.ends.at(v) == nullptr;
+      const bool may_have = may_be_ridge(turn) && planes.size() < 2 && stars.ends.at(v) == nullptr;
       if (stars.kinds.back() == StarKind::plain && may_have)
         add_ridge({wall.points[v], turn, planes.empty() ? Vec3{} : planes[0]}, v, ordered, wall, stars);
       append_normals(star, planes, stars.normals);

@@ -67,6 +67,7 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
   const auto uses = uses_of_edges(model);
   std::vector<Turns> turns;
   std::vector<EdgeTurn> found;
+  std::vector<std::uint8_t> is_at_plane(uses.size(), 0);
   std::vector<std::uint8_t> ends_sharp(model.vertex_count(), 0);  // by vertex
   const auto make_sharp = [&](std::size_t e) {
     const cad::Edge& edge = model.edge(static_cast<cad::EdgeId>(e));
@@ -77,6 +78,7 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
     const auto at_planes = std::count_if(uses[e].begin(), uses[e].end(), [&](const auto& use) {
       return std::find(planes.begin(), planes.end(), use.first) != planes.end();
     });
+    is_at_plane[e] = at_planes == 1 ? 1 : 0;
     turns.push_back(turns_along(model, static_cast<cad::EdgeId>(e), uses[e], at_planes == 1));
     found.push_back(turns[e].largest < 0 ? EdgeTurn::unknown : EdgeTurn::smooth);
     if (turns[e].largest >= layers::sharp_turn && turns[e].least >= going_on) make_sharp(e);
@@ -90,6 +92,9 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
       make_sharp(e);
       goes_on = true;
     }
+  }
+  for (std::size_t e = 0; e < uses.size(); ++e) {
+    if (is_at_plane[e] != 0 && found[e] == EdgeTurn::smooth) found[e] = EdgeTurn::upright;
   }
   return found;
 }

@@ -11,7 +11,7 @@ namespace aeroloom::pipeline {
 /// By edge: sharp between two faces, or a face and itself, whose normals turn by layers::sharp_turn at one of
 /// some places along it, or by half as much where it meets a sharp edge; smooth if they do not. Others, and
 /// edges of faceted faces, are unknown: facets are what turns there. Between a face of `planes` and another
-/// it is the other's turn into its mirror image that counts.
+/// it is the other's turn into its mirror image that counts, and those that are not sharp are upright.
 std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
                                               const std::vector<cad::FaceId>& planes = {});
 

@@ -24,7 +24,7 @@ TEST(EdgeTurnsLocal, AreSharpAtABox) {
 // On a plane of symmetry all four walls around it are at right angles to it.
 TEST(EdgeTurnsLocal, AreThoseIntoTheMirrorImageAtPlanes) {
   const auto turns = find_edge_turns(cad::make_primitive_domain(cad::PrimitiveKind::box), {0});
-  EXPECT_EQ(count(turns, EdgeTurn::smooth), 4);
+  EXPECT_EQ(count(turns, EdgeTurn::upright), 4);
   EXPECT_EQ(count(turns, EdgeTurn::sharp), 8);
 }
 
