@@ -136,7 +136,7 @@ double gap_before(const TouchingBall& ball, const NearTriangle& triangle) {
 
 double diameter_beside(const TouchingBall& ball, const Vec3 (&triangle)[3]) {
   constexpr int most_steps = 30;
-  // Sine of half the turn of a concave edge.
+  // Sine of half the turn of a concave edge; chosen, no other was tried.
   constexpr double least_ahead = 0.4;
   constexpr double converged = 1 - 1e-6;  // of the diameter before: a gap is no exact measure
   double diameter = ball.diameter;

@@ -50,8 +50,8 @@ struct FanNeeds {
 /// wall. Ridges with no vertex two edges away from such ends have no sectors. Collective.
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs);
 
-/// The sectors that a turn, in radians, asks for, and the front over columns of this height. `edge`: mean
-/// edge length there.
+/// The sectors that a turn, in radians, asks for, and the front over columns of this height. `edge`: length
+/// of the ridge's edges there.
 std::int32_t wanted_sectors(double turn, double height, double edge);
 
 /// The height of a column that is as high as wanted.

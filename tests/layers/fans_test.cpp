@@ -29,6 +29,12 @@ int ends(Vec3 p) {
   return is_end(p.x) + is_end(p.y) + is_end(p.z);
 }
 
+/// Makes all vertices such of the CAD, so that edges are sharp where the mesh is.
+void mark_vertices(mesh::DistributedMesh& mesh) {
+  for (mesh::Piece& piece : mesh.pieces)
+    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+}
+
 /// A cube of edge 1 in a sphere, whose edges and corners are those of a CAD model.
 mesh::DistributedMesh cube(const Communicator& communicator) {
   mesh::DistributedMesh mesh = Shapes()
@@ -99,8 +105,7 @@ TEST(Fans, AreNotMuchWiderThanTheEdgesAlongThem) {
                                    .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
                                    .add_box({0, 0, 0}, {1, 1, 1}, {4, 16, 4}, Fluid::outside)
                                    .distribute(world, 5);
-  for (mesh::Piece& piece : mesh.pieces)
-    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+  mark_vertices(mesh);
   const Layers layers = build(mesh, options_for({0, 1e-4}));
   expect_valid(mesh, layers);
   const auto sectors_at = [&](Vec3 place) {
@@ -155,8 +160,7 @@ mesh::DistributedMesh slit(const Communicator& communicator, double width) {
                                    .add_box({0, 0, -0.5 - width}, {2, 2, -width}, {10, 20, 3}, Fluid::outside)
                                    .add_box({0, 0, 0}, {2, 2, 0.5}, {10, 20, 3}, Fluid::outside)
                                    .distribute(communicator, 7);
-  for (mesh::Piece& piece : mesh.pieces)
-    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+  mark_vertices(mesh);
   return mesh;
 }
 
@@ -240,8 +244,7 @@ TEST(Fans, LeanApartOverStrips) {
                                    .add_sphere({0.5, 0.5, 0}, 10, 8, Fluid::inside)
                                    .add_box({0, 0, 0}, {1, 1, 0.02}, {8, 8, 1}, Fluid::outside)
                                    .distribute(world, 5);
-  for (mesh::Piece& piece : mesh.pieces)
-    std::fill(piece.vertex_dimension.begin(), piece.vertex_dimension.end(), mesh::CadDimension::vertex);
+  mark_vertices(mesh);
   const Layers layers = build(mesh, options_for({0, 1e-4}));
   expect_valid(mesh, layers);
   EXPECT_GT(layers.report.patches[1].hexahedra, 1000);
