@@ -18,6 +18,7 @@ struct Heights {
   std::int32_t regular = most_layers;  ///< each layer above this one is in addition `stretch` times as high
   double stretch = 1;
 
+  bool operator==(const Heights&) const = default;
   /// Calls visit(k, height of node k) for k = 1 ... count. All nodes are placed by this sum.
   template <class Visit>
   void for_each_node(std::int32_t count, const Visit& visit) const {
@@ -47,6 +48,18 @@ struct Heights {
 
 /// Of a column of a piece.
 Heights heights(const PieceColumns& columns, mesh::LocalIndex vertex);
+
+/// Calls visit(k, node(..., k)) for the nodes of a column off the wall.
+template <class Visit>
+void for_each_node(const mesh::Piece& wall, const PieceColumns& columns, std::int32_t column,
+                   const Visit& visit) {
+  const mesh::LocalIndex vertex = columns.vertex_of(column);
+  const geometry::Vec3 foot = wall.point(vertex), direction = columns.directions[column];
+  const geometry::Vec3* curved = columns.curved_nodes_of(column);
+  heights(columns, vertex).for_each_node(columns.counts[vertex], [&](std::int32_t k, double height) {
+    visit(k, curved != nullptr ? curved[k - 1] : foot + height * direction);
+  });
+}
 
 /// Height over the mean edge of a prism that is about as good as a tetrahedron.
 inline constexpr double isotropic_height = 0.7;

@@ -17,14 +17,12 @@ double slope_of(double growth) {
 /// First heights are measured along the normals of triangles. Leaning columns are longer, up to this ratio.
 constexpr double most_lengthening = 2;
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
 constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 }  // namespace
 
 ColumnLimits::ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers>& all_wanted,
-                           const std::vector<double>& edges, const VertexStars& stars,
+                           const std::vector<FittedLayers>& fitted, const VertexStars& stars,
                            const Directions& directions)
     : _wall(wall) {
   const std::size_t n = all_wanted.size();
@@ -36,11 +34,7 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers
     const VertexLayers& asked = all_wanted[v];
     if (asked.edges == 0) continue;
     _mean_edges[v] = asked.mean_edge();
-    const double total = asked.total < unlimited ? asked.total : 0;
-    const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
-                            static_cast<std::int32_t>(asked.count), total};
-    const FittedLayers fitted = wanted_layers(wanted, edges[v]);
-    _wanted_counts[v] = fitted.count;
+    _wanted_counts[v] = fitted[v].count;
     if (stars.kinds[v] != StarKind::plain || directions.visibility[v] == 0) {
       _causes[v] = stars.kinds[v] == StarKind::ending ? LayerLimit::ending : LayerLimit::no_direction;
       _lowered.push_back(v);
@@ -48,10 +42,10 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers
     }
     _first[v] = asked.first * std::min(most_lengthening, 1 / directions.slants[v]);
     _growth[v] = asked.growth;
-    _constant[v] = wanted.constant;
+    _constant[v] = static_cast<std::int32_t>(asked.constant);
     _slopes[v] = slope_of(asked.growth);
-    _fitted[v] = fitted;
-    _limits[v] = this->total(v);
+    _fitted[v] = fitted[v];
+    _limits[v] = total(v);
     _wanted_lasts[v] = last_height(v);
     _lowered.push_back(v);
     note_change(v, LayerLimit::none);

@@ -17,13 +17,17 @@ namespace aeroloom::layers {
 class ColumnLimits {
 public:
   /// Starts with the columns that the patches ask for. Keeps a reference to the wall. Collective.
-  /// `edges`: smooth_mean_edges().
+  /// `fitted`: fit_wanted_layers().
   ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers>& all_wanted,
-               const std::vector<double>& edges, const VertexStars& stars, const Directions& directions);
+               const std::vector<FittedLayers>& fitted, const VertexStars& stars,
+               const Directions& directions);
 
   Heights heights(std::int32_t v) const {
     return {_first[v], _growth[v], _constant[v], _fitted[v].regular, _fitted[v].stretch};
   }
+  /// Without stretch.
+  Heights regular_heights(std::int32_t v) const { return {_first[v], _growth[v], _constant[v]}; }
+  const FittedLayers& fitted(std::int32_t v) const { return _fitted[v]; }
   std::int32_t count(std::int32_t v) const { return _fitted[v].count; }
   std::int32_t wanted_count(std::int32_t v) const { return _wanted_counts[v]; }
   double total(std::int32_t v) const { return heights(v).total(count(v)); }
@@ -44,8 +48,6 @@ public:
 
 private:
   void note_change(std::int32_t v, LayerLimit cause);
-  /// Without stretch.
-  Heights regular_heights(std::int32_t v) const { return {_first[v], _growth[v], _constant[v]}; }
   /// Fits the layers of a column below its limit.
   void fit(std::int32_t v, LayerLimit cause);
   void cut_count(std::int32_t v, std::int32_t count, LayerLimit cause);

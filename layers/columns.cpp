@@ -15,21 +15,16 @@ double height(const PieceColumns& columns, mesh::LocalIndex vertex, std::int32_t
   return heights(columns, vertex).total(k);
 }
 
-mesh::LocalIndex PieceColumns::vertex_of(std::int32_t column) const {
-  if (first_column.back() + 1 == static_cast<std::int32_t>(first_column.size())) return column;
-  return static_cast<mesh::LocalIndex>(std::upper_bound(first_column.begin(), first_column.end(), column) -
-                                       first_column.begin()) -
-         1;
+const geometry::Vec3* PieceColumns::curved_nodes_of(std::int32_t column) const {
+  const auto found = std::lower_bound(curved.begin(), curved.end(), std::array{column, 0});
+  return found == curved.end() || (*found)[0] != column ? nullptr : &curved_nodes[(*found)[1]];
 }
 
 geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::int32_t column,
                     std::int32_t k) {
   const mesh::LocalIndex vertex = columns.vertex_of(column);
-  if (!columns.curved.empty() && k > 0) {
-    const auto found = std::lower_bound(columns.curved.begin(), columns.curved.end(), std::array{column, 0});
-    if (found != columns.curved.end() && (*found)[0] == column)
-      return columns.curved_nodes[(*found)[1] + k - 1];
-  }
+  const geometry::Vec3* curved = k > 0 ? columns.curved_nodes_of(column) : nullptr;
+  if (curved != nullptr) return curved[k - 1];
   return wall.point(vertex) + height(columns, vertex, k) * columns.directions[column];
 }
 

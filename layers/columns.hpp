@@ -100,6 +100,7 @@ struct PieceColumns {
   std::vector<std::int32_t> constant, regular;  ///< by vertex, as Heights has them
   std::vector<double> first, growth, stretch;   ///< by vertex
   std::vector<std::int32_t> first_column;       ///< (vertices + 1)
+  std::vector<mesh::LocalIndex> vertices;       ///< by column; none: each vertex has one
   std::vector<std::array<std::int32_t, 3>>
       corner_columns;              ///< by triangle, of its corners as the piece has them
   std::vector<FanFace> fan_faces;  ///< by triangle
@@ -112,7 +113,11 @@ struct PieceColumns {
   std::int32_t columns_at(mesh::LocalIndex vertex) const {
     return first_column[vertex + 1] - first_column[vertex];
   }
-  mesh::LocalIndex vertex_of(std::int32_t column) const;
+  mesh::LocalIndex vertex_of(std::int32_t column) const {
+    return vertices.empty() ? column : vertices[column];
+  }
+  /// Nodes 1 to count of a column on curved faces; nullptr of others.
+  const geometry::Vec3* curved_nodes_of(std::int32_t column) const;
 };
 
 struct Columns {

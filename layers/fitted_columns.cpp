@@ -75,18 +75,25 @@ void limit_by_gaps(const std::vector<double>& gaps, const Directions& directions
   limits.limit_totals(std::move(totals), LayerLimit::gap);
 }
 
-FittedColumns limit_columns(const LayerInput& in, MeasuredGaps& gaps, Fans fans) {
+/// What is known of columns that were built before.
+struct KnownColumns {
+  MeasuredGaps gaps;
+  JudgedColumns judged;
+};
+
+FittedColumns limit_columns(const LayerInput& in, KnownColumns& known, Fans fans) {
   Directions directions = find_directions(in.wall, in.stars, fans);
-  ColumnLimits limits(in.wall, in.wanted, in.edges, in.stars, directions);
+  ColumnLimits limits(in.wall, in.wanted, in.fitted, in.stars, directions);
   std::vector<std::int32_t> counts(in.wall.points.size(), most_layers);
   for (std::size_t v = 0; v < counts.size(); ++v) {
     if (fans.is_end[v] != 0) counts[v] = 0;
   }
   limits.limit_counts(std::move(counts), LayerLimit::no_direction);
   limits.converge();
-  limit_by_gaps(gaps.measure(fans, directions, limits), directions, limits);
+  limit_by_gaps(known.gaps.measure(fans, directions, limits), directions, limits);
   limits.converge();
-  const int rounds = shrink_to_good(in.wall, fans, directions, limits);
+  const int rounds =
+      shrink_to_good(in.wall, fans, directions, limits, in.may_have_fans ? &known.judged : nullptr);
   return {std::move(fans), std::move(directions), std::move(limits), rounds};
 }
 
@@ -98,7 +105,7 @@ bool find_low_fans(const LayerInput& in, const FittedColumns& columns, std::vect
   for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) {
     if (columns.fans.count_at(v) == 1) continue;
     const double height = columns.limits.total(v);
-    if (height >= low * std::min(reached[v], wanted_height(in.wanted[v], in.edges[v]))) continue;
+    if (height >= low * std::min(reached[v], wanted_height(in.wanted[v], in.fitted[v]))) continue;
     reached[v] = height;
     ++found;
   }
@@ -140,7 +147,7 @@ public:
     for (;;) {
       std::fill(_halvings.begin(), _halvings.end(), 0);
       for (int halving = 0;; ++halving) {
-        Fans fans = find_fans(_in.wall, _in.stars, {_in.wanted, _in.edges, reached, _halvings});
+        Fans fans = find_fans(_in.wall, _in.stars, {_in.wanted, _in.fitted, _in.edges, reached, _halvings});
         const std::vector<std::int32_t> bad = find_bad(fans);
         if (_in.wall.mesh.communicator.sum(std::count(bad.begin(), bad.end(), 1)) == 0) return fans;
         if (halving == most_halvings) {
@@ -189,15 +196,15 @@ private:
 }  // namespace
 
 FittedColumns fit_columns(const LayerInput& in) {
-  MeasuredGaps gaps(in.wall);
-  if (!in.may_have_fans) return limit_columns(in, gaps, without_fans(in.wall));
+  KnownColumns known{MeasuredGaps(in.wall), {}};
+  if (!in.may_have_fans) return limit_columns(in, known, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
-  std::optional columns(limit_columns(in, gaps, SectorHalving(in).find(reached)));
+  std::optional columns(limit_columns(in, known, SectorHalving(in).find(reached)));
   if (find_low_fans(in, *columns, reached)) {
     Fans fans = SectorHalving(in).find(reached);
-    if (have_fewer(in, columns->fans, fans)) columns.emplace(limit_columns(in, gaps, std::move(fans)));
+    if (have_fewer(in, columns->fans, fans)) columns.emplace(limit_columns(in, known, std::move(fans)));
   }
-  if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, gaps, without_fans(in.wall)));
+  if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, known, without_fans(in.wall)));
   return std::move(*columns);
 }
 

@@ -22,7 +22,8 @@ struct LayerInput {
   const LocalWall& wall;
   const VertexStars& stars;
   const std::vector<VertexLayers>& wanted;
-  const std::vector<double>& edges;
+  const std::vector<FittedLayers>& fitted;  ///< fit_wanted_layers()
+  const std::vector<double>& edges;         ///< smooth_mean_edges()
   bool may_have_fans;
 };
 

@@ -62,6 +62,7 @@ Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& 
       for (std::int32_t c = fans.first[v]; c < fans.first[v + 1]; ++c)
         of_piece.directions.push_back(directions.smoothed[c]);
       of_piece.first_column.push_back(fans.first[v + 1] - first);
+      of_piece.vertices.resize(of_piece.directions.size(), v - wall.first_vertex[p]);
       of_piece.counts.push_back(limits.count(v));
       of_piece.constant.push_back(heights.constant);
       of_piece.regular.push_back(heights.regular);
@@ -70,6 +71,7 @@ Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& 
       of_piece.stretch.push_back(heights.stretch);
       if (directions.ends.at(v) != nullptr) add_curved(wall, {fans, directions, limits}, v, first, of_piece);
     }
+    if (of_piece.vertices.size() == of_piece.counts.size()) of_piece.vertices.clear();
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {
       const auto& [a, b, c] = fans.columns[t];  // counter-clockwise seen from the fluid
       of_piece.corner_columns.push_back({a - first, c - first, b - first});

@@ -1,5 +1,6 @@
 #include "layers/layer_piece.hpp"
 
+#include "layers/column_heights.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 
 #include <algorithm>
@@ -153,13 +154,13 @@ private:
     }
     if (top == 0 || _first[column] >= 0) return;
     _first[column] = _piece.vertex_count();
-    for (std::int32_t k = 1; k <= top; ++k) {
-      const Vec3 p = k == top ? _source.cap.point(end) : node(_source.wall, _source.columns, column, k);
-      const LocalIndex here = add_vertex(p, mesh::CadDimension::region, _source.region);
-      if (k < top && !_shared[v]) continue;
+    for_each_node(_source.wall, _source.columns, column, [&](std::int32_t k, Vec3 p) {
+      const LocalIndex here =
+          add_vertex(k == top ? _source.cap.point(end) : p, mesh::CadDimension::region, _source.region);
+      if (k < top && !_shared[v]) return;
       share(here,
             k == top ? mesh::running_key(_source.numbers[end]) : mesh::layer_key(_source.numbers[end], k));
-    }
+    });
   }
 
   /// `column_at(corner)` tells columns.

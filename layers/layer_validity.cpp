@@ -103,8 +103,13 @@ Level directions_at(const TriangleColumns& columns, const std::array<double, 3>&
   return directions;
 }
 
-/// The nodes of columns layer by layer.
 template <std::size_t N>
+bool are_straight(const std::array<CornerColumn, N>& columns) {
+  return std::all_of(columns.begin(), columns.end(), [](const CornerColumn& c) { return c.end == nullptr; });
+}
+
+/// The nodes of columns layer by layer. Nearly all columns are straight, which is asked beforehand.
+template <std::size_t N, bool straight>
 class Levels {
 public:
   explicit Levels(const std::array<CornerColumn, N>& columns) : _columns(columns) {
@@ -124,7 +129,11 @@ public:
       if (_k > column.heights.constant) _layers[i] *= column.heights.growth;
       if (_k > column.heights.regular) _layers[i] *= column.heights.stretch;
       _sums[i] += _layers[i];
-      _level[i] = column.at(_sums[i]);
+      if constexpr (straight) {
+        _level[i] = column.point + _sums[i] * column.direction;
+      } else {
+        _level[i] = column.at(_sums[i]);
+      }
     }
   }
 
@@ -185,13 +194,13 @@ bool is_good_below(const TriangleColumns& columns, const Ends& ends, const Least
          corner_determinant(prism, doubled_area(prism), directions_at(columns, heights)) >= least.determinant;
 }
 
-}  // namespace
-
-std::int32_t good_layers(const TriangleColumns& columns) {
+template <bool straight>
+std::int32_t count_good_layers(const TriangleColumns& columns) {
   const std::int32_t most = std::max({columns[0].count, columns[1].count, columns[2].count});
   const std::int32_t prisms = std::min({columns[0].count, columns[1].count, columns[2].count});
   const Least least(columns);
-  Levels levels(columns);
+  const Level at_wall = directions_at(columns, {});
+  Levels<3, straight> levels(columns);
   Level lower = levels.level();
   Vec3 below = doubled_area(lower);
   for (std::int32_t k = 1; k <= most; ++k) {
@@ -199,13 +208,21 @@ std::int32_t good_layers(const TriangleColumns& columns) {
     const Level& upper = levels.level();
     const Vec3 above = doubled_area(upper);
     if (!is_good_cell(columns, k, lower, upper, below, above)) return k - 1;
-    if (k <= prisms &&
-        corner_determinant(upper, above, directions_at(columns, levels.heights())) < least.determinant)
-      return k - 1;
+    const auto determinant = [&] {
+      if constexpr (straight) return corner_determinant(upper, above, at_wall);
+      return corner_determinant(upper, above, directions_at(columns, levels.heights()));
+    };
+    if (k <= prisms && determinant() < least.determinant) return k - 1;
     lower = upper;
     below = above;
   }
   return most;
+}
+
+}  // namespace
+
+std::int32_t good_layers(const TriangleColumns& columns) {
+  return are_straight(columns) ? count_good_layers<true>(columns) : count_good_layers<false>(columns);
 }
 
 bool has_good_cap(const TriangleColumns& columns) {
@@ -267,9 +284,9 @@ bool is_good_layer(const LayersOverFan& over, std::int32_t k, const FanLevel& lo
   return good;
 }
 
-/// How many layers from the wall on are good, at most this many.
-std::int32_t good_layers(const FanColumns& fan, std::int32_t most) {
-  Levels levels(fan.columns);
+template <bool straight>
+std::int32_t count_good_layers(const FanColumns& fan, std::int32_t most) {
+  Levels<4, straight> levels(fan.columns);
   FanLevel lower = levels.level();
   for (std::int32_t k = 1; k <= most; ++k) {
     levels.advance();
@@ -277,6 +294,11 @@ std::int32_t good_layers(const FanColumns& fan, std::int32_t most) {
     lower = levels.level();
   }
   return most;
+}
+
+/// How many layers from the wall on are good, at most this many.
+std::int32_t good_layers(const FanColumns& fan, std::int32_t most) {
+  return are_straight(fan.columns) ? count_good_layers<true>(fan, most) : count_good_layers<false>(fan, most);
 }
 
 bool has_good_apex(const FanColumns& fan) {

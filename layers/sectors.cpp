@@ -44,6 +44,7 @@ public:
       : _wall(wall),
         _stars(stars),
         _wanted(needs.wanted),
+        _fitted(needs.fitted),
         _edges(needs.edges),
         _reached(needs.reached),
         _halvings(needs.halvings),
@@ -136,7 +137,7 @@ private:
       if (ridge == nullptr || _wanted[v].edges == 0 || _edges[v] <= 0) continue;
       if (_names[v].piece < 0 && !mesh::can_name_columns(_names[v].id)) continue;
       if (is_low(v)) continue;
-      const double height = wanted_height(_wanted[v], _edges[v]);
+      const double height = wanted_height(_wanted[v], _fitted[v]);
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
         const double turn = turn_at(*ridge, e);
         _by_slot[e][v] = std::min(
@@ -329,6 +330,7 @@ private:
   const LocalWall& _wall;
   const VertexStars& _stars;
   const std::vector<VertexLayers>& _wanted;
+  const std::vector<FittedLayers>& _fitted;
   const std::vector<double>&_edges, &_reached;
   const std::vector<std::int32_t>& _halvings;
   std::vector<mesh::VertexName> _names;
@@ -342,15 +344,6 @@ private:
 
 std::int32_t wanted_sectors(double turn, double height, double edge) {
   return std::max(sectors_by_turn(turn, widest_sector), sectors_by_front(turn, height, widest_end * edge));
-}
-
-double wanted_height(const VertexLayers& asked, double edge) {
-  const double total = asked.total < std::numeric_limits<double>::infinity() ? asked.total : 0;
-  const WallLayers wanted{asked.first, asked.growth, static_cast<std::int32_t>(asked.constant),
-                          static_cast<std::int32_t>(asked.count), total};
-  const FittedLayers fitted = wanted_layers(wanted, edge);
-  return Heights{asked.first, asked.growth, wanted.constant, fitted.regular, fitted.stretch}.total(
-      fitted.count);
 }
 
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs) {

@@ -34,7 +34,8 @@ struct Sectors {
 /// What numbers of sectors follow from, by vertex if nothing else is said.
 struct FanNeeds {
   const std::vector<VertexLayers>& wanted;
-  const std::vector<double>& edges;  ///< smooth_mean_edges()
+  const std::vector<FittedLayers>& fitted;  ///< fit_wanted_layers()
+  const std::vector<double>& edges;         ///< smooth_mean_edges()
   /// The height that limits leave to columns much lower than wanted, else infinite; 0: no fan.
   const std::vector<double>& reached;
   /// By edge of a triangle that a fan's face lies beside, three a triangle: how often the number is to be
@@ -53,8 +54,5 @@ Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const Fan
 /// The sectors that a turn, in radians, asks for, and the front over columns of this height. `edge`: length
 /// of the ridge's edges there.
 std::int32_t wanted_sectors(double turn, double height, double edge);
-
-/// The height of a column that is as high as wanted.
-double wanted_height(const VertexLayers& asked, double edge);
 
 }  // namespace aeroloom::layers

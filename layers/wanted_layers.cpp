@@ -72,4 +72,24 @@ std::vector<double> smooth_mean_edges(const LocalWall& wall, const std::vector<V
   return smooth;
 }
 
+WallLayers VertexLayers::as_of_patch() const {
+  const bool is_limited = total < std::numeric_limits<double>::infinity();
+  return {first, growth, static_cast<std::int32_t>(constant), static_cast<std::int32_t>(count),
+          is_limited ? total : 0};
+}
+
+std::vector<FittedLayers> fit_wanted_layers(const std::vector<VertexLayers>& wanted,
+                                            const std::vector<double>& edges) {
+  std::vector<FittedLayers> fitted(wanted.size());
+  for (std::size_t v = 0; v < wanted.size(); ++v) {
+    if (wanted[v].edges > 0) fitted[v] = wanted_layers(wanted[v].as_of_patch(), edges[v]);
+  }
+  return fitted;
+}
+
+double wanted_height(const VertexLayers& wanted, const FittedLayers& fitted) {
+  const auto constant = static_cast<std::int32_t>(wanted.constant);
+  return Heights{wanted.first, wanted.growth, constant, fitted.regular, fitted.stretch}.total(fitted.count);
+}
+
 }  // namespace aeroloom::layers

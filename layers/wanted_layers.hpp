@@ -1,6 +1,7 @@
 /// The layers that the patches around a vertex request for its column.
 #pragma once
 
+#include "layers/column_heights.hpp"
 #include "layers/local_wall.hpp"
 
 #include <cstdint>
@@ -14,6 +15,8 @@ struct VertexLayers {
   double edge_sum = 0;  ///< edge lengths of triangles with layers; each edge counts from both sides
   std::int64_t edges = 0, count = 0, constant = 0;  ///< count: most_layers if not limited
   double mean_edge() const { return edges > 0 ? edge_sum / static_cast<double>(edges) : 0; }
+  /// As a patch asks for them.
+  WallLayers as_of_patch() const;
 };
 
 /// By vertex, equal in all pieces. Vertices without layered triangles have no edges. Collective.
@@ -22,5 +25,12 @@ std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const Laye
 /// Mean edges at the vertices, smoothed over the wall. Columns are several edges high, so what edges differ
 /// by from vertex to vertex would be several times as much at their ends. Collective.
 std::vector<double> smooth_mean_edges(const LocalWall& wall, const std::vector<VertexLayers>& wanted);
+
+/// By vertex: wanted_layers() for its mean edge; none where no layers are wanted.
+std::vector<FittedLayers> fit_wanted_layers(const std::vector<VertexLayers>& wanted,
+                                            const std::vector<double>& edges);
+
+/// The height of a column that is as high as wanted.
+double wanted_height(const VertexLayers& wanted, const FittedLayers& fitted);
 
 }  // namespace aeroloom::layers

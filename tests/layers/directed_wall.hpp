@@ -36,7 +36,8 @@ struct DirectedWall {
 /// The columns that patches ask for. Refers to the wall.
 inline ColumnLimits limits_of(const DirectedWall& base, const LayerOptions& options) {
   const std::vector<VertexLayers> wanted = gather_wanted_layers(base.wall, options);
-  return {base.wall, wanted, smooth_mean_edges(base.wall, wanted), base.stars, base.directions};
+  const std::vector<FittedLayers> fitted = fit_wanted_layers(wanted, smooth_mean_edges(base.wall, wanted));
+  return {base.wall, wanted, fitted, base.stars, base.directions};
 }
 
 /// A cube of edge 1 in a box.
