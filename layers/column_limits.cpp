@@ -1,7 +1,6 @@
 #include "layers/column_limits.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace aeroloom::layers {
