@@ -127,7 +127,8 @@ void OverConstrainedTrials::collect(TetMesh& mesh, LocalIndex t) {
   }
   std::sort(_tets.begin() + 1, _tets.end());
   _tets.erase(std::unique(_tets.begin() + 1, _tets.end()), _tets.end());
-  _tets.erase(std::find(_tets.begin() + 1, _tets.end(), t));
+  // It is not among the stars where it touches the other tetrahedra of its piece in vertices and edges alone.
+  _tets.erase(std::remove(_tets.begin() + 1, _tets.end(), t), _tets.end());
   _inside.assign(_vertices.size(), 0);
   for (std::size_t i = 0; i < _vertices.size(); ++i)
     _inside[i] = i < inner_end && !mesh.is_fixed(_vertices[i]);

@@ -125,5 +125,30 @@ TEST(OverConstrainedRemoval, LeavesWhatTheAnglesForce) {
   }
 }
 
+/// Pieces are cut between tetrahedra, so one may touch the others of its piece in vertices alone.
+TEST(OverConstrainedTrials, ReachATetrahedronThatTouchesOthersInVertices) {
+  const std::vector<Vec3> corners{{0, 0, 0}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1}};
+  std::vector<Vec3> points = corners;
+  std::vector<LocalIndex> cells;
+  const Vec3 middle{0.5, 0.5, 0.5};
+  for (LocalIndex v = 0; v < 4; ++v) {
+    cells.push_back(v);
+    for (LocalIndex k = 0; k < 4; ++k) {
+      if (k == v) continue;
+      cells.push_back(static_cast<LocalIndex>(points.size()));
+      points.push_back(2 * corners[v] - middle + 0.4 * (corners[k] - middle));
+    }
+  }
+  cells.insert(cells.end(), {0, 1, 2, 3});
+  mesh::Piece piece = examples::make_piece(points, cells);
+  examples::close_boundary(piece);
+  const double volume = examples::volume(piece);
+  TetMesh mesh(piece, mesh::TetQuality(15));
+  OverConstrainedTrials(nullptr, 20, Effort::reduced).run(mesh);
+  mesh.finish();
+  EXPECT_GE(piece.cell_count(), 5);
+  EXPECT_NEAR(examples::volume(piece), volume, 1e-12);
+}
+
 }  // namespace
 }  // namespace aeroloom::improve
