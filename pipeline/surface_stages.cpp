@@ -184,8 +184,9 @@ FinishedSurface SurfaceStages::finish_surface(const cases::TypedPatches& domain,
 }
 
 surface::SurfaceMesh SurfaceStages::build_surface(const domain::SizedDomain& sized) {
-  return surface::mesh_surface(sized.model, sized.field, _input.surface,
-                               _checkpoints.tasks(SavedStage::surface));
+  surface::SurfaceOptions options = _input.surface;
+  options.rows = cases::rows_along_edges(cases::in_model_units(_input.sizing).edges, sized.model);
+  return surface::mesh_surface(sized.model, sized.field, options, _checkpoints.tasks(SavedStage::surface));
 }
 
 /// The surface of the sized domain. Where joined faces or closed edges cannot be meshed, that of the model

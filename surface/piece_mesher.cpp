@@ -2,6 +2,7 @@
 
 #include "cad/model/evaluation/face_width.hpp"
 #include "surface/charts/chart_mesher.hpp"
+#include "surface/curves/border_vertices.hpp"
 #include "surface/cusps/apexes.hpp"
 
 #include <algorithm>
@@ -9,16 +10,6 @@
 
 namespace aeroloom::surface {
 namespace {
-
-/// CAD vertices, edges and the face itself, distinguished by the names of vertices.
-void classify_border_vertex(cad::FaceId face, mesh::SharedVertexKey vertex_key, mesh::Piece& piece) {
-  const cad::EdgeId edge = mesh::edge_of_vertex_key(vertex_key);
-  const bool on_cut = mesh::is_cut_vertex_key(vertex_key), on_edge = edge != cad::no_entity;
-  piece.vertex_dimension.push_back(on_cut    ? mesh::CadDimension::face
-                                   : on_edge ? mesh::CadDimension::edge
-                                             : mesh::CadDimension::vertex);
-  piece.vertex_entity.push_back(on_cut ? face : on_edge ? edge : static_cast<std::int32_t>(vertex_key));
-}
 
 /// Whether another face ends at the vertex too, as where two cones meet in their apexes.
 bool is_met_by_others(const cad::Model& model, cad::VertexId vertex, cad::FaceId face) {
@@ -79,12 +70,14 @@ cad::Facets chart_facets(const cad::Model& model, cad::FaceId face, const Surfac
   return model.facets(face, deflection, options.facet_angle * std::numbers::pi / 180);
 }
 
-PieceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                             const sizing::SizeField& field, const SurfaceOptions& options) {
-  PieceProblem problem;
-  problem.surface =
-      build_chart_surface(model, face, curves, chart_facets(model, face, options), field, problem.vertices);
-  problem.load = predict_triangles(problem.surface, field);
+FaceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                            const sizing::SizeField& field, const SurfaceOptions& options) {
+  FaceProblem problem{{}, find_face_rows(model, face, curves, options.rows)};
+  if (!problem.rows.failures.empty()) return problem;
+  PieceProblem& rest = problem.rest;
+  rest.surface = build_chart_surface(model, problem.rows, curves, chart_facets(model, face, options), field,
+                                     rest.vertices);
+  if (problem.rows.failures.empty()) rest.load = predict_triangles(rest.surface, field);
   return problem;
 }
 

@@ -4,6 +4,7 @@
 #include "mesh/data/piece.hpp"
 #include "surface/curves/curves.hpp"
 #include "surface/division/piece_problem.hpp"
+#include "surface/rows/face_rows.hpp"
 #include "surface/surface_error.hpp"
 #include "surface/surface_options.hpp"
 
@@ -14,9 +15,15 @@ namespace aeroloom::surface {
 /// width of the face.
 cad::Facets chart_facets(const cad::Model& model, cad::FaceId face, const SurfaceOptions& options);
 
-/// A whole face as one piece. Throws SurfaceError or cad::CadError.
-PieceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
-                             const sizing::SizeField& field, const SurfaceOptions& options);
+/// A face whose rows are taken off.
+struct FaceProblem {
+  PieceProblem rest;  ///< of no use where rows failed
+  FaceRows rows;
+};
+
+/// A whole face as one piece, and its rows. Throws SurfaceError or cad::CadError.
+FaceProblem problem_of_face(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                            const sizing::SizeField& field, const SurfaceOptions& options);
 
 /// The triangles of a piece, as a mesh piece with id 0. The result depends on the arguments alone, whatever
 /// other pieces are meshed. Not collective. Throws FaceConflict, SurfaceError or cad::CadError.

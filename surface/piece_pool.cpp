@@ -1,5 +1,6 @@
 #include "surface/piece_pool.hpp"
 
+#include "geometry/place_text.hpp"
 #include "parallel/communication/collective_error.hpp"
 #include "parallel/communication/schedule.hpp"
 #include "parallel/observation/progress.hpp"
@@ -11,7 +12,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
 
 namespace aeroloom::surface {
 namespace {
@@ -25,6 +30,20 @@ using sizing::SizeField;
 constexpr double load_of_face = 50;
 /// Rounds may come to so many triangles, however few the first one has. Chosen, not measured.
 constexpr double few_triangles = 20'000;
+
+/// No part of a face has it.
+PieceKey key_of_rows(FaceId face) {
+  return {face, -1, 0};
+}
+
+void note_failed_rows(const cad::Model& model, const FaceRows& rows, const CurveMesh& curves,
+                      Conflicts& conflicts) {
+  const std::vector<sizing::SizeSource> remedies = remedies_of(rows, curves);
+  conflicts.remedies.insert(conflicts.remedies.end(), remedies.begin(), remedies.end());
+  if (conflicts.message.empty())
+    conflicts.message = fmt::format("rows on face '{}' do not fit near {}", model.face(rows.face).name,
+                                    geometry::place_text(curves.points[rows.failures.front().vertex]));
+}
 
 std::vector<double> sizes_at_vertices(const SizeField& field, const mesh::Piece& piece) {
   std::vector<double> sizes(piece.vertex_count());
@@ -41,7 +60,8 @@ PiecePool::PiecePool(const parallel::Communicator& communicator, const cad::Mode
       _options(options),
       _tasks(tasks),
       _distributor(communicator, model, options),
-      _parts(model.face_count(), 0) {}
+      _parts(model.face_count(), 0),
+      _has_rows(model.face_count(), 0) {}
 
 std::vector<std::int32_t> PiecePool::edge_vertices(const CurveMesh& curves, FaceId face) const {
   std::vector<std::int32_t> counts;
@@ -106,7 +126,7 @@ double PiecePool::seconds_per_triangle() const {
 /// The faces as piece problems, spread over the ranks. What one takes, most of it in the CAD library, cannot
 /// be told before: it is measured, and who has had more gets fewer pieces.
 PieceProblems PiecePool::make_face_problems(const std::vector<FaceId>& faces, const CurveMesh& curves,
-                                            const SizeField& field) {
+                                            const SizeField& field, Conflicts& conflicts) {
   PieceProblems problems;
   _costs.clear();
   const double of_triangle = seconds_per_triangle();
@@ -120,7 +140,13 @@ PieceProblems PiecePool::make_face_problems(const std::vector<FaceId>& faces, co
     for (const int task : parallel::tasks_of_rank(owners, loads, _communicator.rank())) {
       const double begin = parallel::cpu_seconds();
       const PieceKey key{faces[task], 0, 0};
-      problems.emplace(key, problem_of_face(_model, faces[task], curves, field, _options));
+      FaceProblem problem = problem_of_face(_model, faces[task], curves, field, _options);
+      if (!problem.rows.failures.empty()) {
+        note_failed_rows(_model, problem.rows, curves, conflicts);
+        continue;
+      }
+      problems.emplace(key, std::move(problem.rest));
+      if (!problem.rows.empty()) keep_rows(problem.rows, curves, field);
       const double seconds = parallel::cpu_seconds() - begin;
       _costs[key] = seconds / of_triangle;
       parallel::note_task({.kind = parallel::TaskKind::face,
@@ -131,6 +157,28 @@ PieceProblems PiecePool::make_face_problems(const std::vector<FaceId>& faces, co
     }
   });
   return problems;
+}
+
+void PiecePool::keep_rows(const FaceRows& rows, const CurveMesh& curves, const SizeField& field) {
+  mesh::Piece piece = piece_of_rows(_model, rows, curves);
+  std::vector<double> sizes = sizes_at_vertices(field, piece);
+  const auto triangles = static_cast<double>(piece.cell_count());
+  _meshed.emplace(key_of_rows(rows.face),
+                  Meshed{std::move(piece), std::move(sizes), edge_vertices(curves, rows.face), triangles, 0});
+}
+
+void PiecePool::place_rows(const std::vector<FaceId>& faces) {
+  std::vector<FaceId> mine;
+  for (const FaceId face : faces) {
+    if (_meshed.count(key_of_rows(face)) > 0) mine.push_back(face);
+    _has_rows[face] = 0;
+  }
+  for (const FaceId face : _communicator.all_gather_items(std::span<const FaceId>(mine))) _has_rows[face] = 1;
+  for (const FaceId face : faces) {
+    const auto rows = _meshed.find(key_of_rows(face));
+    if (rows != _meshed.end()) rows->second.place = _parts[face];
+    _parts[face] += _has_rows[face];
+  }
 }
 
 void PiecePool::leave_whole(const std::vector<FaceId>& faces) {
@@ -212,15 +260,18 @@ Conflicts PiecePool::mesh(const CurveMesh& curves, const SizeField& field) {
   };
   std::erase_if(_meshed, has_changed);
   std::erase_if(_angles, has_changed);
-  PieceProblems problems = make_face_problems(faces, curves, field);
   Conflicts conflicts;
+  PieceProblems problems = make_face_problems(faces, curves, field, conflicts);
   conflicts.predicted = predict(problems, field);
-  if (!_started) _first = conflicts.predicted;
+  // Faces whose rows failed are missing: the first round is that in which none is.
+  if (!_is_complete) _first = std::max(_first, conflicts.predicted);
+  _is_complete = _is_complete || _communicator.sum(std::int64_t{!conflicts.message.empty()}) == 0;
   _started = true;
   if (conflicts.predicted > most_triangles()) return conflicts;
   TaskDistribution distribution = _distributor.distribute(std::move(problems), _costs, field);
   for (const FaceId face : faces) _parts[face] = 0;
   for (const auto& [key, place] : distribution.places) ++_parts[key[0]];
+  place_rows(faces);
   _angles.merge(distribution.angles);
   parallel::agree(_communicator, [&] { mesh_problems(distribution, curves, field, conflicts); });
   return conflicts;
@@ -244,6 +295,16 @@ mesh::DistributedMesh PiecePool::assemble() const {
     surface.pieces.back().id = first[key[0]] + meshed.place;
   }
   return surface;
+}
+
+std::vector<mesh::PieceId> PiecePool::row_pieces() const {
+  std::vector<mesh::PieceId> pieces;
+  mesh::PieceId next = 0;
+  for (FaceId f = 0; f < _model.face_count(); ++f) {
+    next += _parts[f];
+    if (_has_rows[f] != 0) pieces.push_back(next - 1);
+  }
+  return pieces;
 }
 
 std::vector<CutAngle> PiecePool::cut_angles() const {

@@ -39,11 +39,13 @@ public:
   double most_triangles() const;
   void limit_to(double triangles) { _limit = triangles; }
   /// Whether a face is cut into pieces; known on every rank.
-  bool is_divided(cad::FaceId face) const { return _parts[face] > 1; }
+  bool is_divided(cad::FaceId face) const { return _parts[face] - _has_rows[face] > 1; }
   /// From the next round on, these faces are one piece each. Must be called alike on every rank.
   void leave_whole(const std::vector<cad::FaceId>& faces);
   /// The pieces as a mesh. All faces must be meshed.
   mesh::DistributedMesh assemble() const;
+  /// The pieces of the mesh that are rows, ascending, the same on every rank.
+  std::vector<mesh::PieceId> row_pieces() const;
   /// The angles where cuts end, by face, the same on every rank. Collective.
   std::vector<CutAngle> cut_angles() const;
   /// The relative error that 90 % of the predicted loads do not exceed. Collective.
@@ -67,7 +69,10 @@ private:
   /// Seconds to mesh a triangle on this machine, estimated from the time spent on curves. Collective.
   double seconds_per_triangle() const;
   PieceProblems make_face_problems(const std::vector<cad::FaceId>& faces, const CurveMesh& curves,
-                                   const sizing::SizeField& field);
+                                   const sizing::SizeField& field, Conflicts& conflicts);
+  void keep_rows(const FaceRows& rows, const CurveMesh& curves, const sizing::SizeField& field);
+  /// Gives the pieces of rows their places behind all others of their faces. Collective.
+  void place_rows(const std::vector<cad::FaceId>& faces);
   mesh::Piece mesh_or_find(const PieceProblem& problem, const sizing::SizeField& field,
                            const parallel::Digest& of_field) const;
   void mesh_problems(const TaskDistribution& distribution, const CurveMesh& curves,
@@ -79,11 +84,13 @@ private:
   parallel::TaskStore* _tasks;  // may be null
   TaskDistributor _distributor;
   bool _started = false;
-  double _first = 0;  // triangles predicted in the first round
+  bool _is_complete = false;  // a round has made all faces
+  double _first = 0;          // triangles predicted in the first round
   double _limit = std::numeric_limits<double>::infinity();
-  std::vector<std::int32_t> _parts;    // per face: pieces, 0 before it is divided
-  std::map<PieceKey, double> _costs;   // of faces prepared here in this round, in triangles to mesh
-  std::map<PieceKey, Meshed> _meshed;  // on this rank
+  std::vector<std::int32_t> _parts;     // per face: pieces, 0 before it is divided
+  std::vector<std::int32_t> _has_rows;  // per face: 1 where one of them is rows
+  std::map<PieceKey, double> _costs;    // of faces prepared here in this round, in triangles to mesh
+  std::map<PieceKey, Meshed> _meshed;   // on this rank
   std::map<PieceKey, std::vector<CutAngle>> _angles;  // of what was divided on this rank
 };
 

@@ -248,6 +248,11 @@ private:
     {
       const parallel::ScopedCpu check(parallel::ScopedCpu::As::check);
       needles = find_needles(_model, curves, surface);
+      // Triangles of rows are as narrow as asked for.
+      const std::vector<mesh::PieceId> rows = _pool.row_pieces();
+      std::erase_if(needles, [&](const Needle& needle) {
+        return std::binary_search(rows.begin(), rows.end(), surface.pieces[needle.piece].id);
+      });
     }
     std::vector<NeedleGroup> groups = group_needles(surface, needles);
     const std::int64_t unforced = count_unforced(groups);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace aeroloom::surface {
 
@@ -16,6 +17,14 @@ struct DivisionSteps {
   bool straightening = true;  ///< of the borders between parts
 };
 
+/// Rows of right-angled triangles along a CAD edge, on the faces beside it.
+struct EdgeRows {
+  double height = 0;    ///< of the first row, along the surface, in the model's unit; 0: no rows
+  double growth = 1.2;  ///< height of a row over that of the one before
+
+  bool operator==(const EdgeRows&) const = default;
+};
+
 struct SurfaceOptions {
   SurfaceDecomposition decomposition = SurfaceDecomposition::pieces;
   std::int64_t piece_triangles = 10'000;  ///< wanted triangles of a piece
@@ -26,7 +35,8 @@ struct SurfaceOptions {
   int smoothing_sweeps = 6;  ///< of vertex smoothing and edge flips inside a face
   int mending_rounds = 16;   ///< most rounds of local refinement where faces come too close
   double most_growth = 4;    ///< triangles after local refinement over those of the first round, at most
-  int needle_rounds = 2;     ///< most rounds of refinement for needles that the CAD does not force
+  std::vector<EdgeRows> rows = {};  ///< by CAD edge; empty: none
+  int needle_rounds = 2;            ///< most rounds of refinement for needles that the CAD does not force
   double needle_growth = 1.2;  ///< triangles after those rounds over those before, at most; 1,000 more are
                                ///< allowed in any case
 };

@@ -30,7 +30,7 @@ ALLOWED = {
 ORDER = {
     "mesh": ["data", "exchange", "quality", "checks", "transfer", "."],
     "sizing": ["field", "features", "sources", "choice", "lifting", "."],
-    "surface": ["front", "curves", "remesh", "charts", "division", "cusps", "."],
+    "surface": ["front", "curves", "rows", "remesh", "charts", "division", "cusps", "."],
     "volume": ["lattice", "core", "zones", "filling", "."],
     "improve": ["attribution", "tets", "limits", "operations", "pieces", "borders", "."],
     "io": [".", "import"],
@@ -49,7 +49,7 @@ RESTRICTED = {
     "pipeline/study": {"geometry", "parallel", "pipeline/report/page"},
 }
 # One folder each: nobody outside of it includes what serves it alone.
-INNER = ["surface/front", "surface/curves", "surface/remesh", "surface/charts", "surface/cusps", "volume/lattice", "volume/core",
+INNER = ["surface/front", "surface/curves", "surface/rows", "surface/remesh", "surface/charts", "surface/cusps", "volume/lattice", "volume/core",
          "volume/zones", "volume/filling", "improve/tets", "improve/limits", "improve/operations",
          "improve/pieces", "improve/borders"]
 # What tells the versions of libraries, for the report.

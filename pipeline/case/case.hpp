@@ -52,11 +52,15 @@ struct EdgeRule {
   std::vector<std::string> between;         ///< name patterns of faces
   std::optional<geometry::Vec3> low, high;  ///< corners of a box
   std::optional<double> size;
+  /// Of rows: the first height; the growth from row to row; the longest segment of the edge over the height.
+  std::optional<double> height, growth, stretch;
 };
 
 /// What a checked rule asks the size field for.
 sizing::WallSize wall_of(const WallRule& rule);
 sizing::EdgeSize edge_of(const EdgeRule& rule);
+/// The rows that the rules ask for, by CAD edge, of several the lowest; empty: none. In units of the model.
+std::vector<surface::EdgeRows> rows_along_edges(const std::vector<EdgeRule>& rules, const cad::Model& model);
 
 /// The sizes that the user gave. All others are chosen from the model.
 struct SizingRequest : sizing::GivenSizes {

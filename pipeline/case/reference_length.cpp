@@ -30,7 +30,7 @@ SizingRequest in_model_units(const SizingRequest& request) {
   }
   for (WallRule& rule : result.walls) scale(rule.size, unit), scale(rule.distance, unit);
   for (EdgeRule& rule : result.edges) {
-    scale(rule.size, unit);
+    scale(rule.size, unit), scale(rule.height, unit);
     scale(rule.low, unit), scale(rule.high, unit);
   }
   return result;

@@ -54,6 +54,7 @@ struct EdgeSize {
       between;  ///< patterns: one, of a face at the edge, or two, of faces that meet there
   std::optional<geometry::Box> within;  ///< only parts of edges in it
   double size = 0;
+  double size_at_ends = 0;  ///< of each CAD edge, where rows along it end; 0: as along it
 };
 
 /// A line through points, with a largest element size at each. It is linear in between.

@@ -239,7 +239,7 @@ std::vector<SizedTriangle> wake_sheet(const std::vector<std::array<Vec3, 2>>& se
   return sheet;
 }
 
-std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSize& asked) {
+std::vector<cad::EdgeId> edges_like(const cad::Model& model, const EdgeSize& asked) {
   std::vector<std::vector<bool>> sides;
   for (const std::string& pattern : asked.between) sides.push_back(faces_like(model, {pattern}));
   const auto is_asked_for = [&](const std::vector<cad::FaceId>& faces) {
@@ -253,9 +253,23 @@ std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSi
     }
     return false;
   };
-  std::vector<SizedTriangle> found;
+  std::vector<cad::EdgeId> found;
   for (cad::EdgeId e = 0; e < model.edge_count(); ++e) {
-    if (model.edge(e).degenerate || model.is_seam(e) || !is_asked_for(model.edge(e).faces)) continue;
+    if (!model.edge(e).degenerate && !model.is_seam(e) && is_asked_for(model.edge(e).faces))
+      found.push_back(e);
+  }
+  return found;
+}
+
+std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSize& asked) {
+  std::vector<SizedTriangle> found;
+  for (const cad::EdgeId e : edges_like(model, asked)) {
+    if (asked.size_at_ends > 0) {
+      for (const cad::VertexId v : {model.edge(e).first, model.edge(e).last}) {
+        const Vec3 end = model.vertex(v);
+        found.push_back({{end, end, end}, {asked.size_at_ends, asked.size_at_ends, asked.size_at_ends}});
+      }
+    }
     for (std::array<Vec3, 2> segment : segments_of(model, e)) {
       if (asked.within && !clip(segment, *asked.within)) continue;
       found.push_back({{segment[0], segment[1], segment[1]}, {asked.size, asked.size, asked.size}});

@@ -65,7 +65,9 @@ std::vector<std::array<geometry::Vec3, 2>> trailing_segments(const cad::Model& m
 std::vector<SizedTriangle> wake_sheet(const std::vector<std::array<geometry::Vec3, 2>>& segments,
                                       const WakeSize& wake);
 
-/// The edges that a request selects, as far as they lie in its box.
+/// The edges that a request selects, whole ones, whatever its box.
+std::vector<cad::EdgeId> edges_like(const cad::Model& model, const EdgeSize& asked);
+/// Those as far as they lie in its box, and their ends.
 std::vector<SizedTriangle> edges_asked_for(const cad::Model& model, const EdgeSize& asked);
 
 }  // namespace aeroloom::sizing

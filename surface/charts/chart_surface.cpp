@@ -14,15 +14,19 @@ namespace {
 using VertexPair = std::array<std::int32_t, 2>;
 
 /// The boundary edges of the mesh as the loops of the CAD face have them.
-std::vector<VertexPair> expected_loop_edges(const cad::Model& model, cad::FaceId face,
-                                            const CurveMesh& curves, const FaceVertices& vertices) {
+std::vector<VertexPair> expected_loop_edges(const cad::Model& model, const CurveMesh& curves,
+                                            const FaceVertices& vertices, const FaceRows& rows) {
   std::vector<VertexPair> edges;
-  const auto number = [&](CurveVertex v) { return vertices.find(curves.vertex_key(model, v)); };
-  for (const auto& loop : model.face(face).loops) {
+  for (const auto& loop : model.face(rows.face).loops) {
     for (const auto& use : loop) {
       const auto chain = curves.chain(model, use.edge);
+      const RowStrip* strip = rows.strip_of(use);
+      const auto number = [&](std::size_t i) {
+        const bool has_rows = strip != nullptr && strip->tops[i] >= 0;
+        return vertices.find(has_rows ? rows.top_key(strip->tops[i]) : curves.vertex_key(model, chain[i]));
+      };
       for (std::size_t i = 1; i < chain.size(); ++i) {
-        VertexPair edge{number(chain[i - 1]), number(chain[i])};
+        VertexPair edge{number(i - 1), number(i)};
         if (use.reversed) std::swap(edge[0], edge[1]);
         edges.push_back(edge);
       }
@@ -33,8 +37,8 @@ std::vector<VertexPair> expected_loop_edges(const cad::Model& model, cad::FaceId
 
 /// Throws where the boundary of the chart surface is not that of the face.
 void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const ChartSurface& surface,
-                      const FaceVertices& vertices) {
-  std::vector<VertexPair> expected = expected_loop_edges(model, surface.face, curves, vertices);
+                      const FaceVertices& vertices, const FaceRows& rows) {
+  std::vector<VertexPair> expected = expected_loop_edges(model, curves, vertices, rows);
   std::vector<VertexPair> found;
   for (const auto& [a, b] : surface.loop_edges)
     found.push_back({surface.mesh_vertex[a], surface.mesh_vertex[b]});
@@ -55,14 +59,24 @@ void check_loop_edges(const cad::Model& model, const CurveMesh& curves, const Ch
 ChartSurface build_chart_surface(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
                                  const cad::Facets& facets, const sizing::SizeField& field,
                                  FaceVertices& vertices) {
-  OpenFacets open(model, face, facets);
+  FaceRows none;
+  none.face = face;
+  return build_chart_surface(model, none, curves, facets, field, vertices);
+}
+
+ChartSurface build_chart_surface(const cad::Model& model, FaceRows& rows, const CurveMesh& curves,
+                                 const cad::Facets& facets, const sizing::SizeField& field,
+                                 FaceVertices& vertices) {
+  OpenFacets open(model, rows.face, facets);
   open.insert_curve_vertices(curves);
   open.match_seams();
+  open.cut_off(rows, curves);
+  if (!rows.failures.empty()) return {};
   open.fit_to_surface(field);
   ChartSurface surface = open.close(curves, vertices);
   flip_to_delaunay(surface);
   surface.loop_edges = trace_loop_edges(surface);
-  check_loop_edges(model, curves, surface, vertices);
+  check_loop_edges(model, curves, surface, vertices, rows);
   return surface;
 }
 

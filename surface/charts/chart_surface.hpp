@@ -4,6 +4,7 @@
 #include "cad/model/model.hpp"
 #include "geometry/vec.hpp"
 #include "surface/curves/curves.hpp"
+#include "surface/rows/face_rows.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,6 +48,12 @@ struct FaceVertices {
 /// `vertices` receives the curve vertices of the face, ascending. Throws SurfaceError where the facets do not
 /// fit the loops of the face.
 ChartSurface build_chart_surface(const cad::Model& model, cad::FaceId face, const CurveMesh& curves,
+                                 const cad::Facets& facets, const sizing::SizeField& field,
+                                 FaceVertices& vertices);
+
+/// The same of a face without its rows: tops stand for the curve vertices below them. Where rows meet the
+/// boundary or each other that is added to their failures, and the result is of no use.
+ChartSurface build_chart_surface(const cad::Model& model, FaceRows& rows, const CurveMesh& curves,
                                  const cad::Facets& facets, const sizing::SizeField& field,
                                  FaceVertices& vertices);
 

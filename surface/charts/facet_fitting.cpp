@@ -47,7 +47,8 @@ void OpenFacets::fit_to_surface(const sizing::SizeField& field) {
   frame_new_points();
   flip(frames);
   if (is_folded()) {
-    triangulate_again(frames);
+    std::vector<std::int32_t> crossings;
+    triangulate_again(frames, crossings);
     flip(frames);
   }
   for (int round = 0; round < fitting_rounds && divide_turning_edges(frames, field); ++round) {
@@ -69,14 +70,15 @@ bool OpenFacets::is_folded() const {
                      [&](const auto& uv) { return geometry::orient2d(uv[0], uv[1], uv[2]) == -orientation; });
 }
 
-void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {
+bool OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames,
+                                   std::vector<std::int32_t>& crossings) {
   // Distances in this plane are about those on the surface, so that the triangulation starts well.
   SurfaceMetric mean;
   for (const SurfaceFrame& frame : frames) {
     const SurfaceMetric metric = metric_of(frame);
     mean.uu += metric.uu, mean.vv += metric.vv;
   }
-  if (!(mean.uu > 0 && mean.vv > 0)) return;
+  if (!(mean.uu > 0 && mean.vv > 0)) return false;
   const double height = std::sqrt(mean.vv / mean.uu) * parameter_orientation();
   front::FrontInput region;
   std::vector<std::int32_t> number(_uv.size(), -1), point_of;
@@ -110,7 +112,14 @@ void OpenFacets::triangulate_again(const std::vector<SurfaceFrame>& frames) {
     }
   } catch (const front::FrontError& e) {
     // The loops touch in the parameter plane: the facets stay as they are, and the charts judge them.
+    for (const front::CrossingEdges& crossing : e.crossings()) {
+      for (const std::int32_t edge : {crossing.first, crossing.second}) {
+        for (const std::int32_t point : region.edges[edge]) crossings.push_back(point_of[point]);
+      }
+    }
+    return false;
   }
+  return true;
 }
 
 std::vector<char> OpenFacets::find_turning_edges(const std::vector<geometry::HalfEdge>& twins,

@@ -277,10 +277,10 @@ void OpenFacets::collect_vertices(const CurveMesh& curves, FaceVertices& vertice
   std::sort(found.begin(), found.end());
   vertices = {};
   for (const auto& [vertex, point] : found) {
-    const mesh::SharedVertexKey vertex_key = curves.vertex_key(_model, vertex);
+    const mesh::SharedVertexKey vertex_key = key_of(curves, vertex);
     if (!vertices.vertex_keys.empty() && vertices.vertex_keys.back() == vertex_key) continue;
     vertices.vertex_keys.push_back(vertex_key);
-    vertices.points.push_back(curves.points[vertex]);
+    vertices.points.push_back(point_of(curves, vertex));
     vertices.uv.push_back(_uv[point]);
   }
 }
@@ -295,7 +295,7 @@ ChartSurface OpenFacets::close(const CurveMesh& curves, FaceVertices& vertices) 
   for (const Line& line : _lines) {
     for (const Node& node : line.nodes) {
       if (node.vertex < 0) continue;
-      const std::int32_t index = vertices.find(curves.vertex_key(_model, node.vertex));
+      const std::int32_t index = vertices.find(key_of(curves, node.vertex));
       joined.mesh_vertex[roots[node.point]] = index;
       joined.points[roots[node.point]] = vertices.points[index];
     }

@@ -226,6 +226,10 @@ TEST_F(Refusals, OfFormulasWallsWakesAndEdgesThatCannotBe) {
        {"sizing.sources.wing.direction=[-1, 0, 0]", {"sizing.sources.wing", "Remedy"}},
        {"sizing.sources.wing.from=[0, 0, 1]", {"sizing.sources.wing", "either"}},
        {"sizing.edges.corner={low: [100, 0, 0], high: [101, 1, 1]}", {"sizing.edges.corner", "Remedy"}},
+       {"sizing.edges.rows={between: '*', size: 1, height: 1}", {"sizing.edges.rows", "not both"}},
+       {"sizing.edges.rows={between: '*', size: 1, growth: 1.2}", {"sizing.edges.rows", "without 'height'"}},
+       {"sizing.edges.rows={low: [0, 0, 0], high: [1, 1, 1], height: 1}",
+        {"sizing.edges.rows", "whole edges"}},
        {"sizing.walls.tail.size=1e-5", {"sizing.walls.tail", "Remedy"}}});
   expect(2, "run case.yaml --set sizing.minimum=0.01 --set 'sizing.expression=1e-5+0*x'",
          {"sizing.expression: more elements", "Remedy"});

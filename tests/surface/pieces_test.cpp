@@ -211,7 +211,7 @@ TEST(Decomposition, ByFacesKeepsOnePiecePerFace) {
 PieceProblem side_of_cylinder(const cad::Model& model, const sizing::SizeField& field) {
   const CurveMesh curves = discretise_curves(model, field);
   for (cad::FaceId f = 0; f < model.face_count(); ++f) {
-    if (!model.is_planar(f)) return problem_of_face(model, f, curves, field, {});
+    if (!model.is_planar(f)) return problem_of_face(model, f, curves, field, {}).rest;
   }
   throw std::logic_error("a cylinder without a side");
 }

@@ -130,7 +130,8 @@ TEST(SurfaceMesher, PieceAloneHasTheSameBits) {
       mesh_model(Communicator::world(), cad::make_primitive_domain(PrimitiveKind::cylinder), 10, 0.1);
   const CurveMesh curves = discretise_curves(meshed.model, meshed.field);
   for (const mesh::Piece& piece : meshed.surface.pieces) {
-    const PieceProblem problem = problem_of_face(meshed.model, piece.common_face(), curves, meshed.field, {});
+    const PieceProblem problem =
+        problem_of_face(meshed.model, piece.common_face(), curves, meshed.field, {}).rest;
     mesh::Piece alone = mesh_piece(meshed.model, problem, meshed.field, {});
     alone.id = piece.id;
     EXPECT_EQ(parallel::to_wire(piece), parallel::to_wire(alone)) << "face " << piece.common_face();

@@ -40,6 +40,17 @@ TEST_F(CaseTest, WallsWakesAndEdgesAreReadAndComeBack) {
   EXPECT_EQ(edge_of(sizing.edges[0]).within->low.x, -12);
 }
 
+TEST(CaseSizes, RowsAskForTheirHeightAtEndsAndForTheirStretchBetween) {
+  SizingRequest given;
+  given.reference_length = 2;
+  given.edges.push_back({.name = "tip", .between = {"a", "b"}, .height = 0.5, .stretch = 6});
+  const SizingRequest sizing = in_model_units(given);
+  const sizing::EdgeSize asked = edge_of(sizing.edges[0]);
+  EXPECT_EQ(asked.size_at_ends, 1);
+  EXPECT_EQ(asked.size, 6);
+  EXPECT_EQ(edge_of({.name = "root", .between = {"a"}, .size = 3}).size_at_ends, 0);
+}
+
 /// Keys of a source of every shape.
 const std::vector<std::string> every_shape{
     "{shape: point, size: 5, center: [1, 2, 3]}",

@@ -43,7 +43,7 @@ TEST(ChartMesherLocal, AsksForSmallerSizesWhereAChordIsBelowTheBorderBelowIt) {
   const CurveMesh curves = chords_alone(model);
   cad::FaceId section = 0;
   while (model.face(section).loops.front().size() != 3) ++section;
-  const PieceProblem problem = problem_of_face(model, section, curves, field, {});
+  const PieceProblem problem = problem_of_face(model, section, curves, field, {}).rest;
   try {
     mesh_piece(model, problem, field, {});
     FAIL() << "the chords run clockwise around the face";
