@@ -10,12 +10,12 @@ namespace {
 
 class FanFinder {
 public:
-  FanFinder(const LocalWall& wall, const VertexStars& stars, const Sectors& sectors)
-      : _wall(wall), _stars(stars), _sectors(sectors), _names(wall.vertex_names()) {}
+  FanFinder(const LocalWall& wall, const VertexStars& stars, const RidgeEdges& ridges, const Sectors& sectors)
+      : _wall(wall), _stars(stars), _ridges(ridges), _sectors(sectors), _names(wall.vertex_names()) {}
 
   Fans find() {
     place_columns();
-    for (const RidgeEdge& edge : _sectors.edges) {
+    for (const RidgeEdge& edge : _ridges.edges) {
       if (edge.is_owned) add_faces(edge);
     }
     for (const auto& [v, fan] : _sectors.fans) add_triangles(v, fan);
@@ -130,6 +130,7 @@ private:
 
   const LocalWall& _wall;
   const VertexStars& _stars;
+  const RidgeEdges& _ridges;
   const Sectors& _sectors;
   std::vector<mesh::VertexName> _names;
   Fans _fans;
@@ -149,7 +150,7 @@ Fans without_fans(const LocalWall& wall) {
 }
 
 Fans find_fans(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs) {
-  return FanFinder(wall, stars, count_sectors(wall, stars, needs)).find();
+  return FanFinder(wall, stars, needs.ridges, count_sectors(wall, stars, needs)).find();
 }
 
 }  // namespace aeroloom::layers

@@ -138,7 +138,10 @@ bool has_empty_fans(const LayerInput& in, const FittedColumns& columns) {
 /// How often numbers of sectors are to be halved so that first layers are valid.
 class SectorHalving {
 public:
-  explicit SectorHalving(const LayerInput& in) : _in(in), _halvings(3 * in.wall.triangles.size(), 0) {}
+  explicit SectorHalving(const LayerInput& in)
+      : _in(in),
+        _ridges(list_ridge_edges(in.wall, in.stars, in.edges)),
+        _halvings(3 * in.wall.triangles.size(), 0) {}
 
   /// Fans with a valid first layer, and with as many sectors as the needs ask for on other ridges. Where no
   /// number mends it there are none.
@@ -147,7 +150,8 @@ public:
     for (;;) {
       std::fill(_halvings.begin(), _halvings.end(), 0);
       for (int halving = 0;; ++halving) {
-        Fans fans = find_fans(_in.wall, _in.stars, {_in.wanted, _in.fitted, _in.edges, reached, _halvings});
+        Fans fans =
+            find_fans(_in.wall, _in.stars, {_in.wanted, _in.fitted, _ridges, _in.edges, reached, _halvings});
         const std::vector<std::int32_t> bad = find_bad(fans);
         if (_in.wall.mesh.communicator.sum(std::count(bad.begin(), bad.end(), 1)) == 0) return fans;
         if (halving == most_halvings) {
@@ -190,6 +194,7 @@ private:
   }
 
   const LayerInput& _in;
+  RidgeEdges _ridges;
   std::vector<std::int32_t> _halvings;  // FanNeeds::halvings
 };
 
@@ -199,9 +204,10 @@ FittedColumns fit_columns(const LayerInput& in) {
   KnownColumns known{MeasuredGaps(in.wall), {}};
   if (!in.may_have_fans) return limit_columns(in, known, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
-  std::optional columns(limit_columns(in, known, SectorHalving(in).find(reached)));
+  SectorHalving halving(in);
+  std::optional columns(limit_columns(in, known, halving.find(reached)));
   if (find_low_fans(in, *columns, reached)) {
-    Fans fans = SectorHalving(in).find(reached);
+    Fans fans = halving.find(reached);
     if (have_fewer(in, columns->fans, fans)) columns.emplace(limit_columns(in, known, std::move(fans)));
   }
   if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, known, without_fans(in.wall)));

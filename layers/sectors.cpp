@@ -38,29 +38,16 @@ std::int32_t sectors_by_front(double turn, double height, double width) {
   return static_cast<std::int32_t>(std::clamp(std::ceil(turn * height / width), 1.0, double{most_sectors}));
 }
 
-class SectorCounter {
+/// Lists the edges of ridges and their lengths.
+class RidgeEdgeLister {
 public:
-  SectorCounter(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs)
-      : _wall(wall),
-        _stars(stars),
-        _wanted(needs.wanted),
-        _fitted(needs.fitted),
-        _edges(needs.edges),
-        _reached(needs.reached),
-        _halvings(needs.halvings),
-        _names(wall.vertex_names()) {}
+  RidgeEdgeLister(const LocalWall& wall, const VertexStars& stars)
+      : _wall(wall), _stars(stars), _names(wall.vertex_names()) {}
 
-  Sectors count() {
+  RidgeEdges list(const std::vector<double>& mean_edges) {
     list_edges();
-    smooth_lengths();
-    ask();
-    drop_short();
-    agree_along_ridges(more);
-    halve();
-    agree_along_ridges(fewer);
-    make_fans();
-    mark_ends();
-    return std::move(_sectors);
+    smooth_lengths(mean_edges);
+    return std::move(_found);
   }
 
 private:
@@ -84,14 +71,14 @@ private:
         if (slots[0] < 0 && slots[1] < 0) continue;
         const Ridge::Edge& edge =
             slots[0] >= 0 ? _stars.ridge_at(a)->edges[slots[0]] : _stars.ridge_at(b)->edges[slots[1]];
-        _sectors.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here)});
+        _found.edges.push_back({t, {a, b}, slots, !(std::min(edge.left, edge.right) < here)});
       }
     }
   }
 
   /// Lengths of a ridge's edges, as smooth along it as mean edges are over the wall: these are longer where
   /// the wall is fine along its edges alone.
-  void smooth_lengths() {
+  void smooth_lengths(const std::vector<double>& mean_edges) {
     constexpr int sweeps = 8;  // as many as mean edges have; chosen, not measured
     struct Around {
       double sum;
@@ -101,7 +88,7 @@ private:
     std::vector<Around> around(_wall.points.size());
     const auto average = [&](const auto& value) {
       std::fill(around.begin(), around.end(), Around{});
-      for (const RidgeEdge& edge : _sectors.edges) {
+      for (const RidgeEdge& edge : _found.edges) {
         if (!edge.is_owned) continue;
         for (int end = 0; end < 2; ++end) {
           Around& here = around[edge.ends[end]];
@@ -111,21 +98,52 @@ private:
       }
       _wall.combine(around, [](Around a, Around b) { return Around{a.sum + b.sum, a.count + b.count}; });
     };
-    _lengths = _edges;
+    _found.lengths = mean_edges;
     average([&](const RidgeEdge& edge, int) {
       return distance(_wall.points[edge.ends[0]], _wall.points[edge.ends[1]]);
     });
     for (std::size_t v = 0; v < around.size(); ++v) {
-      if (around[v].count > 0) _lengths[v] = around[v].mean();
+      if (around[v].count > 0) _found.lengths[v] = around[v].mean();
     }
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      average([&](const RidgeEdge& edge, int end) { return _lengths[edge.ends[1 - end]]; });
+      average([&](const RidgeEdge& edge, int end) { return _found.lengths[edge.ends[1 - end]]; });
       for (std::size_t v = 0; v < around.size(); ++v) {
-        if (around[v].count > 0) _lengths[v] = 0.5 * (_lengths[v] + around[v].mean());
+        if (around[v].count > 0) _found.lengths[v] = 0.5 * (_found.lengths[v] + around[v].mean());
       }
     }
   }
 
+  const LocalWall& _wall;
+  const VertexStars& _stars;
+  std::vector<mesh::VertexName> _names;
+  RidgeEdges _found;
+};
+
+class SectorCounter {
+public:
+  SectorCounter(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs)
+      : _wall(wall),
+        _stars(stars),
+        _wanted(needs.wanted),
+        _fitted(needs.fitted),
+        _ridges(needs.ridges),
+        _edges(needs.edges),
+        _reached(needs.reached),
+        _halvings(needs.halvings),
+        _names(wall.vertex_names()) {}
+
+  Sectors count() {
+    ask();
+    drop_short();
+    agree_along_ridges(more);
+    halve();
+    agree_along_ridges(fewer);
+    make_fans();
+    mark_ends();
+    return std::move(_sectors);
+  }
+
+private:
   void ask() {
     std::size_t most_slots = 2;
     for (const Ridge& ridge : _stars.ridges) most_slots = std::max(most_slots, ridge.edges.size());
@@ -140,9 +158,10 @@ private:
       const double height = wanted_height(_wanted[v], _fitted[v]);
       for (std::size_t e = 0; e < ridge->edges.size(); ++e) {
         const double turn = turn_at(*ridge, e);
-        _by_slot[e][v] = std::min(
-            wanted_sectors(turn, height, _lengths[v]),
-            std::max(least_at(turn), sectors_by_front(turn, _reached[v], narrowest_end * _lengths[v])));
+        _by_slot[e][v] =
+            std::min(wanted_sectors(turn, height, _ridges.lengths[v]),
+                     std::max(least_at(turn),
+                              sectors_by_front(turn, _reached[v], narrowest_end * _ridges.lengths[v])));
       }
     }
   }
@@ -155,7 +174,7 @@ private:
       const double turn = turn_at(ridge, e);
       widest = std::max(widest, turn * _reached[v] / least_at(turn));
     }
-    return widest < narrowest_end * _lengths[v];
+    return widest < narrowest_end * _ridges.lengths[v];
   }
 
   static double turn_at(const Ridge& ridge, std::size_t edge) {
@@ -219,7 +238,7 @@ private:
       const std::vector<std::int32_t> before = values;
       for (bool goes_on = true; goes_on;) {
         goes_on = false;
-        for (const RidgeEdge& edge : _sectors.edges) {
+        for (const RidgeEdge& edge : _ridges.edges) {
           if (!has_fan(edge, 0) && !has_fan(edge, 1)) continue;
           for (int end = 0; end < 2; ++end) {
             std::int32_t &here = values[edge.ends[end]], beside = values[edge.ends[1 - end]] + step;
@@ -237,7 +256,7 @@ private:
 
   void mark_ends() {
     _sectors.is_end.assign(_wall.points.size(), 0);
-    for (const RidgeEdge& edge : _sectors.edges) {
+    for (const RidgeEdge& edge : _ridges.edges) {
       for (int end = 0; end < 2; ++end) {
         if (ends_at(edge, end)) _sectors.is_end[edge.ends[end]] = 1;
       }
@@ -249,14 +268,16 @@ private:
   /// of vertices are combined, on all ranks.
   template <class Visit, class Op>
   void repeat_over_edges(const Visit& visit, const Op& op) {
+    // Values are equal in all pieces: where no visit changes any, combining them changes none.
     for (bool changes = true; changes;) {
-      const std::vector<std::vector<std::int32_t>> before = _by_slot;
-      for (bool goes_on = true; goes_on;) {
+      bool changed = false;
+      for (bool goes_on = true; goes_on; changed = changed || goes_on) {
         goes_on = false;
-        for (const RidgeEdge& edge : _sectors.edges) goes_on = visit(edge) || goes_on;
+        for (const RidgeEdge& edge : _ridges.edges) goes_on = visit(edge) || goes_on;
       }
+      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
+      if (!changes) return;
       for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, op);
-      changes = _wall.mesh.communicator.sum(std::int64_t{before != _by_slot}) > 0;
     }
   }
 
@@ -277,7 +298,7 @@ private:
   /// Halves numbers where they are to be fewer, down to the least.
   void halve() {
     const std::vector<std::vector<std::int32_t>> before = _by_slot;
-    for (const RidgeEdge& edge : _sectors.edges) {
+    for (const RidgeEdge& edge : _ridges.edges) {
       const std::int32_t halvings = _halvings[3 * static_cast<std::size_t>(edge.triangle) +
                                               _wall.corner_of(edge.triangle, edge.ends[0])];
       if (halvings == 0) continue;
@@ -331,10 +352,10 @@ private:
   const VertexStars& _stars;
   const std::vector<VertexLayers>& _wanted;
   const std::vector<FittedLayers>& _fitted;
+  const RidgeEdges& _ridges;
   const std::vector<double>&_edges, &_reached;
   const std::vector<std::int32_t>& _halvings;
   std::vector<mesh::VertexName> _names;
-  std::vector<double> _lengths;  ///< of edges along ridges, by vertex
   /// By place among Ridge::edges and by vertex: the number over that edge; 0: no fan.
   std::vector<std::vector<std::int32_t>> _by_slot;
   Sectors _sectors;
@@ -344,6 +365,11 @@ private:
 
 std::int32_t wanted_sectors(double turn, double height, double edge) {
   return std::max(sectors_by_turn(turn, widest_sector), sectors_by_front(turn, height, widest_end * edge));
+}
+
+RidgeEdges list_ridge_edges(const LocalWall& wall, const VertexStars& stars,
+                            const std::vector<double>& mean_edges) {
+  return RidgeEdgeLister(wall, stars).list(mean_edges);
 }
 
 Sectors count_sectors(const LocalWall& wall, const VertexStars& stars, const FanNeeds& needs) {

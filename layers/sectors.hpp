@@ -20,8 +20,15 @@ struct RidgeEdge {
   bool is_owned;                      ///< no lower triangle has it
 };
 
+/// The edges of ridges on walls, once for all numbers of sectors that are tried.
+struct RidgeEdges {
+  std::vector<RidgeEdge> edges;  ///< by triangle
+  /// By vertex: of the ridge's edges there, as smooth along it as mean edges are over the wall; off ridges
+  /// mean edges.
+  std::vector<double> lengths;
+};
+
 struct Sectors {
-  std::vector<RidgeEdge> edges;            ///< by triangle
   std::map<std::int32_t, VertexFan> fans;  ///< by vertex
   std::vector<std::int32_t> is_end;        ///< by vertex: 1 where a fan ends on a wall
 
@@ -35,6 +42,7 @@ struct Sectors {
 struct FanNeeds {
   const std::vector<VertexLayers>& wanted;
   const std::vector<FittedLayers>& fitted;  ///< fit_wanted_layers()
+  const RidgeEdges& ridges;                 ///< list_ridge_edges()
   const std::vector<double>& edges;         ///< smooth_mean_edges()
   /// The height that limits leave to columns much lower than wanted, else infinite; 0: no fan.
   const std::vector<double>& reached;
@@ -42,6 +50,10 @@ struct FanNeeds {
   /// halved.
   const std::vector<std::int32_t>& halvings;
 };
+
+/// `mean_edges`: smooth_mean_edges(). Collective.
+RidgeEdges list_ridge_edges(const LocalWall& wall, const VertexStars& stars,
+                            const std::vector<double>& mean_edges);
 
 /// Edges of a ridge have all as many sectors, as the turn asks for where it is largest, at most 35 degrees
 /// each, and as the front: over columns of the wanted heights a sector is at most two and a half edges wide,
