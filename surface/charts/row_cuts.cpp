@@ -33,7 +33,7 @@ void OpenFacets::lower_to_tops(Line& line, const RowStrip& strip, const CurveMes
       kept.push_back(node);
       continue;
     }
-    const RowVertex& top = strip.columns[column].back();
+    const RowVertex& top = strip.top(column);
     const auto point = static_cast<std::int32_t>(_surface.points.size());
     _surface.points.push_back(top.point);
     _uv.push_back(top.uv);
@@ -49,7 +49,7 @@ void OpenFacets::cut_off(FaceRows& rows, const CurveMesh& curves) {
   for (const RowStrip& strip : rows.strips) {
     for (std::size_t i = 0; i < strip.tops.size(); ++i) {
       if (strip.tops[i] < 0) continue;
-      _tops.push_back(strip.columns[i].back().point);
+      _tops.push_back(strip.top(i).point);
       _top_keys.push_back(rows.top_key(strip.tops[i]));
     }
   }

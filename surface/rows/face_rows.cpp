@@ -133,17 +133,20 @@ public:
   }
 
   void add_strip(const cad::Coedge& use, const EdgeRows& rows) {
-    RowStrip strip{use, _curves.chain(_model, use.edge), _curves.chain_parameters(_model, use.edge), {}, {}};
+    RowStrip strip{use, _curves.chain(_model, use.edge), _curves.chain_parameters(_model, use.edge), {}, {0},
+                   {}};
     std::vector<Vec3> points;
     for (const CurveVertex v : strip.chain) points.push_back(_curves.points[v]);
     const std::vector<int> counts = count_rows(points, rows);
     strip.tops.assign(counts.size(), -1);
-    for (std::size_t i = 0; i < counts.size(); ++i)
-      strip.columns.push_back(make_column(strip, i, counts[i], rows));
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      add_column(strip, i, counts[i], rows);
+      strip.first.push_back(strip.vertices.size());
+    }
     if (strip.empty()) return;
     find_turned(strip);
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      if (!strip.columns[i].empty()) strip.tops[i] = _tops++;
+      if (strip.rows_at(i) > 0) strip.tops[i] = _tops++;
     }
     _found.strips.push_back(std::move(strip));
   }
@@ -151,22 +154,20 @@ public:
   FaceRows take() { return std::move(_found); }
 
 private:
-  std::vector<RowVertex> make_column(const RowStrip& strip, std::size_t i, int count, const EdgeRows& rows) {
-    std::vector<RowVertex> column;
-    if (count == 0) return column;
+  void add_column(RowStrip& strip, std::size_t i, int count, const EdgeRows& rows) {
+    if (count == 0) return;
     const double t = strip.parameters[i];
     const RowVertex foot = foot_of(strip, i);
     const Vec3 tangent = _model.edge_tangent(strip.use.edge, t);
     const Vec3 inside =
         cross(_model.face_frame(_found.face, foot.uv).normal, strip.use.reversed ? -tangent : tangent);
-    if (!(norm(inside) > 0)) return fail(strip, i), column;
-    if (!has_room(strip, i, count, rows, normalized(inside))) return column;
+    if (!(norm(inside) > 0)) return fail(strip, i);
+    if (!has_room(strip, i, count, rows, normalized(inside))) return;
     Walk walk(_model, _found.face, foot, normalized(inside));
     for (int row = 0; row < count; ++row) {
-      if (!walk.advance(row_height(rows, row))) return fail(strip, i), column;
-      column.push_back(walk.at());
+      if (!walk.advance(row_height(rows, row))) return fail(strip, i);
+      strip.vertices.push_back(walk.at());
     }
-    return column;
   }
 
   RowVertex foot_of(const RowStrip& strip, std::size_t i) const {
@@ -195,7 +196,7 @@ private:
     for (std::size_t i = 0; i + 1 < strip.chain.size(); ++i) {
       std::vector<std::array<Vec2, 3>> triangles;
       const auto uv = [&](std::size_t column, std::size_t level) {
-        return level == 0 ? foot_of(strip, column).uv : strip.columns[column][level - 1].uv;
+        return level == 0 ? foot_of(strip, column).uv : strip.above(column, level).uv;
       };
       for_each_row_triangle(strip, i, [&](const std::array<RowPlace, 3>& corners) {
         triangles.push_back({uv(corners[0].column, corners[0].level), uv(corners[1].column, corners[1].level),
@@ -249,11 +250,11 @@ private:
     std::map<mesh::SharedVertexKey, Vec3> borders;
     for (const RowStrip& strip : _rows.strips) {
       for (std::size_t i = 0; i < strip.chain.size(); ++i) {
-        const bool is_used = !strip.columns[i].empty() || (i > 0 && !strip.columns[i - 1].empty()) ||
-                             (i + 1 < strip.chain.size() && !strip.columns[i + 1].empty());
+        const bool is_used = strip.rows_at(i) > 0 || (i > 0 && strip.rows_at(i - 1) > 0) ||
+                             (i + 1 < strip.chain.size() && strip.rows_at(i + 1) > 0);
         if (is_used)
           borders.emplace(_curves.vertex_key(_model, strip.chain[i]), _curves.points[strip.chain[i]]);
-        if (strip.tops[i] >= 0) borders.emplace(_rows.top_key(strip.tops[i]), strip.columns[i].back().point);
+        if (strip.tops[i] >= 0) borders.emplace(_rows.top_key(strip.tops[i]), strip.top(i).point);
       }
     }
     for (const auto& [key, point] : borders) {
@@ -266,10 +267,10 @@ private:
 
   void add_inside(const RowStrip& strip) {
     _first_inside.clear();
-    for (const std::vector<RowVertex>& column : strip.columns) {
+    for (std::size_t i = 0; i < strip.chain.size(); ++i) {
       _first_inside.push_back(_piece.vertex_count());
-      for (std::size_t k = 0; k + 1 < column.size(); ++k) {
-        add_point(column[k].point);
+      for (std::size_t rows = 1; rows < strip.rows_at(i); ++rows) {
+        add_point(strip.above(i, rows).point);
         _piece.vertex_dimension.push_back(mesh::CadDimension::face);
         _piece.vertex_entity.push_back(_rows.face);
       }
@@ -283,7 +284,7 @@ private:
 
   mesh::LocalIndex vertex_at(const RowStrip& strip, const RowPlace& place) const {
     if (place.level == 0) return _of_key.at(_curves.vertex_key(_model, strip.chain[place.column]));
-    if (place.level == strip.columns[place.column].size())
+    if (place.level == strip.rows_at(place.column))
       return _of_key.at(_rows.top_key(strip.tops[place.column]));
     return _first_inside[place.column] + static_cast<mesh::LocalIndex>(place.level) - 1;
   }
@@ -297,10 +298,6 @@ private:
 };
 
 }  // namespace
-
-bool RowStrip::empty() const {
-  return std::all_of(columns.begin(), columns.end(), [](const auto& column) { return column.empty(); });
-}
 
 double longest_segment(const CurveMesh& curves, const RowStrip& strip, std::size_t i) {
   const Vec3 here = curves.points[strip.chain[i]];

@@ -24,15 +24,19 @@ struct RowVertex {
 /// Rows on the left of a use of an edge.
 struct RowStrip {
   cad::Coedge use;
-  std::vector<CurveVertex> chain;  ///< of the edge, in the direction of its parameter
-  std::vector<double> parameters;  ///< of those
-  /// By vertex of the chain: those above it, from the lowest row to the highest.
-  std::vector<std::vector<RowVertex>> columns;
+  std::vector<CurveVertex> chain;   ///< of the edge, in the direction of its parameter
+  std::vector<double> parameters;   ///< of those
+  std::vector<RowVertex> vertices;  ///< column by column, each from the lowest row to the highest
+  std::vector<std::size_t> first;   ///< by vertex of the chain, and one more: of its column
   /// By vertex of the chain: the number of its highest vertex among those of the face, which count strip by
   /// strip; -1: it has no rows.
   std::vector<std::int32_t> tops;
 
-  bool empty() const;
+  bool empty() const { return vertices.empty(); }
+  std::size_t rows_at(std::size_t i) const { return first[i + 1] - first[i]; }
+  /// The vertex of column i above so many rows, at least one.
+  const RowVertex& above(std::size_t i, std::size_t rows) const { return vertices[first[i] + rows - 1]; }
+  const RowVertex& top(std::size_t i) const { return above(i, rows_at(i)); }
 };
 
 /// A corner of a triangle of rows: a column, and the rows below it there.
@@ -45,7 +49,7 @@ struct RowPlace {
 template <class Visit>
 void for_each_row_triangle(const RowStrip& strip, std::size_t i, const Visit& visit) {
   const std::size_t a = strip.use.reversed ? i + 1 : i, b = strip.use.reversed ? i : i + 1;
-  const std::size_t of_a = strip.columns[a].size(), of_b = strip.columns[b].size();
+  const std::size_t of_a = strip.rows_at(a), of_b = strip.rows_at(b);
   const std::size_t both = std::min(of_a, of_b);
   for (std::size_t k = 0; k < both; ++k) {
     const RowPlace low_a{a, k}, low_b{b, k}, high_a{a, k + 1}, high_b{b, k + 1};
