@@ -60,9 +60,9 @@ constexpr std::array words_beyond{
         "dynamicrefinefvmesh backgroundmesh postview errorestimator"},
     OtherWords{
         "Stretched elements",
-        "elements outside of boundary layers have edges of one length in all directions: stretched ones, as "
-        "along leading edges, are not made",
-        "anisotropic anisotropy anisotropicsources stretching stretch anisotropicsurface maxaspectratio "
+        "elements outside of boundary layers have edges of one length in all directions, but for rows along "
+        "CAD edges ('sizing.edges.NAME.height')",
+        "anisotropic anisotropy anisotropicsources stretching anisotropicsurface maxaspectratio "
         "surfaceaspectratio"},
     OtherWords{"Curved elements", "elements are straight: those of higher order are not made",
                "elementorder secondorder secondorderlinear secondorderincomplete highorder highorderoptimize "
