@@ -2,7 +2,6 @@
 
 #include "geometry/box_tree.hpp"
 #include "geometry/predicates.hpp"
-#include "geometry/sort_unique.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
 #include "surface/curves/border_vertices.hpp"
 
@@ -193,23 +192,18 @@ private:
 
   /// Lists columns whose triangles are turned over in the plane of parameters.
   void find_turned(const RowStrip& strip) {
+    const auto uv = [&](const RowPlace& place) {
+      return place.level == 0 ? foot_of(strip, place.column).uv : strip.above(place.column, place.level).uv;
+    };
     for (std::size_t i = 0; i + 1 < strip.chain.size(); ++i) {
-      std::vector<std::array<Vec2, 3>> triangles;
-      const auto uv = [&](std::size_t column, std::size_t level) {
-        return level == 0 ? foot_of(strip, column).uv : strip.above(column, level).uv;
-      };
-      for_each_row_triangle(strip, i, [&](const std::array<RowPlace, 3>& corners) {
-        triangles.push_back({uv(corners[0].column, corners[0].level), uv(corners[1].column, corners[1].level),
-                             uv(corners[2].column, corners[2].level)});
-      });
-      if (triangles.empty()) continue;
-      const cad::SurfaceFrame frame = _model.face_frame(_found.face, triangles.front()[0]);
+      if (strip.rows_at(i) + strip.rows_at(i + 1) == 0) continue;
+      const cad::SurfaceFrame frame = _model.face_frame(_found.face, foot_of(strip, i).uv);
       const int orientation = dot(cross(frame.du, frame.dv), frame.normal) > 0 ? 1 : -1;
-      for (const auto& [a, b, c] : triangles) {
-        if (geometry::orient2d(a, b, c) == orientation) continue;
-        fail(strip, i), fail(strip, i + 1);
-        break;
-      }
+      bool turned = false;
+      for_each_row_triangle(strip, i, [&](const std::array<RowPlace, 3>& corners) {
+        turned = turned || geometry::orient2d(uv(corners[0]), uv(corners[1]), uv(corners[2])) != orientation;
+      });
+      if (turned) fail(strip, i), fail(strip, i + 1);
     }
   }
 

@@ -111,9 +111,12 @@ TEST(FaceRows, LieOnTheSurface) {
   const SurfaceMesh surface = mesh_with_rows(Communicator::world(), cylinder, {0.004, 1.2}, circles, 0.03);
   const auto report = mesh::check_surface_mesh(surface);
   ASSERT_TRUE(report.valid()) << report.violations.front();
+  int on_first_row = 0;
   for (const Vec3 p : points_of(surface)) {
     if (std::abs(p.z) < 0.499) EXPECT_NEAR(std::hypot(p.x, p.y), 0.25, 1e-12);
+    on_first_row += std::abs(0.5 - std::abs(p.z) - 0.004) < 1e-12 ? 1 : 0;
   }
+  EXPECT_GT(on_first_row, 20);
 }
 
 TEST(FaceRows, BecomeFewerWhereTheFaceIsNarrow) {
