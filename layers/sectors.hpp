@@ -1,32 +1,15 @@
 /// How many sectors the fans along ridges have.
 #pragma once
 
+#include "layers/ridge_edges.hpp"
 #include "layers/vertex_fans.hpp"
-#include "layers/vertex_stars.hpp"
 #include "layers/wanted_layers.hpp"
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <vector>
 
 namespace aeroloom::layers {
-
-/// An edge with sectors, in the local triangle on its left.
-struct RidgeEdge {
-  std::int32_t triangle;
-  std::array<std::int32_t, 2> ends;   ///< counter-clockwise in the triangle
-  std::array<std::int32_t, 2> slots;  ///< by end: its place among Ridge::edges there; -1: none
-  bool is_owned;                      ///< no lower triangle has it
-};
-
-/// The edges of ridges on walls, once for all numbers of sectors that are tried.
-struct RidgeEdges {
-  std::vector<RidgeEdge> edges;  ///< by triangle
-  /// By vertex: of the ridge's edges there, as smooth along it as mean edges are over the wall; off ridges
-  /// mean edges.
-  std::vector<double> lengths;
-};
 
 struct Sectors {
   std::map<std::int32_t, VertexFan> fans;  ///< by vertex
@@ -50,10 +33,6 @@ struct FanNeeds {
   /// halved.
   const std::vector<std::int32_t>& halvings;
 };
-
-/// `mean_edges`: smooth_mean_edges(). Collective.
-RidgeEdges list_ridge_edges(const LocalWall& wall, const VertexStars& stars,
-                            const std::vector<double>& mean_edges);
 
 /// Edges of a ridge have all as many sectors, as the turn asks for where it is largest, at most 35 degrees
 /// each, and as the front: over columns of the wanted heights a sector is at most two and a half edges wide,

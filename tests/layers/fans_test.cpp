@@ -197,6 +197,33 @@ TEST(Fans, AreMissingWhereColumnsAreVeryLow) {
   EXPECT_GE(fewest_columns(mesh, layers, 0.05, false), 2);
 }
 
+// Its neighbours' fans would end there, and at such ends there are no layers.
+TEST(Fans, GoOnOverOneVertexWhereColumnsAreLow) {
+  const auto world = Communicator::world();
+  mesh::DistributedMesh mesh = Shapes()
+                                   .add_sphere({0.5, 0.5, 0.5}, 10, 8, Fluid::inside)
+                                   .add_box({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, Fluid::outside)
+                                   .add_box({1.03, 0.48, 1.03}, {1.07, 0.52, 1.07}, {1, 1, 1}, Fluid::outside)
+                                   .distribute(world, 5);
+  mark_vertices(mesh);
+  const Layers layers = build(mesh, options_for({0, 1e-4, 0}));
+  expect_valid(mesh, layers);
+  double below = 0, beside = 0;
+  for (std::size_t p = 0; p < mesh.pieces.size(); ++p) {
+    const PieceColumns& columns = layers.columns.pieces[p];
+    for (mesh::LocalIndex v = 0; v < mesh.pieces[p].vertex_count(); ++v) {
+      const Vec3 at = mesh.pieces[p].point(v);
+      if (at.x != 1 || at.z != 1 || std::abs(at.y - 0.5) > 0.2) continue;
+      EXPECT_GT(columns.columns_at(v), 1) << at.y;
+      double& highest = at.y == 0.5 ? below : beside;
+      highest = std::max(highest, height(columns, v, columns.counts[v]));
+    }
+  }
+  EXPECT_GT(world.maximum(below), 0.005);
+  EXPECT_LT(world.maximum(below), 0.048);  // sectors of two are 0.3 edges wide there
+  EXPECT_GT(world.maximum(beside), 0.048);
+}
+
 /// A box with a nose before it, along which the CAD is smooth. The edges of its flat ends bend there by 143
 /// degrees, and the nose sticks out in the middle, so that the walls beside it face the ends.
 mesh::DistributedMesh nosed_box(const Communicator& communicator) {
