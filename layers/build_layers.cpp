@@ -20,7 +20,8 @@ Layers build_on(const mesh::NumberedMesh& wall, const LayerOptions& options, con
   const std::vector<double> edges = smooth_mean_edges(walls, wanted);
   const std::vector<FittedLayers> fitted = fit_wanted_layers(wanted, edges);
   const bool may_have_fans = options.fans != FanPlaces::none && options.elements != LayerElements::tets;
-  FittedColumns found = fit_columns({walls, stars, wanted, fitted, edges, may_have_fans});
+  FittedColumns found =
+      fit_columns({walls, stars, wanted, fitted, edges, may_have_fans, options.bends_columns});
   const Fans& fans = found.fans;
   const Directions& directions = found.directions;
   ColumnLimits& limits = found.limits;

@@ -13,9 +13,6 @@ double slope_of(double growth) {
   return std::max(1.0, growth / (growth - 1) / ratio_at_1_2);
 }
 
-/// First heights are measured along the normals of triangles. Leaning columns are longer, up to this ratio.
-constexpr double most_lengthening = 2;
-
 constexpr auto smaller = [](auto a, auto b) { return std::min(a, b); };
 
 }  // namespace
@@ -39,7 +36,7 @@ ColumnLimits::ColumnLimits(const LocalWall& wall, const std::vector<VertexLayers
       _lowered.push_back(v);
       continue;
     }
-    _first[v] = asked.first * std::min(most_lengthening, 1 / directions.slants[v]);
+    _first[v] = asked.first * lengthening_of(directions.slants[v]);
     _growth[v] = asked.growth;
     _constant[v] = static_cast<std::int32_t>(asked.constant);
     _slopes[v] = slope_of(asked.growth);

@@ -65,6 +65,7 @@ struct LayerOptions {
   std::shared_ptr<const CurvedEnds> curved_ends;
   LayerElements elements = LayerElements::prisms;  ///< tets: vertices have one column each
   FanPlaces fans = FanPlaces::all;
+  bool bends_columns = false;   ///< where the wall has rows of stretched triangles
   std::vector<EdgeTurn> edges;  ///< by CAD edge; missing ones are unknown
 };
 
@@ -105,7 +106,7 @@ struct PieceColumns {
       corner_columns;              ///< by triangle, of its corners as the piece has them
   std::vector<FanFace> fan_faces;  ///< by triangle
   std::vector<RimTriangle> rims;   ///< by triangle
-  /// The columns on curved faces, ascending, and the first of their nodes 1 to count.
+  /// The columns on curved faces and those that bend, ascending, and the first of their nodes 1 to count.
   std::vector<std::array<std::int32_t, 2>> curved;
   std::vector<geometry::Vec3> curved_nodes;
 
@@ -116,7 +117,7 @@ struct PieceColumns {
   mesh::LocalIndex vertex_of(std::int32_t column) const {
     return vertices.empty() ? column : vertices[column];
   }
-  /// Nodes 1 to count of a column on curved faces; nullptr of others.
+  /// Nodes 1 to count of a column on curved faces, or one that bends; nullptr of others.
   const geometry::Vec3* curved_nodes_of(std::int32_t column) const;
 };
 

@@ -1,6 +1,7 @@
 /// The directions in which columns of nodes grow from the wall.
 #pragma once
 
+#include "layers/bends.hpp"
 #include "layers/curved_ends.hpp"
 #include "layers/fans.hpp"
 
@@ -18,6 +19,11 @@ struct Directions {
   /// than its height along the normals by about the inverse.
   std::vector<double> slants;
   EndPlaces ends;
+  std::vector<Bend> bends;  ///< by column; empty: all are straight
+
+  const Bend* bend_of(std::int32_t column) const {
+    return bends.empty() || bends[column].is_straight() ? nullptr : &bends[column];
+  }
 };
 
 /// Computes the most normal directions and smooths them. Smoothing keeps at least 0.9 of the visibility.

@@ -81,8 +81,10 @@ struct KnownColumns {
   JudgedColumns judged;
 };
 
-FittedColumns limit_columns(const LayerInput& in, KnownColumns& known, Fans fans) {
+FittedColumns limit_columns(const LayerInput& in, KnownColumns& known, Fans fans,
+                            std::vector<Bend> bends = {}) {
   Directions directions = find_directions(in.wall, in.stars, fans);
+  directions.bends = std::move(bends);
   ColumnLimits limits(in.wall, in.wanted, in.fitted, in.stars, directions);
   std::vector<std::int32_t> counts(in.wall.points.size(), most_layers);
   for (std::size_t v = 0; v < counts.size(); ++v) {
@@ -92,8 +94,9 @@ FittedColumns limit_columns(const LayerInput& in, KnownColumns& known, Fans fans
   limits.converge();
   limit_by_gaps(known.gaps.measure(fans, directions, limits), directions, limits);
   limits.converge();
+  const bool is_judged_again = in.may_have_fans && directions.bends.empty();
   const int rounds =
-      shrink_to_good(in.wall, fans, directions, limits, in.may_have_fans ? &known.judged : nullptr);
+      shrink_to_good(in.wall, fans, directions, limits, is_judged_again ? &known.judged : nullptr);
   return {std::move(fans), std::move(directions), std::move(limits), rounds};
 }
 
@@ -198,10 +201,7 @@ private:
   std::vector<std::int32_t> _halvings;  // FanNeeds::halvings
 };
 
-}  // namespace
-
-FittedColumns fit_columns(const LayerInput& in) {
-  KnownColumns known{MeasuredGaps(in.wall), {}};
+FittedColumns fit_straight_columns(const LayerInput& in, KnownColumns& known) {
   if (!in.may_have_fans) return limit_columns(in, known, without_fans(in.wall));
   std::vector<double> reached(in.wall.points.size(), std::numeric_limits<double>::infinity());
   SectorHalving halving(in);
@@ -212,6 +212,24 @@ FittedColumns fit_columns(const LayerInput& in) {
   }
   if (has_empty_fans(in, *columns)) columns.emplace(limit_columns(in, known, without_fans(in.wall)));
   return std::move(*columns);
+}
+
+/// The bends that columns of the heights that straight ones reach are to have.
+std::vector<Bend> bends_over(const LayerInput& in, const FittedColumns& straight) {
+  std::vector<double> heights(in.wall.points.size(), 0);
+  for (std::int32_t v = 0; v < in.wall.vertex_count(); ++v) heights[v] = straight.limits.total(v);
+  return find_bends(in.wall, in.stars, straight.fans, {heights, in.edges, straight.directions.smoothed});
+}
+
+}  // namespace
+
+FittedColumns fit_columns(const LayerInput& in) {
+  KnownColumns known{MeasuredGaps(in.wall), {}};
+  FittedColumns straight = fit_straight_columns(in, known);
+  if (!in.bends_columns) return straight;
+  std::vector<Bend> bends = bends_over(in, straight);
+  if (bends.empty()) return straight;
+  return limit_columns(in, known, std::move(straight.fans), std::move(bends));
 }
 
 }  // namespace aeroloom::layers

@@ -24,7 +24,7 @@ struct LayerInput {
   const std::vector<VertexLayers>& wanted;
   const std::vector<FittedLayers>& fitted;  ///< fit_wanted_layers()
   const std::vector<double>& edges;         ///< smooth_mean_edges()
-  bool may_have_fans;
+  bool may_have_fans, bends_columns;
 };
 
 /// Columns with fans whose sectors fit the heights that are reached, fewer along ridges on which the first

@@ -1,7 +1,7 @@
 #include "layers/good_columns.hpp"
 
 #include "geometry/sort_unique.hpp"
-#include "layers/layer_validity.hpp"
+#include "layers/column_source.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -35,32 +35,6 @@ std::vector<std::int32_t> faces_at(const Fans& fans, const std::vector<std::int3
   geometry::sort_unique(faces);
   return faces;
 }
-
-/// What all columns are made from.
-struct ColumnSource {
-  const LocalWall& wall;
-  const Fans& fans;
-  const Directions& directions;
-  const ColumnLimits& limits;
-
-  CornerColumn at(std::int32_t v, std::int32_t column) const {
-    return {wall.points[v],  directions.smoothed[column], limits.heights(v), limits.count(v),
-            wall.ends.get(), directions.ends.at(v)};
-  }
-  TriangleColumns over(std::int32_t triangle) const {
-    TriangleColumns columns;
-    for (int i = 0; i < 3; ++i) columns[i] = at(wall.triangles[triangle][i], fans.columns[triangle][i]);
-    return columns;
-  }
-  FanColumns over(const FanFace& face) const {
-    const std::array<std::int32_t, 2> ends{fans.vertex_of(face.columns[0]), fans.vertex_of(face.columns[2])};
-    FanColumns columns;
-    columns.over = {face.is_sector(), {limits.count(ends[0]), limits.count(ends[1])}};
-    for (int i = 0; i < (face.is_sector() ? 4 : 3); ++i)
-      columns.columns[i] = at(ends[i / 2], face.columns[i]);
-    return columns;
-  }
-};
 
 /// What was judged before, or what is judged now for later.
 class Verdicts {

@@ -1,6 +1,7 @@
 #include "layers/layer_cap.hpp"
 
 #include "layers/cap_layout.hpp"
+#include "layers/column_source.hpp"
 #include "layers/enclosed_parts.hpp"
 #include "layers/glued_cap.hpp"
 #include "layers/good_columns.hpp"
@@ -27,22 +28,14 @@ std::int32_t lowered(std::int32_t count, int round) {
   return round <= rounds_of_thirds ? 2 * count / 3 : 0;
 }
 
-/// What columns follow from.
-struct ColumnsSource {
-  const Fans& fans;
-  const Directions& directions;
-  const ColumnLimits& limits;
-};
-
-/// Puts the nodes of the columns of a vertex onto the curved faces that these end on. `first`: column of the
-/// piece.
-void add_curved(const LocalWall& wall, const ColumnsSource& from, std::int32_t v, std::int32_t first,
-                PieceColumns& columns) {
+/// Adds the nodes of those columns of a vertex that are not straight. `first`: column of the piece.
+void add_curved(const ColumnSource& from, std::int32_t v, std::int32_t first, PieceColumns& columns) {
   for (std::int32_t c = from.fans.first[v]; c < from.fans.first[v + 1]; ++c) {
+    const CornerColumn column = from.at(v, c);
+    if (column.is_straight()) continue;
     columns.curved.push_back({c - first, static_cast<std::int32_t>(columns.curved_nodes.size())});
-    from.limits.heights(v).for_each_node(from.limits.count(v), [&](std::int32_t, double height) {
-      columns.curved_nodes.push_back(wall.ends->onto(*from.directions.ends.at(v),
-                                                     wall.points[v] + height * from.directions.smoothed[c]));
+    column.heights.for_each_node(column.count, [&](std::int32_t, double height) {
+      columns.curved_nodes.push_back(column.at(height));
     });
   }
 }
@@ -69,7 +62,7 @@ Columns make_columns(const LocalWall& wall, const Fans& fans, const Directions& 
       of_piece.first.push_back(heights.first);
       of_piece.growth.push_back(heights.growth);
       of_piece.stretch.push_back(heights.stretch);
-      if (directions.ends.at(v) != nullptr) add_curved(wall, {fans, directions, limits}, v, first, of_piece);
+      add_curved({wall, fans, directions, limits}, v, first, of_piece);
     }
     if (of_piece.vertices.size() == of_piece.counts.size()) of_piece.vertices.clear();
     for (std::int32_t t = wall.first_triangle[p]; t < wall.first_triangle[p + 1]; ++t) {

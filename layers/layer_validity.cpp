@@ -105,7 +105,7 @@ Level directions_at(const TriangleColumns& columns, const std::array<double, 3>&
 
 template <std::size_t N>
 bool are_straight(const std::array<CornerColumn, N>& columns) {
-  return std::all_of(columns.begin(), columns.end(), [](const CornerColumn& c) { return c.end == nullptr; });
+  return std::all_of(columns.begin(), columns.end(), [](const CornerColumn& c) { return c.is_straight(); });
 }
 
 /// The nodes of columns layer by layer. Nearly all columns are straight, which is asked beforehand.

@@ -1,6 +1,7 @@
 /// Tests whether the layer cells over a wall triangle are good.
 #pragma once
 
+#include "layers/bends.hpp"
 #include "layers/column_heights.hpp"
 #include "layers/curved_ends.hpp"
 #include "layers/layer_shapes.hpp"
@@ -17,15 +18,18 @@ struct CornerColumn {
   std::int32_t count = 0;
   const CurvedEnds* ends = nullptr;  ///< of a column on curved faces: they, and what it follows
   const EndPlace* end = nullptr;
+  const Bend* bend = nullptr;  ///< of one that bends
 
+  bool is_straight() const { return end == nullptr && bend == nullptr; }
   geometry::Vec3 at(double height) const {
     const geometry::Vec3 straight = point + height * direction;
-    return end == nullptr ? straight : ends->onto(*end, straight);
+    const geometry::Vec3 bent = bend == nullptr ? straight : straight + bend->at(height);
+    return end == nullptr ? bent : ends->onto(*end, bent);
   }
   /// Unit, of the column at a height.
   geometry::Vec3 direction_at(double height) const {
     constexpr double below = 0.9;
-    return end == nullptr || height == 0 ? direction : normalized(at(height) - at(below * height));
+    return is_straight() || height == 0 ? direction : normalized(at(height) - at(below * height));
   }
 };
 /// Corners counter-clockwise seen from the fluid.

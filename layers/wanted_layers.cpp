@@ -3,6 +3,7 @@
 #include "layers/column_heights.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace aeroloom::layers {
@@ -30,6 +31,14 @@ VertexLayers both(const VertexLayers& a, const VertexLayers& b) {
           std::min(a.constant, b.constant)};
 }
 
+/// The front over a stretched triangle is to be as wide as that is long: all its sides count as the long
+/// ones.
+void lengthen_short(std::array<double, 3>& sides) {
+  std::array sorted = sides;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted[2] > least_stretch * sorted[0]) sides.fill(sorted[1]);
+}
+
 }  // namespace
 
 std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const LayerOptions& options) {
@@ -39,11 +48,12 @@ std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const Laye
     VertexLayers asked = layers_of(options.patches[wall.patches[t]]);
     asked.edges = 2;
     const auto& [a, b, c] = wall.triangles[t];
-    const double ab = distance(wall.points[a], wall.points[b]), bc = distance(wall.points[b], wall.points[c]),
-                 ca = distance(wall.points[c], wall.points[a]);
-    asked.edge_sum = ca + ab, all_wanted[a] = both(all_wanted[a], asked);
-    asked.edge_sum = ab + bc, all_wanted[b] = both(all_wanted[b], asked);
-    asked.edge_sum = bc + ca, all_wanted[c] = both(all_wanted[c], asked);
+    std::array sides{distance(wall.points[a], wall.points[b]), distance(wall.points[b], wall.points[c]),
+                     distance(wall.points[c], wall.points[a])};
+    if (options.bends_columns) lengthen_short(sides);
+    asked.edge_sum = sides[2] + sides[0], all_wanted[a] = both(all_wanted[a], asked);
+    asked.edge_sum = sides[0] + sides[1], all_wanted[b] = both(all_wanted[b], asked);
+    asked.edge_sum = sides[1] + sides[2], all_wanted[c] = both(all_wanted[c], asked);
   }
   wall.combine(all_wanted, both);
   return all_wanted;

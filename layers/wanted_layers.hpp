@@ -4,6 +4,7 @@
 #include "layers/column_heights.hpp"
 #include "layers/local_wall.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -32,5 +33,14 @@ std::vector<FittedLayers> fit_wanted_layers(const std::vector<VertexLayers>& wan
 
 /// The height of a column that is as high as wanted.
 double wanted_height(const VertexLayers& wanted, const FittedLayers& fitted);
+
+/// Triangles that are longer by more than this are stretched; chosen, not measured.
+inline constexpr double least_stretch = 2.5;
+
+/// First heights are measured along the normals of triangles. Leaning columns are longer, by this ratio, at
+/// most two. `slant`: Directions::slants.
+inline double lengthening_of(double slant) {
+  return std::min(2.0, 1 / slant);
+}
 
 }  // namespace aeroloom::layers

@@ -190,6 +190,8 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
       cases::layer_options(cases::without_missing_patches(input.layers, surface.patches), input.sizing,
                            surface.patches, surface.types);
   fit_layers(input.layers, surface, options);
+  options.bends_columns =
+      !cases::rows_along_edges(cases::in_model_units(input.sizing).edges, surface.model).empty();
   options.curved_ends = curved_ends_of(surface.model);
   const EndFaces ends = find_end_faces(surface, options);
   options.edges = find_edge_turns(surface.model, ends.planes);
