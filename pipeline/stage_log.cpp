@@ -114,6 +114,34 @@ void log_closed_cusps(const std::vector<surface::ClosedCusp>& cusps,
       cusps.size(), farthest->moved, faces.at(farthest->face).name, geometry::place_text(farthest->point)));
 }
 
+void log_rows(const std::vector<surface::RowsMade>& all) {
+  constexpr double few = 0.8;  // of the length; chosen, not measured
+  if (all.empty()) return;
+  double length = 0, with_rows = 0, stretched = 0;
+  int most = 0;
+  for (const surface::RowsMade& rows : all) {
+    length += rows.length, with_rows += rows.with_rows, stretched += rows.stretched;
+    most = std::max(most, rows.most);
+  }
+  log_info(
+      fmt::format("surface: rows along {:.1f} % of {} edge(s), at least four times as long as high on {:.1f} "
+                  "%, up to {} rows",
+                  100 * with_rows / length, all.size(), 100 * stretched / length, most));
+  if (with_rows >= few * length) return;
+  const auto missing = [](const surface::RowsMade& rows) { return rows.length - rows.with_rows; };
+  const auto worst = std::max_element(all.begin(), all.end(),
+                                      [&](const auto& a, const auto& b) { return missing(a) < missing(b); });
+  parallel::log_warning(
+      fmt::format("surface: rows along {:.1f} % of the length of {} edge(s) that 'sizing.edges' asks for; "
+                  "most is missing on CAD edge "
+                  "{}, {:.4g} of {:.4g}. Segments there are too short for rows, by curvature, gaps or other "
+                  "sizes, or the edge is a "
+                  "seam or of facets. Remedy: a smaller 'height', larger sizes there ('sizing.minimum', "
+                  "'sizing.curvature_angle'), or "
+                  "'size' in place of 'height'",
+                  100 * with_rows / length, all.size(), worst->edge, missing(*worst), worst->length));
+}
+
 }  // namespace
 
 void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigures& figures) {
@@ -123,6 +151,7 @@ void log_surface(const surface::SurfaceReport& report, const report::SurfaceFigu
                   report.triangles, report.pieces, figures.surface_quality->min_dihedral.minimum,
                   figures.surface_quality->mean_ratio.mean));
   log_closed_cusps(report.closed_cusps, figures.face_table);
+  log_rows(report.rows);
 }
 
 void log_needles(const surface::SurfaceReport& report, const std::vector<report::FaceRow>& faces) {

@@ -12,6 +12,7 @@
 #include "surface/division/imposed_cuts.hpp"
 #include "surface/piece_pool.hpp"
 #include "surface/pinched_edges.hpp"
+#include "surface/rows/rows_made.hpp"
 
 #include <algorithm>
 #include <array>
@@ -280,6 +281,7 @@ private:
     report.curve_vertices = static_cast<std::int64_t>(curves.points.size());
     report.sharp_corners = list_corners(_model, curves);
     report.closed_cusps = _closed_cusps;
+    report.rows = list_rows(_model, curves, _options.rows);
     report.pieces = surface.piece_count;
     report.divided_faces = _pool.divided_faces();
     report.cut_angles = _pool.cut_angles();

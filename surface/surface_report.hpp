@@ -54,6 +54,17 @@ struct NeedleGroup {
   geometry::Vec3 at;            ///< centre of the triangle with that angle
 };
 
+/// Rows along a CAD edge that are asked for. Lengths are in the model's unit.
+struct RowsMade {
+  cad::EdgeId edge = cad::no_entity;
+  double height = 0;     ///< of the first row
+  double length = 0;     ///< of the edge
+  double with_rows = 0;  ///< of the segments that have rows
+  double stretched = 0;  ///< of those that are at least four times as long as the first row is high
+  double longest = 0;    ///< segment with rows
+  int most = 0;          ///< rows
+};
+
 struct SurfaceReport {
   std::int64_t curve_vertices = 0;
   std::int64_t pieces = 0;
@@ -62,6 +73,7 @@ struct SurfaceReport {
   std::vector<ListedCorner> sharp_corners;  ///< by face, the same on every rank
   std::vector<ClosedCusp> closed_cusps;     ///< by face, the same on every rank
   std::vector<NeedleGroup> needles;         ///< by face and cause, the same on every rank
+  std::vector<RowsMade> rows;               ///< by edge, the same on every rank
   std::int64_t triangles = 0;
   int mending_rounds = 0;    ///< rounds of local refinement before the accepted one
   double load_error_90 = 0;  ///< the relative error that 90 % of the predicted loads do not exceed

@@ -59,6 +59,20 @@ Json needles_json(const RunRecord& record) {
   return json;
 }
 
+Json rows_json(const RunRecord& record) {
+  Json json = Json::array();
+  for (const surface::RowsMade& rows : record.surface.rows) {
+    json.push_back({{"edge", rows.edge},
+                    {"height", rows.height},
+                    {"length", rows.length},
+                    {"with_rows", rows.with_rows},
+                    {"stretched", rows.stretched},
+                    {"longest", rows.longest},
+                    {"most", rows.most}});
+  }
+  return json;
+}
+
 }  // namespace
 
 Json surface_json(const RunRecord& record) {
@@ -68,6 +82,7 @@ Json surface_json(const RunRecord& record) {
       {"sharp_corners", sharp_corners_json(record)},     {"closed_tips", closed_cusps_json(record)},
       {"curve_vertices", record.surface.curve_vertices}, {"needles", needles_json(record)},
       {"mending_rounds", record.surface.mending_rounds}, {"load_error_90", record.surface.load_error_90}};
+  if (!record.surface.rows.empty()) json["rows"] = rows_json(record);
   if (record.surface_quality) {
     json["min_angle_deg"] = record.surface_quality->min_dihedral.minimum;
     json["min_mean_ratio"] = record.surface_quality->mean_ratio.minimum;

@@ -119,6 +119,38 @@ TEST(FaceRows, LieOnTheSurface) {
   EXPECT_GT(on_first_row, 20);
 }
 
+TEST(FaceRows, AreReported) {
+  const cad::Model box = cad::make_primitive_domain(PrimitiveKind::box);
+  const SurfaceReport report =
+      mesh_with_rows(Communicator::world(), box, {0.01, 1.2}, {edge_of_box(box)}).report;
+  ASSERT_EQ(report.rows.size(), 1u);
+  const RowsMade& made = report.rows[0];
+  EXPECT_EQ(made.edge, edge_of_box(box));
+  EXPECT_EQ(made.height, 0.01);
+  EXPECT_NEAR(made.length, 1, 1e-12);
+  EXPECT_LT(made.with_rows, 1);  // not at the ends
+  EXPECT_GT(made.with_rows, 0.9);
+  EXPECT_LT(made.stretched, made.with_rows);
+  EXPECT_GT(made.stretched, 0.3);
+  EXPECT_NEAR(made.longest, 0.05, 0.011);
+  EXPECT_LE(row_height({0.01, 1.2}, made.most - 1), made.longest);
+  EXPECT_GT(row_height({0.01, 1.2}, made.most), made.longest);
+}
+
+TEST(FaceRows, AreNotAlongASeam) {
+  const cad::Model cylinder = cad::make_primitive_domain(PrimitiveKind::cylinder);
+  cad::EdgeId seam = cad::no_entity;
+  for (cad::EdgeId e = 0; e < cylinder.edge_count(); ++e) {
+    if (!is_constraining(cylinder, e)) seam = e;
+  }
+  ASSERT_NE(seam, cad::no_entity);
+  const SurfaceReport report = mesh_with_rows(Communicator::world(), cylinder, {0.004, 1.2}, {seam}).report;
+  ASSERT_EQ(report.rows.size(), 1u);
+  EXPECT_EQ(report.rows[0].edge, seam);
+  EXPECT_EQ(report.rows[0].with_rows, 0);
+  EXPECT_EQ(report.rows[0].most, 0);
+}
+
 TEST(FaceRows, BecomeFewerWhereTheFaceIsNarrow) {
   const cad::Model slab = cad::make_primitive_domain(PrimitiveKind::box, {.box = {1, 1, 0.1}});
   cad::EdgeId edge = cad::no_entity;
