@@ -77,6 +77,27 @@ Box box_of_ball(const TouchingBall& ball) {
   return Box{center, center}.dilated(radius);
 }
 
+/// Calls visit(box) for a box around each part of the boxes. Parts end where most of the way along the
+/// longest axis is between two of them: a box around balls at both ends of a wing would hold all of it.
+template <class Visit>
+void visit_parts(const std::vector<Box>& boxes, std::span<std::int32_t> part, const Visit& visit) {
+  constexpr double least_gap = 0.5;  // of the way; chosen, not measured
+  Box middles, all;
+  for (const std::int32_t i : part) middles.add(boxes[i].center()), all.add(boxes[i]);
+  const Vec3 way = middles.high - middles.low;
+  const int axis = way.x >= way.y && way.x >= way.z ? 0 : way.y >= way.z ? 1 : 2;
+  const auto at = [&](std::int32_t i) { return boxes[i].center()[axis]; };
+  std::sort(part.begin(), part.end(), [&](std::int32_t i, std::int32_t j) { return at(i) < at(j); });
+  std::size_t widest = 0;
+  for (std::size_t k = 1; k < part.size(); ++k) {
+    if (widest == 0 || at(part[k]) - at(part[k - 1]) > at(part[widest]) - at(part[widest - 1])) widest = k;
+  }
+  const auto gap = [&](std::size_t k) { return boxes[part[k]].low[axis] - boxes[part[k - 1]].high[axis]; };
+  if (widest == 0 || gap(widest) <= least_gap * way[axis]) return visit(all);
+  visit_parts(boxes, part.first(widest), visit);
+  visit_parts(boxes, part.subspan(widest), visit);
+}
+
 /// The boxes of the balls of all ranks, some hundred balls each.
 std::vector<BallBatch> gather_batches(const LocalWall& wall, const std::vector<TouchingBall>& balls) {
   std::vector<Box> boxes;
@@ -86,8 +107,10 @@ std::vector<BallBatch> gather_batches(const LocalWall& wall, const std::vector<T
   const geometry::BoxTree tree(boxes, balls_per_batch);
   std::vector<BallBatch> batches;
   for (const auto leaf : tree.leaves()) {
-    BallBatch& batch = batches.emplace_back(BallBatch{{}, wall.mesh.communicator.rank()});
-    for (const std::int32_t i : leaf) batch.box.add(boxes[i]);
+    std::vector<std::int32_t> part(leaf.begin(), leaf.end());
+    visit_parts(boxes, part, [&](const Box& box) {
+      batches.push_back({box, wall.mesh.communicator.rank()});
+    });
   }
   return wall.mesh.communicator.all_gather_items(std::span<const BallBatch>(batches));
 }
