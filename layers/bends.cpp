@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 
 namespace aeroloom::layers {
 namespace {
@@ -69,14 +68,8 @@ private:
     std::vector<std::int32_t> found(_wall.points.size(), 0);
     for (std::int32_t t = 0; t < _wall.triangle_count(); ++t) {
       if (_wall.roles[t] != WallRole::layered) continue;
-      const LocalWall::Corners& corners = _wall.triangles[t];
-      double longest = 0, shortest = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double side = distance(_wall.points[corners[i]], _wall.points[corners[(i + 1) % 3]]);
-        longest = std::max(longest, side), shortest = std::min(shortest, side);
-      }
-      if (longest <= least_stretch * shortest) continue;
-      for (const std::int32_t v : corners) found[v] = 1;
+      if (!is_stretched(sides_of(_wall, t))) continue;
+      for (const std::int32_t v : _wall.triangles[t]) found[v] = 1;
     }
     _wall.combine(found, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
     return found;

@@ -9,6 +9,7 @@
 #include "layers/fans.hpp"
 #include "layers/vertex_stars.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace aeroloom::layers {

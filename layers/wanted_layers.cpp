@@ -34,12 +34,25 @@ VertexLayers both(const VertexLayers& a, const VertexLayers& b) {
 /// The front over a stretched triangle is to be as wide as that is long: all its sides count as the long
 /// ones.
 void lengthen_short(std::array<double, 3>& sides) {
+  if (!is_stretched(sides)) return;
   std::array sorted = sides;
   std::sort(sorted.begin(), sorted.end());
-  if (sorted[2] > least_stretch * sorted[0]) sides.fill(sorted[1]);
+  sides.fill(sorted[1]);
 }
 
 }  // namespace
+
+std::array<double, 3> sides_of(const LocalWall& wall, std::int32_t triangle) {
+  const auto& [a, b, c] = wall.triangles[triangle];
+  return {distance(wall.points[a], wall.points[b]), distance(wall.points[b], wall.points[c]),
+          distance(wall.points[c], wall.points[a])};
+}
+
+bool is_stretched(const std::array<double, 3>& sides) {
+  constexpr double least_stretch = 2.5;
+  const auto [shortest, longest] = std::minmax({sides[0], sides[1], sides[2]});
+  return longest > least_stretch * shortest;
+}
 
 std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const LayerOptions& options) {
   std::vector<VertexLayers> all_wanted(wall.points.size());
@@ -48,8 +61,7 @@ std::vector<VertexLayers> gather_wanted_layers(const LocalWall& wall, const Laye
     VertexLayers asked = layers_of(options.patches[wall.patches[t]]);
     asked.edges = 2;
     const auto& [a, b, c] = wall.triangles[t];
-    std::array sides{distance(wall.points[a], wall.points[b]), distance(wall.points[b], wall.points[c]),
-                     distance(wall.points[c], wall.points[a])};
+    std::array<double, 3> sides = sides_of(wall, t);
     if (options.bends_columns) lengthen_short(sides);
     asked.edge_sum = sides[2] + sides[0], all_wanted[a] = both(all_wanted[a], asked);
     asked.edge_sum = sides[0] + sides[1], all_wanted[b] = both(all_wanted[b], asked);

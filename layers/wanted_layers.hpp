@@ -5,6 +5,7 @@
 #include "layers/local_wall.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,8 +35,10 @@ std::vector<FittedLayers> fit_wanted_layers(const std::vector<VertexLayers>& wan
 /// The height of a column that is as high as wanted.
 double wanted_height(const VertexLayers& wanted, const FittedLayers& fitted);
 
-/// Triangles that are longer by more than this are stretched; chosen, not measured.
-inline constexpr double least_stretch = 2.5;
+/// The lengths of a triangle's sides, from its corners 0, 1 and 2 to the next.
+std::array<double, 3> sides_of(const LocalWall& wall, std::int32_t triangle);
+/// Whether the longest side is more than two and a half times the shortest; chosen, not measured.
+bool is_stretched(const std::array<double, 3>& sides);
 
 /// First heights are measured along the normals of triangles. Leaning columns are longer, by this ratio, at
 /// most two. `slant`: Directions::slants.
