@@ -1,7 +1,7 @@
 /// The stage of boundary layers alone: mpirun -n N layers_benchmark CASE FIRST PATCH [KEY=VALUE ...] prints
-/// one RESULT line. FIRST: height of the first layer over the diagonal of all walls but the far field. The
-/// case's keys of layers do not count: all patches but those of the far field have layers until they are
-/// isotropic.
+/// one RESULT line. FIRST: height of the first layer over the diagonal of all walls. PATCH: the one that has
+/// layers until they are isotropic; `all`: all but those with the usual name of a far field, a plane of
+/// symmetry or an opening. The case's groups and its keys of layers do not count.
 ///
 /// CPU figures are those of the stage clock: without waiting.
 #include "benchmarks/case_surface.hpp"
@@ -26,6 +26,10 @@ namespace {
 using namespace aeroloom;
 using parallel::Communicator;
 
+bool is_wall(const std::string& patch) {
+  return mesh::patch_type_by_name(patch).value_or(mesh::PatchType::wall) == mesh::PatchType::wall;
+}
+
 /// Diagonal of the box around the triangles of patches that are layered.
 double diagonal_of(const mesh::DistributedMesh& wall, const std::vector<bool>& layered) {
   const Communicator& communicator = wall.communicator;
@@ -44,8 +48,7 @@ double diagonal_of(const mesh::DistributedMesh& wall, const std::vector<bool>& l
 layers::LayerOptions options_for(const mesh::DistributedMesh& wall, double first, const std::string& patch) {
   std::vector<bool> layered;
   for (const std::string& name : wall.patches)
-    layered.push_back(patch == "all" ? mesh::patch_type_by_name(name) != mesh::PatchType::farfield
-                                     : patch == name);
+    layered.push_back(patch == "all" ? is_wall(name) : patch == name);
   layers::LayerOptions options;
   options.patches.resize(wall.patches.size());
   const double height = first * diagonal_of(wall, layered);
@@ -92,8 +95,10 @@ void print_figures(const Communicator& communicator, const benchmarks::LayerFigu
 
 void run(const Communicator& communicator, const cases::Case& input, double first, const std::string& patch) {
   const surface::SurfaceMesh made = benchmarks::mesh_surface(communicator, input);
-  const mesh::NumberedMesh wall = mesh::split_pieces(made, layers::wall_piece_triangles, {});
-  const layers::LayerOptions options = options_for(wall, first, patch);
+  const layers::LayerOptions options = options_for(made, first, patch);
+  const mesh::NumberedMesh wall =
+      mesh::split_pieces(made, layers::wall_piece_triangles, {},
+                         [&](const mesh::Piece& piece) { return layers::predict_wall_load(piece, options); });
   parallel::StageClock clock;
   clock.begin("layers");
   const layers::Layers layers = layers::build_layers(wall, options);

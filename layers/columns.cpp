@@ -28,6 +28,26 @@ geometry::Vec3 node(const mesh::Piece& wall, const PieceColumns& columns, std::i
   return wall.point(vertex) + height(columns, vertex, k) * columns.directions[column];
 }
 
+double predict_wall_load(const mesh::Piece& piece, const LayerOptions& options) {
+  // In triangles with layers; measured on half a D150 and on the DLR-F6, on 32 ranks.
+  constexpr double without_layers = 0.2, per_ridge_vertex = 3;
+  double load = 0;
+  bool has_layers = false;
+  for (const std::int32_t patch : piece.triangle_patch) {
+    const bool is_layered =
+        static_cast<std::size_t>(patch) < options.patches.size() && options.patches[patch].first > 0;
+    load += is_layered ? 1 : without_layers;
+    has_layers = has_layers || is_layered;
+  }
+  if (!has_layers || options.fans == FanPlaces::none) return load;
+  for (std::size_t v = 0; v < piece.vertex_dimension.size(); ++v) {
+    if (piece.vertex_dimension[v] != mesh::CadDimension::edge) continue;
+    const auto edge = static_cast<std::size_t>(piece.vertex_entity[v]);
+    if (edge < options.edges.size() && options.edges[edge] == EdgeTurn::sharp) load += per_ridge_vertex;
+  }
+  return load;
+}
+
 std::string_view name_of(InnerSides sides) {
   static constexpr std::array<std::string_view, 4> names = {"none", "front", "back", "both"};
   return names[static_cast<std::size_t>(sides)];

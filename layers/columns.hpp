@@ -206,6 +206,8 @@ using PlaneRemesher = std::function<std::vector<mesh::SharedVertexKey>(const mes
 /// Triangles per wall piece. Pieces of surface meshing are often whole CAD faces, too large to balance layers
 /// over ranks. Chosen, not measured.
 constexpr mesh::LocalIndex wall_piece_triangles = 1'000;
+/// About what a wall piece costs the stage, in triangles with layers: ranks get pieces by it.
+double predict_wall_load(const mesh::Piece& piece, const LayerOptions& options);
 
 /// Builds columns on the walls of a surface mesh without self-intersections. The resulting cap has no
 /// intersections either, and all cells between have positive volume. The result depends only on mesh and

@@ -1,5 +1,6 @@
 #include "layers/sectors.hpp"
 
+#include "geometry/disjoint_sets.hpp"
 #include "layers/column_heights.hpp"
 #include "layers/end_planes.hpp"
 #include "mesh/data/shared_vertex_keys.hpp"
@@ -49,7 +50,13 @@ public:
         _edges(needs.edges),
         _reached(needs.reached),
         _halvings(needs.halvings),
-        _names(wall.vertex_names()) {}
+        _names(wall.vertex_names()) {
+    for (std::int32_t v = 0; v < wall.vertex_count(); ++v) {
+      const Ridge* ridge = stars.ridge_at(v);
+      _first_place.push_back(_first_place.back() +
+                             (ridge == nullptr ? 0 : static_cast<std::int32_t>(ridge->edges.size())));
+    }
+  }
 
   Sectors count() {
     ask();
@@ -148,26 +155,36 @@ private:
   /// Whether sectors over an edge end at one of its ends, where there is no fan or one of other edges alone.
   bool ends_at(const RidgeEdge& edge, int end) const { return has_fan(edge, 1 - end) && !has_fan(edge, end); }
 
-  /// Removes the fans of vertices at which those of another edge end, and of ridges that are short: nowhere
-  /// some edges away from such an end.
+  /// Removes the fans of vertices at which those of another edge end. Collective.
+  void drop_beside_ends() {
+    // Values are equal in all pieces: where none changes, combining them changes none.
+    for (bool changes = true; changes;) {
+      bool changed = false;
+      for (bool goes_on = true; goes_on; changed = changed || goes_on) {
+        goes_on = false;
+        for (const RidgeEdge& edge : _ridges.edges) {
+          for (int end = 0; end < 2; ++end) {
+            const std::int32_t v = edge.ends[end];
+            if (!ends_at(edge, end) || fans_at(v) == 0) continue;
+            drop(v);
+            goes_on = true;
+          }
+        }
+      }
+      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
+      if (!changes) return;
+      for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, fewer);
+    }
+  }
+
+  /// Removes those, and fans of ridges that are short: nowhere some edges away from such an end. Collective.
   void drop_short() {
     for (bool changes = true; changes;) {
-      repeat_over_edges(
-          [&](const RidgeEdge& edge) {
-            bool changed = false;
-            for (int end = 0; end < 2; ++end) {
-              const std::int32_t v = edge.ends[end];
-              if (!ends_at(edge, end) || fans_at(v) == 0) continue;
-              drop(v);
-              changed = true;
-            }
-            return changed;
-          },
-          fewer);
+      drop_beside_ends();
       std::vector<std::int32_t> depths(_wall.points.size(), 0);
       for (std::size_t v = 0; v < depths.size(); ++v) depths[v] = _by_slot[0][v] > 0 ? least_depth : 0;
-      spread(depths, fewer, 1);
-      spread(depths, more, 0);
+      measure_depths(depths);
+      raise_along_fans(depths);
       std::int64_t dropped = 0;
       for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
         if (fans_at(v) == 0 || depths[v] >= least_depth) continue;
@@ -178,26 +195,44 @@ private:
     }
   }
 
-  /// Along edges from fan to fan, and from ends for `step` 1: values become at least or at most those beside.
-  template <class Op>
-  void spread(std::vector<std::int32_t>& values, const Op& op, std::int32_t step) {
+  /// Lowers the depths of fans to one more than those beside them, at an end or a fan. Collective.
+  void measure_depths(std::vector<std::int32_t>& depths) const {
     for (bool changes = true; changes;) {
-      const std::vector<std::int32_t> before = values;
-      for (bool goes_on = true; goes_on;) {
+      bool changed = false;
+      for (bool goes_on = true; goes_on; changed = changed || goes_on) {
         goes_on = false;
         for (const RidgeEdge& edge : _ridges.edges) {
-          if (!has_fan(edge, 0) && !has_fan(edge, 1)) continue;
           for (int end = 0; end < 2; ++end) {
-            std::int32_t &here = values[edge.ends[end]], beside = values[edge.ends[1 - end]] + step;
-            if (!has_fan(edge, end) || (step == 0 && !has_fan(edge, 1 - end)) || op(here, beside) == here)
-              continue;
+            std::int32_t& here = depths[edge.ends[end]];
+            const std::int32_t beside = depths[edge.ends[1 - end]] + 1;
+            if (!has_fan(edge, end) || here <= beside) continue;
             here = beside;
             goes_on = true;
           }
         }
       }
-      _wall.combine(values, op);
-      changes = _wall.mesh.communicator.sum(std::int64_t{before != values}) > 0;
+      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
+      if (changes) _wall.combine(depths, fewer);
+    }
+  }
+
+  /// Raises values to the largest that edges from fan to fan lead to. Collective.
+  void raise_along_fans(std::vector<std::int32_t>& values) const {
+    geometry::DisjointSets<std::int32_t> sets(values.size());
+    for (const RidgeEdge& edge : _ridges.edges) {
+      if (has_fan(edge, 0) && has_fan(edge, 1)) sets.unite(edge.ends[0], edge.ends[1]);
+    }
+    for (bool changes = true; changes;) {
+      bool changed = false;
+      std::vector<std::int32_t> most = values;
+      for (std::int32_t v = 0; v < _wall.vertex_count(); ++v)
+        most[sets.root(v)] = std::max(most[sets.root(v)], values[v]);
+      for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+        changed = changed || values[v] < most[sets.root(v)];
+        values[v] = most[sets.root(v)];
+      }
+      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
+      if (changes) _wall.combine(values, more);
     }
   }
 
@@ -211,35 +246,40 @@ private:
     _wall.combine(_sectors.is_end, more);
   }
 
-  /// Calls visit(edge) for all edges with fans at both ends until it changes nothing, here and, once values
-  /// of vertices are combined, on all ranks.
-  template <class Visit, class Op>
-  void repeat_over_edges(const Visit& visit, const Op& op) {
-    // Values are equal in all pieces: where no visit changes any, combining them changes none.
-    for (bool changes = true; changes;) {
-      bool changed = false;
-      for (bool goes_on = true; goes_on; changed = changed || goes_on) {
-        goes_on = false;
-        for (const RidgeEdge& edge : _ridges.edges) goes_on = visit(edge) || goes_on;
+  /// All edges of a ridge as many as that with most, or with fewest. Collective.
+  template <class Op>
+  void agree_along_ridges(const Op& op) {
+    geometry::DisjointSets<std::int32_t> sets(static_cast<std::size_t>(_first_place.back()));
+    const auto place = [&](std::int32_t v, std::int32_t slot) { return _first_place[v] + slot; };
+    for (const RidgeEdge& edge : _ridges.edges) {
+      if (has_fan(edge, 0) && has_fan(edge, 1))
+        sets.unite(place(edge.ends[0], edge.slots[0]), place(edge.ends[1], edge.slots[1]));
+    }
+    for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+      if (_first_place[v] == _first_place[v + 1] || _stars.ridge_at(v)->is_corner()) continue;
+      for (std::int32_t p = place(v, 1); p < _first_place[v + 1]; ++p) sets.unite(place(v, 0), p);
+    }
+    const auto for_each_count = [&](const auto& visit) {
+      for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
+        for (std::int32_t p = _first_place[v]; p < _first_place[v + 1]; ++p)
+          visit(sets.root(p), count_of(v, p - _first_place[v]));
       }
+    };
+    constexpr std::int32_t unknown = -1;
+    for (bool changes = true; changes;) {
+      std::vector<std::int32_t> agreed(sets.size(), unknown);
+      bool changed = false;
+      for_each_count([&](std::int32_t set, std::int32_t count) {
+        agreed[set] = agreed[set] == unknown ? count : op(agreed[set], count);
+      });
+      for_each_count([&](std::int32_t set, std::int32_t& count) {
+        changed = changed || count != agreed[set];
+        count = agreed[set];
+      });
       changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
       if (!changes) return;
       for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, op);
     }
-  }
-
-  /// All edges of a ridge as many as that with most, or with fewest.
-  template <class Op>
-  void agree_along_ridges(const Op& op) {
-    repeat_over_edges(
-        [&](const RidgeEdge& edge) {
-          if (!has_fan(edge, 0) || !has_fan(edge, 1)) return false;
-          const std::int32_t a = count_of(edge.ends[0], edge.slots[0]),
-                             b = count_of(edge.ends[1], edge.slots[1]);
-          for (int end = 0; end < 2; ++end) set(edge.ends[end], edge.slots[end], op(a, b));
-          return a != b;
-        },
-        op);
   }
 
   /// Halves numbers where they are to be fewer, down to the least.
@@ -305,6 +345,7 @@ private:
   std::vector<mesh::VertexName> _names;
   /// By place among Ridge::edges and by vertex: the number over that edge; 0: no fan.
   std::vector<std::vector<std::int32_t>> _by_slot;
+  std::vector<std::int32_t> _first_place{0};  // by vertex and slot of its ridge's edges
   Sectors _sectors;
 };
 

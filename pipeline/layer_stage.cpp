@@ -197,7 +197,8 @@ LayersAndCap build_layers(const cases::Case& input, FinishedSurface& surface) {
   options.edges = find_edge_turns(surface.model, ends.planes);
   surface.bounds_volume = ends.all.empty();
   static_cast<mesh::NumberedMesh&>(surface) =
-      mesh::split_pieces(surface, layers::wall_piece_triangles, ends.all);
+      mesh::split_pieces(surface, layers::wall_piece_triangles, ends.all,
+                         [&](const mesh::Piece& piece) { return layers::predict_wall_load(piece, options); });
   const auto remesh = [&](const mesh::DistributedMesh& wall, mesh::DistributedMesh& cap) {
     surface::PlaneConflicts conflicts = surface::remesh_moved_faces(
         surface.model, surface.field, {ends.curved, ends.planes}, input.surface, wall, cap);

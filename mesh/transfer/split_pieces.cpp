@@ -127,7 +127,8 @@ private:
 }  // namespace
 
 NumberedMesh split_pieces(const DistributedMesh& surface, LocalIndex most,
-                          const std::vector<std::int32_t>& whole) {
+                          const std::vector<std::int32_t>& whole,
+                          const std::function<double(const Piece&)>& load_of) {
   const parallel::Communicator& communicator = surface.communicator;
   std::vector<std::int32_t> counts;
   for (const Piece& piece : surface.pieces) {
@@ -153,7 +154,7 @@ NumberedMesh split_pieces(const DistributedMesh& surface, LocalIndex most,
       result.pieces.push_back(builder.build(first[piece.id] + static_cast<PieceId>(i), parts[i]));
   }
   std::vector<double> loads;
-  for (const Piece& piece : result.pieces) loads.push_back(piece.cell_count());
+  for (const Piece& piece : result.pieces) loads.push_back(load_of ? load_of(piece) : piece.cell_count());
   loads = gather_by_piece(result, loads);
   migrate(result, parallel::assign_in_order(loads, communicator.size()));
   return number_mesh(std::move(result));

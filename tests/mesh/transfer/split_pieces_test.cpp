@@ -68,5 +68,18 @@ TEST(SplitPieces, AreSpreadOverRanks) {
   EXPECT_LE(world.size() * mine, 1.1 * static_cast<double>(world.sum(mine)));
 }
 
+// One large piece of little load must not make all others share the ranks that it leaves.
+TEST(SplitPieces, AreSpreadOverRanksByTheirLoads) {
+  NEEDS_SEVERAL_RANKS();
+  const auto world = Communicator::world();
+  const auto is_box = [](const Piece& piece) { return piece.common_face() == 0; };
+  const NumberedMesh split = split_pieces(ball_in_box(world, 1), 20, {0}, [&](const Piece& piece) {
+    return is_box(piece) ? 1.0 : static_cast<double>(piece.cell_count());
+  });
+  std::int64_t mine = 0;
+  for (const Piece& piece : split.pieces) mine += is_box(piece) ? 0 : piece.cell_count();
+  EXPECT_LE(world.size() * mine, 1.1 * static_cast<double>(world.sum(mine)));
+}
+
 }  // namespace
 }  // namespace aeroloom::mesh
