@@ -155,26 +155,38 @@ private:
   /// Whether sectors over an edge end at one of its ends, where there is no fan or one of other edges alone.
   bool ends_at(const RidgeEdge& edge, int end) const { return has_fan(edge, 1 - end) && !has_fan(edge, end); }
 
+  /// Calls pass() until it returns that it changed nothing, here and, once what it changes is combined, on
+  /// all ranks. Values of vertices are equal in all pieces: where no pass changes any, combining changes
+  /// none.
+  template <class Pass, class Combine>
+  void repeat(const Pass& pass, const Combine& combine) const {
+    for (;;) {
+      bool changed = false;
+      while (pass()) changed = true;
+      if (_wall.mesh.communicator.sum(std::int64_t{changed}) == 0) return;
+      combine();
+    }
+  }
+  template <class Op>
+  void combine_counts(const Op& op) {
+    for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, op);
+  }
+
   /// Removes the fans of vertices at which those of another edge end. Collective.
   void drop_beside_ends() {
-    // Values are equal in all pieces: where none changes, combining them changes none.
-    for (bool changes = true; changes;) {
+    const auto pass = [&] {
       bool changed = false;
-      for (bool goes_on = true; goes_on; changed = changed || goes_on) {
-        goes_on = false;
-        for (const RidgeEdge& edge : _ridges.edges) {
-          for (int end = 0; end < 2; ++end) {
-            const std::int32_t v = edge.ends[end];
-            if (!ends_at(edge, end) || fans_at(v) == 0) continue;
-            drop(v);
-            goes_on = true;
-          }
+      for (const RidgeEdge& edge : _ridges.edges) {
+        for (int end = 0; end < 2; ++end) {
+          const std::int32_t v = edge.ends[end];
+          if (!ends_at(edge, end) || fans_at(v) == 0) continue;
+          drop(v);
+          changed = true;
         }
       }
-      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
-      if (!changes) return;
-      for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, fewer);
-    }
+      return changed;
+    };
+    repeat(pass, [&] { combine_counts(fewer); });
   }
 
   /// Removes those, and fans of ridges that are short: nowhere some edges away from such an end. Collective.
@@ -197,23 +209,20 @@ private:
 
   /// Lowers the depths of fans to one more than those beside them, at an end or a fan. Collective.
   void measure_depths(std::vector<std::int32_t>& depths) const {
-    for (bool changes = true; changes;) {
+    const auto pass = [&] {
       bool changed = false;
-      for (bool goes_on = true; goes_on; changed = changed || goes_on) {
-        goes_on = false;
-        for (const RidgeEdge& edge : _ridges.edges) {
-          for (int end = 0; end < 2; ++end) {
-            std::int32_t& here = depths[edge.ends[end]];
-            const std::int32_t beside = depths[edge.ends[1 - end]] + 1;
-            if (!has_fan(edge, end) || here <= beside) continue;
-            here = beside;
-            goes_on = true;
-          }
+      for (const RidgeEdge& edge : _ridges.edges) {
+        for (int end = 0; end < 2; ++end) {
+          std::int32_t& here = depths[edge.ends[end]];
+          const std::int32_t beside = depths[edge.ends[1 - end]] + 1;
+          if (!has_fan(edge, end) || here <= beside) continue;
+          here = beside;
+          changed = true;
         }
       }
-      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
-      if (changes) _wall.combine(depths, fewer);
-    }
+      return changed;
+    };
+    repeat(pass, [&] { _wall.combine(depths, fewer); });
   }
 
   /// Raises values to the largest that edges from fan to fan lead to. Collective.
@@ -222,18 +231,18 @@ private:
     for (const RidgeEdge& edge : _ridges.edges) {
       if (has_fan(edge, 0) && has_fan(edge, 1)) sets.unite(edge.ends[0], edge.ends[1]);
     }
-    for (bool changes = true; changes;) {
-      bool changed = false;
+    const auto pass = [&] {
       std::vector<std::int32_t> most = values;
       for (std::int32_t v = 0; v < _wall.vertex_count(); ++v)
         most[sets.root(v)] = std::max(most[sets.root(v)], values[v]);
+      bool changed = false;
       for (std::int32_t v = 0; v < _wall.vertex_count(); ++v) {
         changed = changed || values[v] < most[sets.root(v)];
         values[v] = most[sets.root(v)];
       }
-      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
-      if (changes) _wall.combine(values, more);
-    }
+      return changed;
+    };
+    repeat(pass, [&] { _wall.combine(values, more); });
   }
 
   void mark_ends() {
@@ -265,21 +274,20 @@ private:
           visit(sets.root(p), count_of(v, p - _first_place[v]));
       }
     };
-    constexpr std::int32_t unknown = -1;
-    for (bool changes = true; changes;) {
+    const auto pass = [&] {
+      constexpr std::int32_t unknown = -1;
       std::vector<std::int32_t> agreed(sets.size(), unknown);
-      bool changed = false;
       for_each_count([&](std::int32_t set, std::int32_t count) {
         agreed[set] = agreed[set] == unknown ? count : op(agreed[set], count);
       });
+      bool changed = false;
       for_each_count([&](std::int32_t set, std::int32_t& count) {
         changed = changed || count != agreed[set];
         count = agreed[set];
       });
-      changes = _wall.mesh.communicator.sum(std::int64_t{changed}) > 0;
-      if (!changes) return;
-      for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, op);
-    }
+      return changed;
+    };
+    repeat(pass, [&] { combine_counts(op); });
   }
 
   /// Halves numbers where they are to be fewer, down to the least.
@@ -298,7 +306,7 @@ private:
         set(v, slot, std::min(count_of(v, slot), std::max(count, least)));
       }
     }
-    for (std::vector<std::int32_t>& counts : _by_slot) _wall.combine(counts, fewer);
+    combine_counts(fewer);
   }
 
   static std::int32_t halved(std::int32_t count) { return (count + 1) / 2; }
