@@ -18,16 +18,7 @@ bool has_layers(const LayerOptions& options, std::int32_t patch) {
 }
 
 bool may_end_on(const mesh::DistributedMesh& mesh, const LayerOptions& options, std::int32_t patch) {
-  if (has_layers(options, patch)) return false;
-  switch (mesh.type_of_patch(patch)) {
-    case mesh::PatchType::symmetry:
-    case mesh::PatchType::slip:
-    case mesh::PatchType::inlet:
-    case mesh::PatchType::outlet:
-      return true;
-    default:
-      return false;
-  }
+  return !has_layers(options, patch) && layers::may_end_on(mesh.type_of_patch(patch));
 }
 
 /// Calls visit(piece, triangle, face) for the triangles on faces that layers may end on.

@@ -10,6 +10,13 @@
 
 namespace aeroloom::layers {
 
+/// Whether layers may end on the planes of patches of this type.
+constexpr bool may_end_on(mesh::PatchType type) {
+  using mesh::PatchType;
+  return type == PatchType::symmetry || type == PatchType::slip || type == PatchType::inlet ||
+         type == PatchType::outlet;
+}
+
 /// By CAD face of a surface mesh: the unit normal out of the fluid if layers end on the face, else zero.
 /// Layers end on planar faces without layers of symmetry, slip, inlet and outlet patches, if the options
 /// allow it. If all vertices of a face have the same bits in a coordinate, its normal is exact. Collective;

@@ -18,8 +18,10 @@ constexpr int places = 9;
 constexpr double going_on = std::numbers::pi / 6;
 
 /// The faces that use an edge, and how; a face twice at a seam.
-std::vector<std::vector<std::pair<cad::FaceId, cad::Coedge>>> uses_of_edges(const cad::Model& model) {
-  std::vector<std::vector<std::pair<cad::FaceId, cad::Coedge>>> uses(model.edge_count());
+using FaceUses = std::vector<std::pair<cad::FaceId, cad::Coedge>>;
+
+std::vector<FaceUses> uses_of_edges(const cad::Model& model) {
+  std::vector<FaceUses> uses(model.edge_count());
   for (cad::FaceId face = 0; face < model.face_count(); ++face) {
     for (const std::vector<cad::Coedge>& loop : model.face(face).loops) {
       for (const cad::Coedge& use : loop) uses[use.edge].emplace_back(face, use);
@@ -34,8 +36,7 @@ struct Turns {
   bool is_convex = false;  ///< somewhere, seen from the front regions of the faces
 };
 
-Turns turns_along(const cad::Model& model, cad::EdgeId id,
-                  const std::vector<std::pair<cad::FaceId, cad::Coedge>>& uses, bool is_mirrored = false) {
+Turns turns_along(const cad::Model& model, cad::EdgeId id, const FaceUses& uses, bool is_mirrored) {
   const cad::Edge& edge = model.edge(id);
   if (uses.size() != 2 || edge.degenerate) return {};
   if (model.is_faceted(uses[0].first) || model.is_faceted(uses[1].first)) return {};
@@ -54,9 +55,16 @@ Turns turns_along(const cad::Model& model, cad::EdgeId id,
     turns.largest = std::max(turns.largest, turn);
     const geometry::Vec3 along = model.edge_tangent(id, parameter),
                          into_face = cross(one, uses[0].second.reversed ? -along : along);
-    turns.is_convex = turns.is_convex || dot(into_face, other) > 0;
+    turns.is_convex = turns.is_convex || (is_mirrored ? dot(one, other) : dot(into_face, other)) > 0;
   }
   return turns;
+}
+
+/// Whether one of the two faces at an edge is among the planes.
+bool is_at_plane(const FaceUses& uses, const std::vector<cad::FaceId>& planes) {
+  return std::count_if(uses.begin(), uses.end(), [&](const auto& use) {
+           return std::find(planes.begin(), planes.end(), use.first) != planes.end();
+         }) == 1;
 }
 
 }  // namespace
@@ -67,7 +75,6 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
   const auto uses = uses_of_edges(model);
   std::vector<Turns> turns;
   std::vector<EdgeTurn> found;
-  std::vector<std::uint8_t> is_at_plane(uses.size(), 0);
   std::vector<std::uint8_t> ends_sharp(model.vertex_count(), 0);  // by vertex
   const auto make_sharp = [&](std::size_t e) {
     const cad::Edge& edge = model.edge(static_cast<cad::EdgeId>(e));
@@ -75,11 +82,7 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
     ends_sharp[edge.first] = ends_sharp[edge.last] = 1;
   };
   for (std::size_t e = 0; e < uses.size(); ++e) {
-    const auto at_planes = std::count_if(uses[e].begin(), uses[e].end(), [&](const auto& use) {
-      return std::find(planes.begin(), planes.end(), use.first) != planes.end();
-    });
-    is_at_plane[e] = at_planes == 1 ? 1 : 0;
-    turns.push_back(turns_along(model, static_cast<cad::EdgeId>(e), uses[e], at_planes == 1));
+    turns.push_back(turns_along(model, static_cast<cad::EdgeId>(e), uses[e], is_at_plane(uses[e], planes)));
     found.push_back(turns[e].largest < 0 ? EdgeTurn::unknown : EdgeTurn::smooth);
     if (turns[e].largest >= layers::sharp_turn && turns[e].least >= going_on) make_sharp(e);
   }
@@ -94,19 +97,20 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
     }
   }
   for (std::size_t e = 0; e < uses.size(); ++e) {
-    if (is_at_plane[e] != 0 && found[e] == EdgeTurn::smooth) found[e] = EdgeTurn::upright;
+    if (found[e] == EdgeTurn::smooth && is_at_plane(uses[e], planes)) found[e] = EdgeTurn::upright;
   }
   return found;
 }
 
-std::vector<double> find_ridge_turns(const cad::Model& model) {
+std::vector<double> find_ridge_turns(const cad::Model& model, const std::vector<cad::FaceId>& planes) {
   const auto uses = uses_of_edges(model);
-  const std::vector<layers::EdgeTurn> kinds = find_edge_turns(model);
+  const std::vector<layers::EdgeTurn> kinds = find_edge_turns(model, planes);
   std::vector<double> found(kinds.size(), 0);
   for (std::size_t e = 0; e < kinds.size(); ++e) {
     if (kinds[e] != layers::EdgeTurn::sharp) continue;
-    const Turns turns = turns_along(model, static_cast<cad::EdgeId>(e), uses[e]);
-    if (turns.is_convex) found[e] = turns.largest;
+    const bool is_half = is_at_plane(uses[e], planes);
+    const Turns turns = turns_along(model, static_cast<cad::EdgeId>(e), uses[e], is_half);
+    if (turns.is_convex) found[e] = is_half ? 0.5 * turns.largest : turns.largest;
   }
   return found;
 }

@@ -16,7 +16,8 @@ std::vector<layers::EdgeTurn> find_edge_turns(const cad::Model& model,
                                               const std::vector<cad::FaceId>& planes = {});
 
 /// By edge: the largest angle in radians by which the walls turn over it at one of some places, where it is
-/// sharp and convex seen from the fluid; else 0.
-std::vector<double> find_ridge_turns(const cad::Model& model);
+/// sharp and convex seen from the fluid; else 0. Between a face of `planes` and another it is the half of the
+/// turn into the mirror image that lies on this side: what half a fan divides.
+std::vector<double> find_ridge_turns(const cad::Model& model, const std::vector<cad::FaceId>& planes = {});
 
 }  // namespace aeroloom::pipeline

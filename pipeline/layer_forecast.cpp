@@ -2,6 +2,7 @@
 
 #include "geometry/place_text.hpp"
 #include "layers/column_heights.hpp"
+#include "layers/end_planes.hpp"
 #include "layers/sectors.hpp"
 #include "parallel/observation/process_memory.hpp"
 #include "pipeline/case/layer_rules.hpp"
@@ -283,9 +284,17 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
   const LayerCount count(model, field, types, options.elements);
   const bool has_fans =
       options.fans != layers::FanPlaces::none && options.elements != layers::LayerElements::tets;
-  const std::vector<double> turns = has_fans ? find_ridge_turns(model) : std::vector<double>();
   const auto has_layers = [&](cad::FaceId face) {
     return options.patches.at(static_cast<std::size_t>(model.face(face).patch)).first > 0;
+  };
+  std::vector<cad::FaceId> planes;
+  for (cad::FaceId face = 0; face < model.face_count(); ++face) {
+    if (!has_layers(face) && model.is_planar(face) && layers::may_end_on(types.at(model.face(face).patch)))
+      planes.push_back(face);
+  }
+  const std::vector<double> turns = has_fans ? find_ridge_turns(model, planes) : std::vector<double>();
+  const auto may_have_fan = [&](cad::FaceId face) {
+    return has_layers(face) || std::binary_search(planes.begin(), planes.end(), face);
   };
   LayerForecast forecast{{}, input.layers.reynolds, input.layers.length};
   if (options.elements == layers::LayerElements::tets) forecast.cells_of_prism = 3;
@@ -299,8 +308,10 @@ LayerForecast forecast_layers(const cad::Model& model, const std::vector<mesh::P
     for (std::size_t e = 0; e < turns.size(); ++e) {
       const auto id = static_cast<cad::EdgeId>(e);
       const std::vector<cad::FaceId>& faces = model.edge(id).faces;
-      const bool is_here = turns[e] > 0 && model.face(faces[0]).patch == static_cast<std::int32_t>(p);
-      if (is_here && std::all_of(faces.begin(), faces.end(), has_layers)) count.add_fans(id, turns[e], patch);
+      if (turns[e] <= 0 || !std::all_of(faces.begin(), faces.end(), may_have_fan)) continue;
+      const auto of = std::find_if(faces.begin(), faces.end(), has_layers);
+      if (of != faces.end() && model.face(*of).patch == static_cast<std::int32_t>(p))
+        count.add_fans(id, turns[e], patch);
     }
     if (patch.area > 0) forecast.patches.push_back(std::move(patch));
   }
