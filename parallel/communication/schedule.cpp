@@ -47,7 +47,7 @@ void give_to_least_burdened(std::span<const int> tasks, std::span<const double> 
   }
 }
 
-/// Runs of tasks in their order that stay within `most` each; as many as that takes.
+/// Runs of tasks in their order that stay within `most` each, or have one task; as many as that takes.
 std::vector<Rank> runs_within(std::span<const double> loads, double most) {
   std::vector<Rank> runs;
   Rank run = 0;
@@ -70,7 +70,7 @@ std::vector<Rank> assign_in_order(std::span<const double> loads, int ranks) {
   for (int i = 0; i < halvings; ++i) {
     const double most = 0.5 * (too_little + enough);
     std::vector<Rank> runs = runs_within(loads, most);
-    const bool fits = runs.back() < ranks && heaviest(loads, runs, ranks) <= most;
+    const bool fits = runs.back() < ranks;
     (fits ? enough : too_little) = most;
     if (fits) best = std::move(runs);
   }

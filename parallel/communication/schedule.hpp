@@ -17,7 +17,8 @@ std::vector<Rank> assign_largest_first(std::span<const double> loads, int ranks)
 std::vector<Rank> assign_largest_first(std::span<const double> loads, std::span<const double> burdens);
 
 /// Assigns to each rank a run of consecutive tasks, so that neighbouring tasks stay together. Minimises the
-/// largest load of a rank among such assignments. The same on every rank, without communication.
+/// largest load of a rank among such assignments; where that is one large task, also the largest load of the
+/// other ranks. The same on every rank, without communication.
 std::vector<Rank> assign_in_order(std::span<const double> loads, int ranks);
 
 /// Moves tasks away from ranks whose load exceeds the mean. In descending order of load, each task stays on

@@ -52,8 +52,11 @@ TEST(ScheduleLocal, StaysWithinGrahamsBound) {
 TEST(ScheduleLocal, RunsKeepTheOrderAndAreAsEvenAsItAllows) {
   EXPECT_EQ(assign_in_order(std::vector<double>{1, 1, 1, 1, 4}, 2), (std::vector<Rank>{0, 0, 0, 0, 1}));
   EXPECT_EQ(assign_in_order(std::vector<double>{3, 1, 2, 2, 1, 3}, 3), (std::vector<Rank>{0, 0, 1, 1, 2, 2}));
-  EXPECT_EQ(assign_in_order(std::vector<double>{5, 0, 0}, 4), (std::vector<Rank>{0, 0, 0}));
+  EXPECT_EQ(assign_in_order(std::vector<double>{5, 0, 0}, 4), (std::vector<Rank>{0, 1, 1}));
   EXPECT_TRUE(assign_in_order({}, 4).empty());
+  // One large task does not set the bound of the others.
+  EXPECT_EQ(assign_in_order(std::vector<double>{6, 1, 1, 1, 1, 1, 1}, 4),
+            (std::vector<Rank>{0, 1, 1, 2, 2, 3, 3}));
   std::vector<double> loads;
   for (int i = 0; i < 200; ++i) loads.push_back(1 + i * i % 7);
   for (const int ranks : {1, 2, 7, 64, 200, 300}) {
