@@ -237,5 +237,24 @@ TEST(BuildLayers, GiveTheSameOnAnyNumberOfRanks) {
   expect_same(inside_of_a_wedge(), 4, options_for({1e-4}));
 }
 
+// Two triangles with layers and one without, two vertices on a sharp edge, one on a smooth one.
+TEST(WallLoadLocal, IsOfWhatHasLayersAndOfSharpEdges) {
+  mesh::Piece piece;
+  piece.triangle_patch = {0, 0, 1};
+  piece.vertex_dimension = {mesh::CadDimension::edge, mesh::CadDimension::edge, mesh::CadDimension::edge,
+                            mesh::CadDimension::face};
+  piece.vertex_entity = {0, 0, 1, 0};
+  LayerOptions options = checked::options_for({0.1, 0});
+  const double without_ridges = predict_wall_load(piece, options);
+  EXPECT_GT(without_ridges, 2);
+  EXPECT_LT(without_ridges, 3);
+  options.edges = {EdgeTurn::sharp, EdgeTurn::smooth};
+  const double with_ridges = predict_wall_load(piece, options);
+  EXPECT_GT(with_ridges, without_ridges + 2);
+  options.fans = FanPlaces::none;
+  EXPECT_EQ(predict_wall_load(piece, options), without_ridges);
+  EXPECT_LT(predict_wall_load(piece, checked::options_for({0, 0})), 1);
+}
+
 }  // namespace
 }  // namespace aeroloom::layers
